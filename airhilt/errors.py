@@ -1,0 +1,23 @@
+"""Errors that a person can act on: what, where, what was expected, what to do."""
+
+from __future__ import annotations
+
+
+class AirhiltError(Exception):
+    """A mistake in what AIRHILT was given; the command line prints it and exits with 2."""
+
+
+class ScenarioError(AirhiltError):
+    """A scenario, aircraft or airport file does not say what it must."""
+
+
+class BusError(AirhiltError):
+    """The Zenoh session could not be opened, or something on it broke its contract."""
+
+
+class RunFolderError(AirhiltError):
+    """A run folder cannot be written, or does not hold what it must."""
+
+
+class WorkerError(AirhiltError):
+    """A worker broke its contract: it answered garbage, or with a time in the past."""

@@ -1,0 +1,48 @@
+"""Finds the aircraft, airports, scenarios and bridges that ship with AIRHILT.
+
+In an installed wheel they lie in ``airhilt/library/``; in a source tree, at its top level.
+"""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+
+from airhilt.errors import ScenarioError
+
+KINDS = ("aircraft", "airports", "scenarios", "bridges")
+
+
+def folder(kind: str) -> Path:
+    """Return the folder that holds one of `KINDS`."""
+    package = Path(__file__).resolve().parent
+    installed = package / "library" / kind
+    return installed if installed.is_dir() else package.parent / kind
+
+
+def names(kind: str) -> list[str]:
+    """Return the names of all JSON files of a kind, sorted."""
+    return sorted(path.stem for path in folder(kind).glob("*.json"))
+
+
+def find(kind: str, name: str) -> Path:
+    """Return the path of a named JSON file.
+
+    Raises
+    ------
+    ScenarioError
+        There is none of that name; the message gives the nearest.
+    """
+    known = names(kind)
+    if name in known:
+        return folder(kind) / f"{name}.json"
+    raise ScenarioError(f"no {kind} named {name!r}{nearest(name, known)}")
+
+
+def nearest(name: str, known: list[str]) -> str:
+    """Return a tail for an error message that helps with a misspelt name."""
+    lowered = {candidate.lower(): candidate for candidate in known}
+    close = difflib.get_close_matches(name.lower(), list(lowered), n=1, cutoff=0.5)
+    if close:
+        return f"; did you mean {lowered[close[0]]!r}?"
+    return f"; known: {', '.join(known)}" if known else "; none is known"
