@@ -6,6 +6,14 @@ from __future__ import annotations
 class AirhiltError(Exception):
     """A mistake in what AIRHILT was given; the command line prints it and exits with 2."""
 
+    exit_code = 2
+
+
+class RunStopped(AirhiltError):
+    """A run ended early because it was told to be strict; nobody made a mistake."""
+
+    exit_code = 3
+
 
 class ScenarioError(AirhiltError):
     """A scenario, aircraft or airport file does not say what it must."""

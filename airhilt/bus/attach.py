@@ -1,0 +1,52 @@
+"""Waits for workers of other processes to attach."""
+
+from __future__ import annotations
+
+import queue
+import time
+from collections.abc import Callable, Sequence
+
+from airhilt.bus.session import Bus
+from airhilt.bus.workers import RemoteWorker
+from airhilt.errors import BusError
+from airhilt.messages import WorkerDescription
+
+
+def attach(
+    bus: Bus,
+    names: Sequence[str],
+    timeout_s: float,
+    step_timeout_s: float,
+    waiting: Callable[[str], None],
+) -> list[tuple[RemoteWorker, WorkerDescription | None]]:
+    """Return the named workers once all are there, with what they say of themselves.
+
+    One that describes itself as nothing takes no grants: it only publishes and subscribes.
+
+    Parameters
+    ----------
+    waiting
+        Called with a line for the user while there is something to wait for.
+
+    Raises
+    ------
+    BusError
+        One did not come in time.
+    """
+    arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
+    bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
+    missing = set(names)
+    deadline = time.monotonic() + timeout_s
+    if missing:
+        waiting(f"waiting at {bus.endpoint} for {', '.join(sorted(missing))}")
+    while missing:
+        try:
+            missing.discard(arrived.get(timeout=max(deadline - time.monotonic(), 0.0)))
+        except queue.Empty:
+            raise BusError(
+                f"{', '.join(sorted(missing))} did not attach at {bus.endpoint} within "
+                f"{timeout_s:g} s; start it with: airhilt worker decision --connect {bus.endpoint}"
+                ", or wait longer with --attach-timeout"
+            ) from None
+    workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
+    return [(worker, worker.describe()) for worker in workers]

@@ -1,0 +1,55 @@
+"""Where each message goes: the log, the bus, and the workers that asked for its key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from airhilt.bus.session import Bus
+from airhilt.messages import Message
+from airhilt.record.log import LogWriter
+
+RUN = "run"
+"""Publisher of what the run itself publishes."""
+
+Listener = Callable[[str, Message, bytes], None]
+"""Called with key, message and its JSON."""
+
+
+class Exchange:
+    """Publishes a message once to everybody; truth reaches the log and viewers only."""
+
+    def __init__(self, bus: Bus, log: LogWriter) -> None:
+        self._bus = bus
+        self._log = log
+        self._listeners: list[Listener] = []
+
+    def listen(self, listener: Listener) -> None:
+        """Call ``listener`` with every message that is not truth."""
+        self._listeners.append(listener)
+
+    def publish(
+        self, key: str, message: Message, publisher: str = RUN, raw: bytes | None = None
+    ) -> None:
+        """Publish a message whose ``t_ns`` is now.
+
+        Parameters
+        ----------
+        raw
+            Payload of a key whose message is only the header (audio, images).
+        """
+        data = message.model_dump_json().encode()
+        self._log.write(key, publisher, type(message), message.t_ns, data)
+        if raw is None:
+            self._bus.put(key, data)
+        else:
+            self._bus.put(key, raw, data)
+        if not key.startswith("truth/"):
+            for listener in self._listeners:
+                listener(key, message, data)
+
+    def heard(self, key: str, message: Message, publisher: str) -> None:
+        """Take in what another process has put on the bus itself."""
+        data = message.model_dump_json().encode()
+        self._log.write(key, publisher, type(message), message.t_ns, data)
+        for listener in self._listeners:
+            listener(key, message, data)

@@ -1,0 +1,152 @@
+"""The run's own Zenoh session: a router on loopback that workers and viewers connect to."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+import zenoh
+
+from airhilt.errors import BusError
+
+ROOT = "airhilt"
+"""First chunk of every key; the second is the run."""
+
+
+def free_endpoint() -> str:
+    """Return a loopback endpoint on a port that is free at this moment."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+
+
+def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
+    """Return a configuration with one explicit endpoint and no discovery.
+
+    Parameters
+    ----------
+    mode
+        ``router`` or ``client``.
+    kind
+        ``listen`` or ``connect``.
+    """
+    config = zenoh.Config()
+    settings: dict[str, Any] = {
+        "mode": mode,
+        f"{kind}/endpoints": [endpoint],
+        "scouting/multicast/enabled": False,
+        "scouting/gossip/enabled": False,
+        "scouting/delay": 0,
+    }
+    if mode == "client":
+        settings["connect/timeout_ms"] = 5000
+        settings["connect/exit_on_failure"] = True
+    for key, value in settings.items():
+        try:
+            config.insert_json5(key, json.dumps(value))
+        except zenoh.ZError:
+            raise BusError(
+                f"endpoint {endpoint!r}: expected the form tcp/127.0.0.1:7447"
+            ) from None
+    return config
+
+
+class Bus:
+    """Publishes under ``airhilt/<run>/`` and hears what other processes publish there.
+
+    Parameters
+    ----------
+    run
+        Name of the run, one key chunk.
+    endpoint
+        Where to listen; None takes a free loopback port.
+
+    Raises
+    ------
+    BusError
+        The endpoint is malformed or in use.
+    """
+
+    def __init__(self, run: str, endpoint: str | None = None) -> None:
+        self.run = run
+        self.prefix = f"{ROOT}/{run}"
+        self.endpoint = endpoint or free_endpoint()
+        try:
+            self.session = zenoh.open(configuration("router", "listen", self.endpoint))
+        except zenoh.ZError as error:
+            raise BusError(
+                f"cannot listen on {self.endpoint}: {_reason(error)}; is the port in use? "
+                "choose another with --listen, or leave it out for a free one"
+            ) from None
+        self._publishers: dict[str, zenoh.Publisher] = {}
+        self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
+
+    def put(self, key: str, payload: bytes, attachment: bytes | None = None) -> None:
+        """Publish to other processes under a key relative to the run."""
+        publisher = self._publishers.get(key)
+        if publisher is None:
+            publisher = self.session.declare_publisher(
+                f"{self.prefix}/{key}", allowed_destination=zenoh.Locality.REMOTE
+            )
+            self._publishers[key] = publisher
+        publisher.put(payload, attachment=attachment)
+
+    def answer(self, key: str, answer: Callable[[], bytes]) -> None:
+        """Answer queries on a key with what ``answer`` then returns."""
+
+        def reply(query: zenoh.Query) -> None:
+            with query:
+                query.reply(f"{self.prefix}/{key}", answer())
+
+        self._kept.append(self.session.declare_queryable(f"{self.prefix}/{key}", reply))
+
+    def hear(self, pattern: str, heard: Callable[[str, bytes], None]) -> None:
+        """Call ``heard`` with key (relative to the run) and payload of what others publish.
+
+        It is called on a thread of Zenoh's.
+        """
+
+        def receive(sample: zenoh.Sample) -> None:
+            heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
+
+        self._kept.append(
+            self.session.declare_subscriber(
+                f"{self.prefix}/{pattern}", receive, allowed_origin=zenoh.Locality.REMOTE
+            )
+        )
+
+    def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
+        """Call ``changed`` with a worker's name and whether it is alive (on a Zenoh thread)."""
+
+        def notice(sample: zenoh.Sample) -> None:
+            changed(str(sample.key_expr).rsplit("/", 1)[1], sample.kind == zenoh.SampleKind.PUT)
+
+        self._kept.append(
+            self.session.liveliness().declare_subscriber(
+                f"{self.prefix}/worker/*", notice, history=True
+            )
+        )
+
+    def close(self) -> None:
+        """Close the session; workers notice."""
+        self.session.close()
+
+    def __enter__(self) -> Bus:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _reason(error: zenoh.ZError) -> str:
+    """Return the first sentence of a ZError without its source positions."""
+    text = str(error).split(" at ")[0].split(" => ")[0]
+    return text.strip() or "refused"

@@ -1,0 +1,745 @@
+"""One run, from scenario to run folder. The main path of AIRHILT begins at `run`.
+
+`Simulation` builds everything that a run needs and hangs it on one `Director`; each part gets
+what it needs as arguments. Data flows one way: aircraft, sensors, workers, advisories, crews.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Literal
+
+from pydantic import ValidationError
+
+from airhilt.actors import Flight, build_fleet
+from airhilt.bus.attach import attach
+from airhilt.bus.exchange import Exchange
+from airhilt.bus.session import Bus
+from airhilt.errors import AirhiltError, RunStopped, ScenarioError, WorkerError
+from airhilt.messages import (
+    ActorCommand,
+    AdsbReport,
+    Advisory,
+    AircraftTruth,
+    Clock,
+    ConflictPhase,
+    ConflictTruth,
+    Event,
+    EventKind,
+    Message,
+    Modality,
+    ModalityState,
+    SpokenTruth,
+    Status,
+    Transcript,
+    Transmission,
+    WorkerDescription,
+)
+from airhilt.metrics.collector import Collector, pair_of
+from airhilt.metrics.conditions import ConditionCompiler
+from airhilt.metrics.monitor import ConflictMonitor, Pair
+from airhilt.metrics.summary import Summary
+from airhilt.radio.script import RadioScript, Spoken
+from airhilt.record import LatencyLog, LogWriter, RunFolder, RunInfo, read_latencies
+from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
+from airhilt.scenario import Scenario, realise
+from airhilt.scenario.models import ScriptedCommand, Separation
+from airhilt.scenario.perturbation import Draw
+from airhilt.sim import (
+    Director,
+    LatencySpec,
+    Pace,
+    Priority,
+    RealTime,
+    StepRecord,
+    Virtual,
+    parse_latency,
+    parse_pace,
+)
+from airhilt.surveillance.kinematics import Minima
+from airhilt.surveillance.sensor import AdsbSensor
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees, seconds_to_ns
+from airhilt.workers import LocalWorker
+from airhilt.workers.decision import DecisionConfig, DecisionWorker
+from airhilt.workers.pool import Participant, WorkerPool, parse_output
+
+TICK_S = 0.05
+"""Control tick of the aircraft; the flight dynamics take six steps in it."""
+TRUTH_PERIOD_NS = SECOND_NS // 5
+CONDITION_PERIOD_NS = SECOND_NS // 10
+"""How often the scenario's conditions on the true state are looked at."""
+SNAPSHOT_PERIOD_NS = SECOND_NS // 2
+FOREIGN = "unregistered"
+"""Publisher, in the log, of what an unregistered program put on the bus."""
+
+AssistantName = Literal["reference", "none", "external"]
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a scenario is run. The defaults are those of the command line."""
+
+    seed: int = 0
+    out: Path | None = None
+    overwrite: bool = False
+    assistant: AssistantName | None = None
+    """None: ``reference``, or ``external`` where workers are attached."""
+    pace: str | None = None
+    """None: ``virtual``, or ``realtime`` where an attached program takes no grants."""
+    latency: str = "measured"
+    cameras: bool = True
+    speech: bool = True
+    strict: bool = False
+    listen: str | None = None
+    attach: tuple[str, ...] = ()
+    attach_timeout_s: float = 60.0
+    step_timeout_s: float = 5.0
+    run_name: str | None = None
+
+    @property
+    def assistant_name(self) -> AssistantName:
+        """The assistant, with the default filled in."""
+        return self.assistant or ("external" if self.attach else "reference")
+
+
+@dataclass(frozen=True)
+class Foreign:
+    """A message that an unregistered program published in an earlier run."""
+
+    key: str
+    t_ns: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What a replay puts in the place of other processes."""
+
+    workers: tuple[Participant, ...] = ()
+    foreign: tuple[Foreign, ...] = ()
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run gave."""
+
+    summary: Summary
+    folder: Path
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """How a run is doing, for a progress line."""
+
+    t_s: float
+    duration_s: float
+    horizontal_m: float | None
+    vertical_m: float | None
+    advisory: Advisory | None
+
+
+class Observer:
+    """Is told how a run is doing; this one does not listen."""
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        """Take in how it is doing, about twice a simulated second."""
+
+    def notice(self, text: str) -> None:
+        """Take in something that the user should know at once."""
+
+
+def run(
+    scenario: Scenario,
+    options: Options | None = None,
+    observer: Observer | None = None,
+    recorded: Recorded | None = None,
+) -> Result:
+    """Run a scenario and leave its run folder behind.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong, or a worker broke its contract. If the run had begun,
+        its folder is complete up to that instant.
+    KeyboardInterrupt
+        Likewise.
+    """
+    options = options or Options()
+    observer = observer or Observer()
+    recorded = recorded or Recorded()
+    realised, draws = _realise(scenario, options.seed)
+    latency = _latency(options.latency)
+    pace = parse_pace(options.pace or "virtual")
+    name = options.run_name or f"{scenario.name}-{options.seed}"
+    folder = RunFolder(options.out or _default_folder(name))
+    folder.require_free(options.overwrite)
+    flights = build_fleet(realised, options.seed, TICK_S)
+    with Bus(name, options.listen) as bus:
+        participants, takes_no_grants = _participants(realised, options, bus, observer, recorded)
+        if takes_no_grants and options.pace is None:
+            pace = RealTime()
+        folder.create(options.overwrite)
+        info = _info(name, scenario, realised, draws, options, pace, latency, participants, bus)
+        folder.write_info(info)
+        simulation = Simulation(
+            realised, options, bus, folder, flights, participants, latency, pace, observer
+        )
+        simulation.schedule_foreign(recorded.foreign)
+        return simulation.run(info)
+
+
+def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
+    if not 0 <= seed < 2**63:
+        raise AirhiltError(f"seed {seed}: expected 0 or more, below 2^63")
+    try:
+        return realise(scenario, seed)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = "/".join(str(part) for part in first["loc"])
+        raise ScenarioError(
+            f"{scenario.name}: with seed {seed} a perturbation takes {where} to {first['input']}: "
+            f"{first['msg']}; narrow its distribution"
+        ) from None
+
+
+def _latency(text: str) -> LatencySpec:
+    spec = parse_latency(text)
+    if spec.replay_of is None:
+        return spec
+    earlier = RunFolder.open(Path(spec.replay_of))
+    recorded = read_latencies(earlier.latency_path)
+    return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
+
+
+def _default_folder(name: str) -> Path:
+    stamp = datetime.now(UTC).strftime("%Y%m%dT%H%M%S")
+    path, count = Path("runs") / f"{name}-{stamp}", 1
+    while path.exists():
+        count += 1
+        path = Path("runs") / f"{name}-{stamp}-{count}"
+    return path
+
+
+def _participants(
+    scenario: Scenario, options: Options, bus: Bus, observer: Observer, recorded: Recorded
+) -> tuple[list[Participant], bool]:
+    """Return the workers that take grants, and whether an attached program takes none."""
+    participants = list(recorded.workers)
+    names = [name for name in options.attach if not recorded.workers]
+    attached = attach(
+        bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice
+    )
+    participants += [
+        Participant(description, worker, attached=True)
+        for worker, description in attached
+        if description is not None
+    ]
+    taken = {participant.description.modality for participant in participants}
+    if options.assistant_name == "reference" and "decision" not in taken:
+        worker = DecisionWorker(_decision_config(scenario.separation))
+        participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
+    return participants, any(description is None for _, description in attached)
+
+
+def _decision_config(separation: Separation) -> DecisionConfig:
+    return DecisionConfig(
+        horizontal_m=separation.horizontal_nm * NAUTICAL_MILE,
+        vertical_m=separation.vertical_ft * FOOT,
+    )
+
+
+def _info(
+    name: str,
+    scenario: Scenario,
+    realised: Scenario,
+    draws: Sequence[Draw],
+    options: Options,
+    pace: Pace,
+    latency: LatencySpec,
+    participants: Sequence[Participant],
+    bus: Bus,
+) -> RunInfo:
+    return RunInfo(
+        run=name,
+        options=RunOptions(
+            seed=options.seed,
+            assistant=options.assistant_name,
+            pace=pace.name,
+            latency=latency.text,
+            attached=options.attach,
+            cameras=options.cameras,
+            speech=options.speech,
+            strict=options.strict,
+        ),
+        scenario=scenario.model_dump(mode="json"),
+        realised=realised.model_dump(mode="json"),
+        draws=[draw.model_dump() for draw in draws],
+        workers=[
+            RecordedWorker(
+                description=participant.description,
+                where="attached" if participant.attached else "in process",
+            )
+            for participant in participants
+        ],
+        endpoint=bus.endpoint,
+        started_at=datetime.now(UTC).isoformat(timespec="seconds"),
+        versions=versions(),
+        platform=machine(),
+    )
+
+
+class Simulation:
+    """Everything that one run needs, hung on its Director."""
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        options: Options,
+        bus: Bus,
+        folder: RunFolder,
+        flights: dict[str, Flight],
+        participants: Sequence[Participant],
+        latency: LatencySpec,
+        pace: Pace,
+        observer: Observer,
+    ) -> None:
+        self._scenario = scenario
+        self._options = options
+        self._bus = bus
+        self._folder = folder
+        self._flights = flights
+        self._by_address = {flight.actor.icao24: flight for flight in flights.values()} | flights
+        """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
+        self._observer = observer
+        self._director = Director(pace)
+        self._log = LogWriter(folder.log_path)
+        self._latency_log = LatencyLog(folder.latency_path)
+        self._exchange = Exchange(bus, self._log)
+        self._phase: Literal["running", "finished", "stopped"] = "running"
+        self._ticked_ns = 0
+        self._heard_unregistered = False
+        self._ended_lines: set[str] = set()
+
+        aircraft = {callsign: flight.aircraft for callsign, flight in flights.items()}
+        self._pair = pair_of(scenario)
+        self._monitor = ConflictMonitor(
+            aircraft,
+            _minima(scenario.separation),
+            scenario.scene.terrain_elevation_ft * FOOT,
+            TICK_S,
+            frozenset() if self._pair is None else frozenset({self._pair}),
+            self._became_true,
+        )
+        compiler = ConditionCompiler(aircraft, self._monitor, self._ended_lines)
+        self._opens = (
+            None if scenario.conflict is None else compiler.compile(scenario.conflict.opens_when)
+        )
+        self._ends = [compiler.compile(condition) for condition in scenario.end_when]
+        self._collector = Collector(scenario, self._monitor)
+        self._pool = WorkerPool(
+            self._director,
+            participants,
+            latency,
+            options.seed,
+            publish=self._exchange.publish,
+            done=self._worker_done,
+            lost=self._worker_lost,
+        )
+        self._exchange.listen(self._collector.take)
+        self._exchange.listen(self._pool.offer)
+        self._exchange.listen(self._tell_crew)
+        self._sensor = AdsbSensor(
+            self._director,
+            scenario,
+            flights,
+            latency,
+            options.seed,
+            state_at_ns=lambda: self._ticked_ns,
+            publish=self._publish_report,
+            done=self._latency_log.step,
+        )
+        RadioScript(
+            self._director, scenario.radio.lines, scenario.radio.words_per_minute, self._spoken
+        )
+        self._schedule()
+        self._serve_bus(participants)
+
+    # --- the run ----------------------------------------------------------------------------
+
+    def run(self, info: RunInfo) -> Result:
+        """Run to the end, and finish the run folder whatever happens."""
+        begun_wall, begun_cpu = time.perf_counter(), time.process_time()
+        cause = ""
+        try:
+            self._set_modalities()
+            self._director.run()
+            self._phase = "finished"
+        except AirhiltError as error:
+            self._phase, cause = "stopped", str(error)
+            raise
+        except KeyboardInterrupt:
+            self._phase, cause = "stopped", "interrupted"
+            raise
+        except Exception as error:
+            self._phase, cause = "stopped", f"{type(error).__name__}: {error}"
+            raise
+        finally:
+            wall_s = time.perf_counter() - begun_wall
+            cpu_s = time.process_time() - begun_cpu
+            summary = self._finish(info, cause, wall_s, cpu_s)
+        return Result(summary, self._folder.path)
+
+    def _finish(self, info: RunInfo, cause: str, wall_s: float, cpu_s: float) -> Summary:
+        phase = "finished" if self._phase == "finished" else "stopped"
+        self._event(phase, "run", cause or "came to its end")
+        self._publish_clock()
+        self._log.close()
+        self._latency_log.close()
+        now_ns = self._director.now_ns
+        summary = self._collector.summary(
+            {
+                "seed": self._options.seed,
+                "assistant": self._options.assistant_name,
+                "outcome": f"stopped: {cause}" if cause else "finished",
+                "inputs_dropped": self._pool.inputs_dropped(),
+                "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
+                "cpu_s": cpu_s,
+            },
+            now_ns,
+        )
+        self._folder.write_summary(summary)
+        self._folder.write_info(
+            info.model_copy(
+                update={
+                    "phase": phase,
+                    "cause": cause,
+                    "unregistered_programs": self._heard_unregistered,
+                    "hashes": {"log.mcap": sha256(self._folder.log_path)},
+                }
+            )
+        )
+        return summary
+
+    def _schedule(self) -> None:
+        director, every = self._director, self._director.every
+        tick_ns = seconds_to_ns(TICK_S)
+        every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
+        every(TRUTH_PERIOD_NS, self._publish_truth, Priority.SENSOR)
+        every(CONDITION_PERIOD_NS, self._watch_window, Priority.OBSERVE)
+        every(CONDITION_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
+        every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
+        every(SECOND_NS, self._log.flush, Priority.OBSERVE, first_ns=SECOND_NS)
+        every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
+        director.at(seconds_to_ns(self._scenario.duration_s), director.stop, Priority.OBSERVE)
+
+    def _end_if_due(self) -> None:
+        now_ns = self._director.now_ns
+        everybody_ended = all(f.aircraft.ended is not None for f in self._flights.values())
+        if everybody_ended or any([test(now_ns) for test in self._ends]):
+            self._director.stop()
+
+    # --- the world --------------------------------------------------------------------------
+
+    def _tick(self) -> None:
+        now_ns = self._director.now_ns
+        for flight in self._flights.values():
+            aircraft = flight.aircraft
+            if aircraft.ended is None:
+                aircraft.advance()
+                if aircraft.ended is not None:
+                    self._actor_ended(flight)
+        self._ticked_ns = now_ns
+        self._monitor.tick(now_ns)
+
+    def _actor_ended(self, flight: Flight) -> None:
+        callsign, cause = flight.actor.callsign, flight.aircraft.ended or ""
+        self._collector.ended_actors[callsign] = cause
+        self._event("actor_ended", callsign, cause)
+
+    def _watch_window(self) -> None:
+        """Open the conflict window on its condition; close it once the pair is past it."""
+        now_ns, window, pair = self._director.now_ns, self._collector.window, self._pair
+        if self._opens is None or pair is None or window.closed_ns is not None:
+            return
+        if window.opened_ns is None:
+            if self._opens(now_ns):
+                window.opened_ns = now_ns
+                self._publish_conflict("opened", pair)
+        elif not self._monitor.flying(pair) or self._is_past(pair):
+            window.closed_ns = now_ns
+            self._publish_conflict("closed", pair)
+
+    def _is_past(self, pair: Pair) -> bool:
+        motion, _, _ = self._monitor.motion(pair)
+        return motion.time_to_closest_approach_s() < 0.0 and not self._opens_again(pair)
+
+    def _opens_again(self, pair: Pair) -> bool:
+        return self._monitor.time_to_loss_s(pair) is not None
+
+    def _became_true(
+        self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
+    ) -> None:
+        now_ns = self._director.now_ns
+        self._exchange.publish(
+            "truth/conflict",
+            ConflictTruth(
+                t_ns=now_ns,
+                phase=phase,
+                actors=pair,
+                horizontal_m=horizontal_m,
+                vertical_m=vertical_m,
+            ),
+        )
+        if phase == "collision":
+            for callsign, other in (pair, pair[::-1]):
+                flight = self._flights[callsign]
+                flight.aircraft.ended = f"collision with {other}"
+                self._actor_ended(flight)
+
+    def _publish_conflict(self, phase: ConflictPhase, pair: Pair) -> None:
+        self._exchange.publish(
+            "truth/conflict",
+            ConflictTruth(t_ns=self._director.now_ns, phase=phase, actors=pair),
+        )
+
+    def _publish_truth(self) -> None:
+        now_ns = self._director.now_ns
+        for callsign, flight in self._flights.items():
+            if flight.aircraft.ended is None:
+                self._exchange.publish(f"truth/state/{callsign}", _truth_of(flight, now_ns))
+
+    # --- sensors ----------------------------------------------------------------------------
+
+    def _publish_report(self, report: AdsbReport) -> None:
+        self._exchange.publish(f"adsb/{report.icao24}", report)
+
+    def _spoken(self, spoken: Spoken) -> None:
+        """Put a call that has ended on the air, and do what it makes actors do.
+
+        Without speech its words go out as a transcript at once.
+        """
+        line, now_ns = spoken.line, self._director.now_ns
+        times = {"t_ns": now_ns, "t_tx_ns": spoken.t_tx_ns, "t_end_ns": spoken.t_end_ns}
+        identity = {"id": line.id, "frequency_khz": line.frequency_khz}
+        self._ended_lines.add(line.id)
+        self._exchange.publish(
+            f"truth/radio/{line.id}",
+            SpokenTruth(
+                **times, **identity, speaker=line.speaker, addressed=line.to, text=line.text
+            ),
+        )
+        self._exchange.publish(
+            f"radio/{line.frequency_khz}/tx", Transmission(**times, **identity), raw=b""
+        )
+        self._exchange.publish(
+            f"asr/{line.frequency_khz}",
+            Transcript(**times, **identity, text=line.text, confidence=1.0, engine="text"),
+        )
+        for scripted in line.commands:
+            self._director.at(
+                now_ns + seconds_to_ns(scripted.delay_s),
+                lambda scripted=scripted: self._carry_out(scripted),
+                Priority.SCRIPT,
+            )
+
+    def _carry_out(self, scripted: ScriptedCommand) -> None:
+        self._flights[scripted.actor].crew.command(scripted.command)
+        self._event("command", scripted.actor, scripted.command.model_dump_json())
+
+    # --- the loop closes --------------------------------------------------------------------
+
+    def _tell_crew(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+        if not isinstance(message, Advisory):
+            return
+        flight = self._by_address.get(message.recipient)
+        if flight is None:
+            return
+        reaction = flight.crew.hear(message)
+        if reaction is None:
+            return
+
+        def react() -> None:
+            if flight.aircraft.ended is None:
+                reaction.act()
+                self._event("pilot_reacts", message.recipient, f"{reaction.text} ({message.id})")
+
+        due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
+        self._director.at(due_ns, react, Priority.SCRIPT)
+
+    # --- workers ----------------------------------------------------------------------------
+
+    def _worker_done(self, record: StepRecord) -> None:
+        self._latency_log.step(record)
+        self._collector.step(record)
+
+    def _worker_lost(self, worker: WorkerDescription, cause: str, seq: int) -> None:
+        now_ns = self._director.now_ns
+        self._latency_log.lost(worker.name, seq, now_ns, cause)
+        self._set_modality(worker.modality, "lost", cause)
+        self._event("worker_lost", worker.name, cause)
+        self._observer.notice(f"lost at {now_ns / SECOND_NS:.1f} s: {cause}")
+        if self._options.strict:
+            raise RunStopped(
+                f"stopped at {now_ns / SECOND_NS:.1f} s, as --strict asks: {cause}; run again "
+                "without --strict to go on without it"
+            )
+
+    def _serve_bus(self, participants: Sequence[Participant]) -> None:
+        """Answer who asks for the clock, and hear what other programs publish by themselves."""
+        self._bus.answer("clock", lambda: self._clock().model_dump_json().encode())
+        attached = {p.description.name for p in participants if p.attached}
+
+        def changed(name: str, alive: bool) -> None:
+            if not alive and name in attached and name in self._pool.servers:
+                server = self._pool.servers[name]
+                self._director.post(
+                    lambda: server.lose(f"worker {name!r} is gone: its process ended")
+                )
+
+        self._bus.watch_workers(changed)
+        for pattern in ("advisory/*", "asr/*", "command/*"):
+            self._bus.hear(
+                pattern,
+                lambda key, data: self._director.post(lambda: self._hear_unregistered(key, data)),
+            )
+
+    def schedule_foreign(self, messages: Sequence[Foreign]) -> None:
+        """Let what unregistered programs published in an earlier run come at its time."""
+        for message in messages:
+            self._director.at(
+                message.t_ns,
+                lambda message=message: self._foreign(message.key, message.data),
+                Priority.SCRIPT,
+            )
+
+    def _hear_unregistered(self, key: str, data: bytes) -> None:
+        """Take in a message that no grant asked for; such a program needs real time."""
+        if isinstance(self._director.pace, Virtual):
+            self._director.change_pace(RealTime())
+            self._observer.notice(
+                f"a program that takes no grants published on {key}: going on in real time"
+            )
+        self._foreign(key, data)
+
+    def _foreign(self, key: str, data: bytes) -> None:
+        """Let a message that no grant asked for count now."""
+        if not self._heard_unregistered:
+            self._heard_unregistered = True
+            self._event("unregistered", key, "a program that takes no grants has published")
+        try:
+            message = _parse_foreign(key, data)
+        except WorkerError as error:
+            self._event("refused", key, str(error))
+            self._observer.notice(str(error))
+            if self._options.strict:
+                raise
+            return
+        stamped = message.model_copy(update={"t_ns": self._director.now_ns})
+        self._exchange.heard(key, stamped, FOREIGN)
+        if isinstance(stamped, ActorCommand):
+            flight = self._flights.get(key.split("/")[1])
+            if flight is not None:
+                flight.crew.command(stamped.command)
+
+    # --- what is told -----------------------------------------------------------------------
+
+    def _set_modalities(self) -> None:
+        scenario, options = self._scenario, self._options
+        equipped = any(actor.transponder.equipped for actor in scenario.actors)
+        self._set_modality("adsb", "on" if equipped else "off")
+        self._set_modality("radio", "on" if scenario.radio.lines else "off")
+        self._set_modality("speech", "not evaluated" if options.speech else "off")
+        has_vision = options.cameras and bool(scenario.cameras)
+        self._set_modality("vision", "not evaluated" if has_vision else "off")
+        self._set_modality("decision", "off" if options.assistant_name == "none" else "on")
+
+    def _set_modality(self, modality: Modality, state: ModalityState, cause: str = "") -> None:
+        self._collector.modalities[modality] = state
+        self._exchange.publish(
+            f"status/{modality}",
+            Status(t_ns=self._director.now_ns, modality=modality, state=state, cause=cause),
+        )
+
+    def _clock(self) -> Clock:
+        return Clock(
+            t_ns=self._director.now_ns,
+            run=self._bus.run,
+            phase=self._phase,
+            pace=self._director.pace.name,
+        )
+
+    def _publish_clock(self) -> None:
+        self._bus.put("clock", self._clock().model_dump_json().encode())
+
+    def _event(self, kind: EventKind, subject: str, text: str) -> None:
+        self._exchange.publish(
+            "truth/event",
+            Event(t_ns=self._director.now_ns, kind=kind, subject=subject, text=text),
+        )
+
+    def _tell_observer(self) -> None:
+        horizontal = vertical = None
+        if self._pair is not None and self._monitor.flying(self._pair):
+            motion, first, second = self._monitor.motion(self._pair)
+            horizontal = motion.distance_m
+            vertical = abs(first.altitude_m - second.altitude_m)
+        self._observer.snapshot(
+            Snapshot(
+                self._director.now_ns / SECOND_NS,
+                self._scenario.duration_s,
+                horizontal,
+                vertical,
+                self._collector.last_advisory,
+            )
+        )
+
+
+def _minima(separation: Separation) -> Minima:
+    return Minima(
+        separation.horizontal_nm * NAUTICAL_MILE,
+        (separation.vertical_ft - separation.level_tolerance_ft) * FOOT,
+    )
+
+
+def _truth_of(flight: Flight, now_ns: int) -> AircraftTruth:
+    state = flight.aircraft.state
+    return AircraftTruth(
+        t_ns=now_ns,
+        actor=flight.actor.callsign,
+        icao24=flight.actor.icao24,
+        latitude_deg=state.latitude_rad / DEGREE,
+        longitude_deg=state.longitude_rad / DEGREE,
+        altitude_m=state.altitude_m,
+        height_agl_m=state.height_agl_m,
+        velocity_north_m_s=state.velocity_north_m_s,
+        velocity_east_m_s=state.velocity_east_m_s,
+        velocity_down_m_s=state.velocity_down_m_s,
+        roll_deg=state.roll_rad / DEGREE,
+        pitch_deg=state.pitch_rad / DEGREE,
+        heading_deg=bearing_degrees(state.heading_rad),
+        true_airspeed_m_s=state.true_airspeed_m_s,
+        calibrated_airspeed_m_s=state.calibrated_airspeed_m_s,
+        target_altitude_m=flight.aircraft.target_altitude_m,
+    )
+
+
+def _parse_foreign(key: str, data: bytes) -> Message:
+    """Return what an unregistered program put on a key.
+
+    Raises
+    ------
+    WorkerError
+        It is not what belongs there.
+    """
+    if not key.startswith("command/"):
+        return parse_output(FOREIGN, key, data)
+    try:
+        return ActorCommand.model_validate_json(data)
+    except ValidationError as error:
+        raise WorkerError(
+            f"{key}: not a command: {error.errors()[0]['msg']}; see `airhilt schema`"
+        ) from None

@@ -1,0 +1,94 @@
+"""Loads an aircraft model of the installed JSBSim, stripped of all that reaches outside.
+
+Some models of the wheel open sockets (the 737 listens on TCP 5137) or write CSV files into
+site-packages. What is loaded here is derived from the wheel at run time, in a temporary folder
+that is gone when the model is loaded: no ``<input>``, no ``<output>``, and no autopilot of the
+model's own, since AIRHILT flies it.
+"""
+
+from __future__ import annotations
+
+import functools
+import logging
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import jsbsim
+
+from airhilt.errors import AirhiltError
+
+_log = logging.getLogger(__name__)
+
+
+class ModelError(AirhiltError):
+    """JSBSim does not have the model, or cannot fly it from the asked condition."""
+
+
+class _JsbsimLog(jsbsim.FGLogger):
+    """Takes what JSBSim would print, and passes errors on to Python's logging."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._text = ""
+        self._level = jsbsim.LogLevel.BULK
+
+    def set_level(self, level: jsbsim.LogLevel) -> None:
+        self._level = level
+        self._text = ""
+
+    def message(self, message: str) -> None:
+        self._text += message
+
+    def flush(self) -> None:
+        if self._level >= jsbsim.LogLevel.ERROR and self._text.strip():
+            _log.error("JSBSim: %s", self._text.strip())
+
+
+def load_model(model: str) -> jsbsim.FGFDMExec:
+    """Return a fresh FGFDMExec with the model loaded, silent and alone.
+
+    JSBSim's logger belongs to a thread: what the aircraft says later, in a thread in which none
+    was loaded, goes to stdout.
+
+    Raises
+    ------
+    ModelError
+        The installed JSBSim has no such model, or cannot load it.
+    """
+    jsbsim.set_logger(_JsbsimLog())
+    root = Path(jsbsim.get_default_root_dir())
+    files = _stripped_files(root, model)
+    with tempfile.TemporaryDirectory(prefix="airhilt-jsbsim-") as scratch:
+        folder = Path(scratch, model)
+        folder.mkdir()
+        for name, content in files.items():
+            Path(folder, name).write_bytes(content)
+        fdm = jsbsim.FGFDMExec(str(root))
+        fdm.set_debug_level(0)
+        try:
+            loaded = fdm.load_model_with_paths(
+                model, scratch, str(root / "engine"), str(root / "systems")
+            )
+        except jsbsim.BaseError as error:
+            raise ModelError(f"JSBSim cannot load its model {model!r}: {error}") from error
+    if not loaded:
+        raise ModelError(f"JSBSim cannot load its model {model!r}")
+    return fdm
+
+
+@functools.cache
+def _stripped_files(root: Path, model: str) -> dict[str, bytes]:
+    """Return the model's file without inputs, outputs and autopilot, by name."""
+    path = root / "aircraft" / model / f"{model}.xml"
+    if not path.is_file():
+        raise ModelError(f"the installed JSBSim has no model {model!r}: no {path}")
+    config = ElementTree.parse(path).getroot()  # noqa: S314 - JSBSim's own file
+    for tag in ("input", "output", "autopilot"):
+        for element in config.findall(tag):
+            config.remove(element)
+    for component in config.iterfind("flight_control/channel/*"):
+        for source in component.findall("input"):
+            if (source.text or "").strip().startswith("ap/"):
+                component.remove(source)
+    return {path.name: ElementTree.tostring(config)}

@@ -1,0 +1,369 @@
+"""Every message on the bus, and the only source of its JSON Schemas.
+
+Times are integer nanoseconds of simulation time. ``t_ns`` is when a message was published; a
+worker leaves it out and the run stamps it on delivery, because only the run knows how late the
+worker is. ``airhilt schema`` prints all of this as JSON Schema.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+from airhilt.commands import Command
+
+Nanoseconds = Annotated[int, Field(ge=0, description="nanoseconds since the start of the run")]
+Confidence = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+class Message(BaseModel):
+    """What all messages share."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    t_ns: Nanoseconds = Field(default=0, description="when it was published, stamped by the run")
+
+
+class Severity(str, Enum):
+    """How urgent an advisory is, in rising order."""
+
+    INFO = "INFO"
+    ADVISORY = "ADVISORY"
+    CAUTION = "CAUTION"
+    WARNING = "WARNING"
+
+    @property
+    def rank(self) -> int:
+        """0 for INFO up to 3 for WARNING."""
+        return _SEVERITY_ORDER.index(self)
+
+
+_SEVERITY_ORDER = tuple(Severity)
+
+
+# --- the run itself -------------------------------------------------------------------------
+
+
+class Clock(Message):
+    """``clock``: where the run is; also answered to a query on that key. Not in the log."""
+
+    run: str
+    phase: Literal["running", "finished", "stopped"]
+    pace: str
+
+
+Modality = Literal["adsb", "radio", "speech", "vision", "decision"]
+ModalityState = Literal["on", "off", "lost", "not evaluated"]
+
+
+class Status(Message):
+    """``status/<modality>``: a modality was switched on or off, or lost."""
+
+    modality: Modality
+    state: ModalityState
+    cause: str = ""
+
+
+# --- what sensors give ----------------------------------------------------------------------
+
+
+class Transmission(Message):
+    """``radio/<freq_khz>/tx``: attachment to one transmission as received, PCM 16 kHz mono.
+
+    ``samples`` is 0 in a run without speech: the transmission took its time on the frequency,
+    and its words arrive as a `Transcript` with the engine ``text``.
+    """
+
+    id: str
+    frequency_khz: int
+    t_tx_ns: Nanoseconds = Field(description="start of the transmission")
+    t_end_ns: Nanoseconds
+    snr_db: float | None = None
+    sample_rate_hz: int = 16_000
+    samples: int = 0
+
+
+class AdsbReport(Message):
+    """``adsb/<icao24>``: a state vector as an ADS-B receiver has it (units of DO-260B)."""
+
+    icao24: str = Field(pattern=r"^[0-9a-f]{6}$")
+    callsign: str | None = Field(description="null until an identification squitter came through")
+    latitude_deg: float = Field(ge=-90.0, le=90.0)
+    longitude_deg: float = Field(ge=-180.0, le=180.0)
+    altitude_ft: float = Field(description="pressure altitude in steps of 25 ft")
+    ground_speed_kt: float = Field(ge=0.0)
+    track_deg: float = Field(ge=0.0, lt=360.0)
+    vertical_rate_fpm: float = Field(description="in steps of 64 ft/min")
+    nacp: int = Field(ge=0, le=11, description="navigation accuracy category for position")
+    nacv: int = Field(ge=0, le=4, description="navigation accuracy category for velocity")
+    receiver: str
+    t_adsb_in_ns: Nanoseconds = Field(description="the squitter reached the receiver")
+    t_adsb_out_ns: Nanoseconds = Field(description="the receiver gave out the report")
+
+
+# --- what workers give ----------------------------------------------------------------------
+
+
+class Transcript(Message):
+    """``asr/<freq_khz>``: the words of one transmission; ``t_ns`` is the paper's t_asr."""
+
+    id: str = Field(description="id of the transmission")
+    frequency_khz: int
+    t_tx_ns: Nanoseconds
+    t_end_ns: Nanoseconds
+    text: str
+    confidence: Confidence
+    engine: str
+
+
+class Climb(BaseModel):
+    """Climb or descend to a level and stay there."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["altitude"] = "altitude"
+    sense: Literal["climb", "descend"]
+    altitude_ft: float
+    vertical_rate_fpm: float = Field(gt=0.0)
+
+
+class Turn(BaseModel):
+    """Turn by an angle from the present track."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["turn"] = "turn"
+    degrees: float = Field(ge=-180.0, le=180.0, description="positive to the right")
+
+
+class MaintainLevel(BaseModel):
+    """Stay at, or level off at, a level."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["maintain"] = "maintain"
+    altitude_ft: float
+
+
+Recommendation = Annotated[Climb | Turn | MaintainLevel, Field(discriminator="action")]
+
+
+class Evidence(BaseModel):
+    """Why the assistant says so."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    sources: tuple[str, ...] = Field(description="modalities that it rests on")
+    time_to_loss_s: float | None = Field(
+        default=None, description="time until separation is lost, if nobody reacts"
+    )
+    time_to_closest_approach_s: float | None = None
+    horizontal_at_closest_approach_m: float | None = None
+    vertical_at_closest_approach_m: float | None = None
+    note: str = ""
+
+
+class Advisory(Message):
+    """``advisory/<recipient>``: one conflict as told to one recipient; ``t_ns`` is t_dec.
+
+    The same ``id`` comes again with a higher ``revision`` when the severity or the
+    recommendation changes, and a last time with ``active`` false when the conflict is over.
+    """
+
+    id: str
+    revision: int = Field(ge=0)
+    recipient: str = Field(description="a callsign, or ATC")
+    recipients: tuple[str, ...]
+    kind: Literal["loss_of_separation", "readback_mismatch"]
+    severity: Severity
+    active: bool = True
+    traffic: tuple[str, ...] = Field(description="callsigns (or icao24) of those in conflict")
+    message: str
+    recommendation: Recommendation | None = None
+    evidence: Evidence
+    t_ready_ns: Nanoseconds = Field(description="the last input that it rests on had arrived")
+
+
+class ActorCommand(Message):
+    """``command/<actor>``: what a person or an external agent tells an actor."""
+
+    command: Command
+
+
+# --- truth: for the recorder, metrics and viewers only --------------------------------------
+
+
+class AircraftTruth(Message):
+    """``truth/state/<actor>``: what really is."""
+
+    actor: str
+    icao24: str
+    latitude_deg: float
+    longitude_deg: float
+    altitude_m: float
+    height_agl_m: float
+    velocity_north_m_s: float
+    velocity_east_m_s: float
+    velocity_down_m_s: float
+    roll_deg: float
+    pitch_deg: float
+    heading_deg: float
+    true_airspeed_m_s: float
+    calibrated_airspeed_m_s: float
+    target_altitude_m: float
+
+
+class SpokenTruth(Message):
+    """``truth/radio/<id>``: who really said what to whom."""
+
+    id: str
+    speaker: str
+    addressed: str | None
+    frequency_khz: int
+    text: str
+    t_tx_ns: Nanoseconds
+    t_end_ns: Nanoseconds
+
+
+ConflictPhase = Literal[
+    "opened", "closed", "loss_of_separation", "nmac", "collision", "tcas_ta", "tcas_ra"
+]
+
+
+class ConflictTruth(Message):
+    """``truth/conflict``: what became true of two aircraft at this instant."""
+
+    phase: ConflictPhase
+    actors: tuple[str, ...]
+    horizontal_m: float | None = None
+    vertical_m: float | None = None
+
+
+EventKind = Literal[
+    "actor_ended",
+    "command",
+    "pilot_reacts",
+    "worker_lost",
+    "unregistered",
+    "refused",
+    "finished",
+    "stopped",
+]
+
+
+class Event(Message):
+    """``truth/event``: something that happened in the world or to the run."""
+
+    kind: EventKind
+    subject: str
+    text: str
+
+
+# --- workers: registration and time grants --------------------------------------------------
+
+
+class InputSpec(BaseModel):
+    """One key that a worker wants, relative to the run, and how what waits there is queued.
+
+    ``fifo`` takes the oldest, one a step; ``latest`` keeps only the newest and counts what it
+    drops; ``batch`` takes all that waits in one step.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    key: str = Field(examples=["adsb/*"])
+    policy: Literal["fifo", "latest", "batch"] = "fifo"
+
+
+class DeclaredLatency(BaseModel):
+    """What a worker says of its own speed, for `--latency fixed` and `lognormal`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    median_s: float = Field(ge=0.0)
+    sigma: float = Field(default=0.25, ge=0.0, description="of the logarithm, for lognormal")
+
+
+class WorkerDescription(BaseModel):
+    """Answer to a query on ``worker/<name>/describe``."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: str = Field(pattern=r"^[a-z0-9_-]+$")
+    modality: Modality
+    inputs: tuple[InputSpec, ...] = Field(min_length=1)
+    latency: DeclaredLatency = DeclaredLatency(median_s=0.1)
+
+
+class GrantInput(BaseModel):
+    """One input of a grant; its bytes lie in the payload, in the order of the inputs."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    key: str
+    t_in_ns: Nanoseconds
+    size: int = Field(ge=0, description="bytes of the payload that are this input's")
+    attachment: Any = Field(default=None, description="JSON header of raw inputs, else null")
+
+
+class Grant(BaseModel):
+    """Attachment of a query on ``worker/<name>/step``: compute, it is now ``t_ns``."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    t_ns: Nanoseconds
+    seq: int = Field(ge=0)
+    inputs: tuple[GrantInput, ...]
+
+
+class StepOutput(BaseModel):
+    """One output of a step; its bytes lie in the reply's payload, in order."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    key: str
+    size: int = Field(ge=0)
+    t_out_ns: Nanoseconds | None = Field(
+        default=None,
+        description="when it leaves the worker, not before the grant's t_ns; null: as soon as "
+        "the latency has passed",
+    )
+    attachment: Any = None
+
+
+class StepReply(BaseModel):
+    """Attachment of the reply to a grant."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    seq: int = Field(ge=0)
+    compute_s: float = Field(ge=0.0, description="wall time that the step took")
+    outputs: tuple[StepOutput, ...] = ()
+    wake_ns: Nanoseconds | None = Field(
+        default=None, description="call again at this time even without inputs"
+    )
+
+
+BUS_MESSAGES: dict[str, type[Message]] = {
+    "clock": Clock,
+    "status/{modality}": Status,
+    "radio/{frequency_khz}/tx": Transmission,
+    "adsb/{icao24}": AdsbReport,
+    "asr/{frequency_khz}": Transcript,
+    "advisory/{recipient}": Advisory,
+    "command/{actor}": ActorCommand,
+    "truth/state/{actor}": AircraftTruth,
+    "truth/radio/{id}": SpokenTruth,
+    "truth/conflict": ConflictTruth,
+    "truth/event": Event,
+}
+"""The message of each key below ``airhilt/<run>/``."""
+
+WORKER_MESSAGES: dict[str, type[BaseModel]] = {
+    "worker/{name}/describe (reply)": WorkerDescription,
+    "worker/{name}/step (attachment)": Grant,
+    "worker/{name}/step (attachment of the reply)": StepReply,
+}
+"""The messages of the worker protocol."""
+
+WORKER_OUTPUTS: dict[str, type[Message]] = {"asr": Transcript, "advisory": Advisory}
+"""What a worker may publish, by the first part of the key. Truth and sensors are not its own."""
+
+
+def json_schemas() -> dict[str, Any]:
+    """Return all schemas in one JSON object, by key, as ``airhilt schema`` prints them."""
+    return {
+        key: {"title": model.__name__, **TypeAdapter(model).json_schema()}
+        for key, model in {**BUS_MESSAGES, **WORKER_MESSAGES}.items()
+    }

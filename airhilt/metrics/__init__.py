@@ -1,0 +1,1 @@
+"""What came of a run: truth about conflicts, latencies, the summary and the report."""

@@ -1,0 +1,247 @@
+"""Gathers what a run says of itself, and makes the summary of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from airhilt.messages import (
+    AdsbReport,
+    Advisory,
+    Message,
+    Modality,
+    ModalityState,
+    Severity,
+    Transcript,
+)
+from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
+from airhilt.metrics.summary import (
+    ClosestApproach,
+    LatencyStatistics,
+    Summary,
+    ToldAdvisory,
+    severest,
+)
+from airhilt.scenario.models import Scenario
+from airhilt.sim import StepRecord
+from airhilt.surveillance import tcas
+from airhilt.units import SECOND_NS
+
+SPEAK_MIN_LEVEL = Severity.CAUTION
+"""Least severity that is spoken, and so the least that counts as a warning."""
+JUSTIFIED_WITHIN_S = 300.0
+"""An alert about other traffic is no nuisance if that traffic will really lose separation within
+this time."""
+
+
+@dataclass
+class _Told:
+    """One advisory over its revisions."""
+
+    advisory: Advisory
+    nuisance: bool
+    severities: list[Severity] = field(default_factory=list)
+    revisions: set[int] = field(default_factory=set)
+    first_warning_ns: int | None = None
+
+
+@dataclass
+class ConflictWindow:
+    """When the annotated conflict opened and closed."""
+
+    opened_ns: int | None = None
+    closed_ns: int | None = None
+
+
+class Collector:
+    """Listens to a run.
+
+    Attributes
+    ----------
+    window
+        Kept by the run, which knows the annotation.
+    modalities
+        Kept by the run.
+    """
+
+    def __init__(self, scenario: Scenario, monitor: ConflictMonitor) -> None:
+        self.window = ConflictWindow()
+        self.modalities: dict[Modality, ModalityState] = {}
+        self.ended_actors: dict[str, str] = {}
+        self.last_advisory: Advisory | None = None
+        self._scenario = scenario
+        self._monitor = monitor
+        self._pair = pair_of(scenario)
+        self._callsigns = {actor.icao24: actor.callsign for actor in scenario.actors}
+        self._told: dict[str, _Told] = {}
+        self._latencies_s: dict[str, list[float]] = {"adsb": [], "asr": [], "decision": []}
+        self._first_warning_ns: int | None = None
+        self._projection: tcas.Projection | None = None
+
+    def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+        """Take in a published message."""
+        match message:
+            case AdsbReport(t_adsb_in_ns=begin, t_adsb_out_ns=end):
+                self._latencies_s["adsb"].append((end - begin) / SECOND_NS)
+            case Transcript(t_tx_ns=begin, t_ns=end, engine=engine) if engine != "text":
+                self._latencies_s["asr"].append((end - begin) / SECOND_NS)
+            case Advisory():
+                self._take_advisory(message)
+
+    def step(self, record: StepRecord) -> None:
+        """Take in a finished step of a worker."""
+        waited_ns = record.t_start_ns - record.t_in_ns + record.latency_ns
+        self._latencies_s.setdefault(f"{record.worker}_step", []).append(waited_ns / SECOND_NS)
+
+    def _take_advisory(self, advisory: Advisory) -> None:
+        told = self._told.get(advisory.id)
+        if told is None:
+            told = _Told(advisory, self._is_nuisance(advisory))
+            self._told[advisory.id] = told
+        if advisory.revision not in told.revisions:
+            told.revisions.add(advisory.revision)
+            told.severities.append(advisory.severity)
+            latency_ns = max(advisory.t_ns - advisory.t_ready_ns, 0)
+            self._latencies_s["decision"].append(latency_ns / SECOND_NS)
+        if not advisory.active:
+            return
+        self.last_advisory = advisory
+        if (
+            self._first_warning_ns is None
+            and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank
+            and self._concerns_conflict(advisory)
+        ):
+            self._first_warning_ns = advisory.t_ns
+            if self._pair is not None and self._monitor.flying(self._pair):
+                self._projection = self._monitor.project_tcas(self._pair)
+
+    def _concerns_conflict(self, advisory: Advisory) -> bool:
+        return self._pair is not None and set(self._traffic(advisory)) <= set(self._pair)
+
+    def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
+        """Return who an advisory is about; before it has a callsign, traffic goes by icao24."""
+        return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
+
+    def _is_nuisance(self, advisory: Advisory) -> bool:
+        """Return whether the traffic named is in no conflict, declared or real."""
+        if self._concerns_conflict(advisory):
+            return False
+        if self._pair is None or len(advisory.traffic) != 2:
+            return True
+        first, second = self._traffic(advisory)
+        if not {first, second} <= set(self._callsigns.values()):
+            return True
+        loss = self._monitor.time_to_loss_s((first, second))
+        return loss is None or loss > JUSTIFIED_WITHIN_S
+
+    # --- the summary ------------------------------------------------------------------------
+
+    def summary(self, run: Mapping[str, Any], now_ns: int) -> Summary:
+        """Return the summary; ``run`` holds the fields that only the run knows."""
+        truth = self._truth()
+        conflict_s = _seconds(self.window.opened_ns)
+        warning_s = _seconds(self._first_warning_ns)
+        closest = truth.closest if truth else None
+        return Summary(
+            scenario=self._scenario.name,
+            duration_s=now_ns / SECOND_NS,
+            t_conflict_s=conflict_s,
+            t_conflict_end_s=_seconds(self._window_end_ns(now_ns)),
+            t_first_warning_s=warning_s,
+            time_to_first_warning_s=_difference(warning_s, conflict_s),
+            lead_before_closest_approach_s=_difference(
+                _seconds(closest.t_ns) if closest else None, warning_s
+            ),
+            margin_over_tcas_ta_s=self._margin("tcas_ta"),
+            margin_over_tcas_ra_s=self._margin("tcas_ra"),
+            min_horizontal_separation_m=truth.least_horizontal_m if truth else None,
+            min_vertical_separation_m=truth.least_vertical_m if truth else None,
+            closest_approach=ClosestApproach(
+                t_s=closest.t_ns / SECOND_NS,
+                horizontal_m=closest.horizontal_m,
+                vertical_m=closest.vertical_m,
+            )
+            if closest
+            else None,
+            loss_of_separation=self._happened("loss_of_separation"),
+            nmac=self._happened("nmac"),
+            collision=self._happened("collision"),
+            avoided=self._avoided(truth),
+            nuisance_alerts=sum(
+                told.nuisance
+                and severest(told.severities).rank >= SPEAK_MIN_LEVEL.rank
+                for told in self._told.values()
+            ),
+            advisories=[
+                ToldAdvisory(
+                    id=told.advisory.id,
+                    kind=told.advisory.kind,
+                    traffic=self._traffic(told.advisory),
+                    t_first_s=told.advisory.t_ns / SECOND_NS,
+                    severity=severest(told.severities),
+                    revisions=len(told.revisions),
+                    nuisance=told.nuisance,
+                )
+                for told in self._told.values()
+            ],
+            latencies={
+                stage: LatencyStatistics.of(samples)
+                for stage, samples in self._latencies_s.items()
+            },
+            modalities=self.modalities,
+            ended_actors=self.ended_actors,
+            **run,
+        )
+
+    def _truth(self) -> PairTruth | None:
+        """Return the truth of the annotated pair, or of the pair that came nearest."""
+        pairs = self._monitor.pairs
+        if self._pair is not None:
+            return pairs.get(self._pair)
+        near = [truth for truth in pairs.values() if truth.closest is not None]
+        return min(near, key=lambda t: t.closest.slant_m if t.closest else 0.0, default=None)
+
+    def _happened(self, phase: str) -> bool:
+        return any(phase in truth.first_ns for truth in self._monitor.pairs.values())
+
+    def _window_end_ns(self, now_ns: int) -> int | None:
+        if self.window.opened_ns is None:
+            return None
+        return now_ns if self.window.closed_ns is None else self.window.closed_ns
+
+    def _avoided(self, truth: PairTruth | None) -> bool | None:
+        if self.window.opened_ns is None:
+            return None
+        return truth is None or "loss_of_separation" not in truth.first_ns
+
+    def _margin(self, alert: tcas.Alert) -> float | None:
+        """Return how long after the first warning TCAS II would have spoken.
+
+        Had it spoken before, the margin is negative.
+        """
+        if self._first_warning_ns is None or self._projection is None or self._pair is None:
+            return None
+        truth = self._truth()
+        said_ns = truth.first_ns.get(alert) if truth else None
+        if said_ns is not None and said_ns <= self._first_warning_ns:
+            return (said_ns - self._first_warning_ns) / SECOND_NS
+        projection = self._projection
+        return projection.traffic_s if alert == "tcas_ta" else projection.resolution_s
+
+
+def pair_of(scenario: Scenario) -> Pair | None:
+    """Return the annotated pair in the order in which the actors are listed."""
+    if scenario.conflict is None:
+        return None
+    order = [actor.callsign for actor in scenario.actors]
+    first, second = sorted(scenario.conflict.actors, key=order.index)
+    return first, second
+
+
+def _seconds(t_ns: int | None) -> float | None:
+    return None if t_ns is None else t_ns / SECOND_NS
+
+
+def _difference(later: float | None, earlier: float | None) -> float | None:
+    return None if later is None or earlier is None else later - earlier

@@ -1,0 +1,106 @@
+"""``summary.json``: the numbers of a run, and what they mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from airhilt.messages import Modality, ModalityState, Severity
+
+Stage = str
+
+
+class LatencyStatistics(BaseModel):
+    """Of one stage, in seconds of simulation time."""
+
+    model_config = ConfigDict(frozen=True)
+    n: int
+    p50_s: float | None
+    p95_s: float | None
+    max_s: float | None
+
+    @classmethod
+    def of(cls, samples_s: Sequence[float]) -> LatencyStatistics:
+        """Return the statistics of some samples (linear interpolation between them)."""
+        if not samples_s:
+            return cls(n=0, p50_s=None, p95_s=None, max_s=None)
+        p50, p95 = np.percentile(samples_s, [50.0, 95.0])
+        return cls(n=len(samples_s), p50_s=float(p50), p95_s=float(p95), max_s=max(samples_s))
+
+
+class ClosestApproach(BaseModel):
+    """Where the pair of the conflict was nearest in three dimensions."""
+
+    model_config = ConfigDict(frozen=True)
+    t_s: float
+    horizontal_m: float
+    vertical_m: float
+
+
+class ToldAdvisory(BaseModel):
+    """One advisory, with its course over all revisions."""
+
+    model_config = ConfigDict(frozen=True)
+    id: str
+    kind: str
+    traffic: tuple[str, ...]
+    t_first_s: float
+    severity: Severity = Field(description="the highest that was reached")
+    revisions: int
+    nuisance: bool
+
+
+class Summary(BaseModel):
+    """The object of ``summary.json``; null where a number does not apply."""
+
+    model_config = ConfigDict(frozen=True)
+    scenario: str
+    seed: int
+    assistant: str
+    outcome: str = Field(description="finished, or stopped and why")
+    duration_s: float = Field(description="simulated")
+    t_conflict_s: float | None = Field(description="the conflict window opened")
+    t_conflict_end_s: float | None = Field(description="the pair was past it, or the run ended")
+    t_first_warning_s: float | None = Field(
+        description="first advisory of the conflict at or above the level that is spoken "
+        "(CAUTION) reached a recipient: t_tts with speech, t_dec without"
+    )
+    time_to_first_warning_s: float | None = Field(
+        description="t_first_warning - t_conflict; negative: before the window opened"
+    )
+    lead_before_closest_approach_s: float | None
+    margin_over_tcas_ta_s: float | None = Field(
+        description="how long before TCAS II would have given its traffic advisory, had nobody "
+        "reacted, the first warning came"
+    )
+    margin_over_tcas_ra_s: float | None
+    min_horizontal_separation_m: float | None = Field(
+        description="least while vertical separation was infringed; null if it never was"
+    )
+    min_vertical_separation_m: float | None = Field(
+        description="least while horizontal separation was infringed; null if it never was"
+    )
+    closest_approach: ClosestApproach | None
+    loss_of_separation: bool
+    nmac: bool
+    collision: bool
+    avoided: bool | None = Field(
+        description="the conflict window opened and separation was kept; null without a conflict"
+    )
+    nuisance_alerts: int = Field(
+        description="advisories of CAUTION or above about traffic that was in no conflict"
+    )
+    advisories: list[ToldAdvisory]
+    latencies: dict[Stage, LatencyStatistics]
+    inputs_dropped: dict[str, int]
+    modalities: dict[Modality, ModalityState]
+    ended_actors: dict[str, str]
+    real_time_factor: float
+    cpu_s: float
+
+
+def severest(severities: Iterable[Severity]) -> Severity:
+    """Return the highest of some severities."""
+    return max(severities, key=lambda severity: severity.rank)

@@ -1,0 +1,1 @@
+"""The radio: what is said on a frequency, and what it means."""

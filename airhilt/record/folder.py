@@ -1,0 +1,205 @@
+"""The run folder and its ``run.json``."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import json
+import os
+import platform
+import shutil
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from airhilt._version import __version__
+from airhilt.errors import RunFolderError
+from airhilt.messages import WorkerDescription
+
+FORMAT = 1
+RECORDED_VERSIONS = ("jsbsim", "numpy", "eclipse-zenoh", "pydantic", "mcap", "zstandard")
+
+
+class RunOptions(BaseModel):
+    """What was asked for, as on the command line."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    seed: int
+    assistant: str
+    pace: str
+    latency: str
+    attached: tuple[str, ...]
+    cameras: bool
+    speech: bool
+    strict: bool
+
+
+class RecordedWorker(BaseModel):
+    """A worker that took part."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    description: WorkerDescription
+    where: Literal["in process", "attached"]
+
+
+class RunInfo(BaseModel):
+    """``run.json``: all that it takes to run it again, and how it went."""
+
+    model_config = ConfigDict(extra="forbid")
+    format: int = FORMAT
+    phase: Literal["running", "finished", "stopped"] = "running"
+    cause: str = ""
+    run: str
+    options: RunOptions
+    scenario: dict[str, Any]
+    realised: dict[str, Any]
+    draws: list[dict[str, Any]]
+    workers: list[RecordedWorker] = []
+    unregistered_programs: bool = False
+    endpoint: str
+    started_at: str
+    versions: dict[str, str]
+    platform: dict[str, str]
+    hashes: dict[str, str] = {}
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of AIRHILT and of what decides its results."""
+    found = {name: importlib.metadata.version(name) for name in RECORDED_VERSIONS}
+    return {"airhilt": __version__, "python": platform.python_version(), **found}
+
+
+def machine() -> dict[str, str]:
+    """Return what machine this is."""
+    return {
+        "system": platform.system(),
+        "release": platform.release(),
+        "machine": platform.machine(),
+        "processors": str(os.cpu_count()),
+    }
+
+
+def sha256(path: Path) -> str:
+    """Return the SHA-256 of a file in hexadecimal."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+class RunFolder:
+    """Paths in a run folder, and `RunInfo` in and out of it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.info_path = path / "run.json"
+        self.log_path = path / "log.mcap"
+        self.latency_path = path / "latency.jsonl"
+        self.summary_path = path / "summary.json"
+        self.report_path = path / "report.html"
+
+    def require_free(self, overwrite: bool = False) -> None:
+        """Check that a run can be written here, without writing anything.
+
+        Raises
+        ------
+        RunFolderError
+            It holds something already, or cannot be written.
+        """
+        path = self.path
+        existing = next(parent for parent in (path, *path.absolute().parents) if parent.exists())
+        if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
+            raise RunFolderError(
+                f"{path}: cannot be written: {existing} is no folder that you may write in; choose "
+                "another with --out"
+            )
+        if not path.is_dir() or not any(path.iterdir()):
+            return
+        if not self.info_path.is_file():
+            raise RunFolderError(
+                f"{path}: holds files that are no run; choose another folder with --out"
+            )
+        if not overwrite:
+            raise RunFolderError(
+                f"{path}: holds a run already; choose another folder with --out, or replace it "
+                "with --overwrite"
+            )
+
+    def create(self, overwrite: bool = False) -> None:
+        """Make the folder, empty.
+
+        Raises
+        ------
+        RunFolderError
+            As `require_free`.
+        """
+        self.require_free(overwrite)
+        try:
+            if self.path.is_dir():
+                shutil.rmtree(self.path)
+            self.path.mkdir(parents=True)
+        except OSError as error:
+            raise RunFolderError(
+                f"{self.path}: cannot be written: {error.strerror}; choose another folder with "
+                "--out"
+            ) from None
+
+    @classmethod
+    def open(cls, path: Path) -> RunFolder:
+        """Return an existing run folder.
+
+        Raises
+        ------
+        RunFolderError
+            There is no run in it.
+        """
+        folder = cls(path)
+        if not folder.info_path.is_file():
+            raise RunFolderError(f"{path}: no run here; expected a folder with a run.json")
+        return folder
+
+    def write_info(self, info: RunInfo) -> None:
+        """Write ``run.json``, all or nothing."""
+        self._write(self.info_path, info.model_dump_json(indent=2))
+
+    def write_summary(self, summary: BaseModel) -> None:
+        """Write ``summary.json``, all or nothing."""
+        self._write(self.summary_path, summary.model_dump_json(indent=2))
+
+    def write_report(self, html: str) -> None:
+        """Write ``report.html``, all or nothing."""
+        self._write(self.report_path, html)
+
+    def _write(self, path: Path, text: str) -> None:
+        partial = path.with_name(path.name + ".partial")
+        try:
+            partial.write_text(text + "\n", encoding="utf-8")
+            partial.replace(path)
+        except OSError as error:
+            raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
+
+    def info(self) -> RunInfo:
+        """Return what ``run.json`` says.
+
+        Raises
+        ------
+        RunFolderError
+            It is damaged or of another format.
+        """
+        try:
+            return RunInfo.model_validate_json(self.info_path.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
+        except ValidationError as error:
+            first = error.errors()[0]
+            where = "/".join(str(part) for part in first["loc"])
+            raise RunFolderError(
+                f"{self.info_path}: {where}: {first['msg']}; expected a run.json of format {FORMAT}"
+            ) from None
+
+    def summary(self) -> dict[str, Any] | None:
+        """Return ``summary.json``, or None where the run did not come to write it."""
+        try:
+            loaded: dict[str, Any] = json.loads(self.summary_path.read_text(encoding="utf-8"))
+        except (OSError, json.JSONDecodeError):
+            return None
+        return loaded

@@ -1,0 +1,81 @@
+"""``latency.jsonl``: the steps of each worker, with wall times, apart from the log of the world."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from airhilt.errors import RunFolderError
+from airhilt.sim import StepRecord
+
+
+class LatencyLog:
+    """Writes one line a step; each is with the operating system as soon as it is written."""
+
+    def __init__(self, path: Path) -> None:
+        self._stream = path.open("w", encoding="utf-8", buffering=1)
+
+    def step(self, record: StepRecord) -> None:
+        """Write a finished step."""
+        self._stream.write(
+            f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
+            f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
+            f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}}}\n'
+        )
+
+    def lost(self, worker: str, seq: int, t_ns: int, cause: str) -> None:
+        """Write that a worker was lost at its step ``seq``."""
+        row = {"worker": worker, "seq": seq, "t_ns": t_ns, "lost": cause}
+        self._stream.write(json.dumps(row) + "\n")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._stream.close()
+
+
+@dataclass
+class Loss:
+    """When and why a worker was lost."""
+
+    seq: int
+    t_ns: int
+    cause: str
+
+
+@dataclass
+class RecordedLatencies:
+    """What a latency log says."""
+
+    latencies_ns: dict[str, dict[int, int]] = field(default_factory=dict)
+    outputs: dict[str, dict[int, int]] = field(default_factory=dict)
+    compute_s: dict[str, list[float]] = field(default_factory=dict)
+    losses: dict[str, Loss] = field(default_factory=dict)
+
+
+def read_latencies(path: Path) -> RecordedLatencies:
+    """Return the steps of a run, up to where the file breaks off.
+
+    Raises
+    ------
+    RunFolderError
+        The file cannot be read.
+    """
+    recorded = RecordedLatencies()
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
+    for line in lines:
+        try:
+            row = json.loads(line)
+        except json.JSONDecodeError:
+            break
+        worker, seq = row["worker"], row["seq"]
+        if "lost" in row:
+            recorded.losses[worker] = Loss(seq, row["t_ns"], row["lost"])
+        else:
+            recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
+            recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
+            recorded.compute_s.setdefault(worker, []).append(row["compute_s"])
+    return recorded

@@ -1,0 +1,133 @@
+"""``log.mcap``: every message of a run, by simulation time.
+
+The file depends on nothing but the messages, so two equal runs give equal bytes. It is flushed
+once a simulated second; a run that is killed leaves all but the last of them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import NamedTuple
+
+from mcap.exceptions import McapError
+from mcap.records import Channel, Message
+from mcap.stream_reader import StreamReader
+from mcap.writer import CompressionType, Writer
+from pydantic import BaseModel
+
+from airhilt.errors import RunFolderError
+
+CHUNK_BYTES = 4_000_000
+"""Larger than a second of any run: chunks end at the flushes."""
+
+
+class Logged(NamedTuple):
+    """One message of the log."""
+
+    key: str
+    publisher: str
+    t_ns: int
+    data: bytes
+
+
+class LogWriter:
+    """Writes messages with their JSON Schemas; one channel for each key and publisher."""
+
+    def __init__(self, path: Path) -> None:
+        self._stream = path.open("wb")
+        self._writer = Writer(
+            self._stream, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD
+        )
+        self._writer.start(profile="airhilt", library="airhilt")
+        self._schemas: dict[type[BaseModel], int] = {}
+        self._channels: dict[tuple[str, str], int] = {}
+        self._sequence = 0
+
+    def write(
+        self, key: str, publisher: str, model: type[BaseModel], t_ns: int, data: bytes
+    ) -> None:
+        """Write one message, serialised as JSON already."""
+        channel = self._channels.get((key, publisher))
+        if channel is None:
+            channel = self._register(key, publisher, model)
+        self._sequence += 1
+        self._writer.add_message(channel, t_ns, data, t_ns, self._sequence)
+
+    def _register(self, key: str, publisher: str, model: type[BaseModel]) -> int:
+        schema = self._schemas.get(model)
+        if schema is None:
+            text = json.dumps(model.model_json_schema(), sort_keys=True)
+            schema = self._writer.register_schema(
+                f"airhilt.{model.__name__}", "jsonschema", text.encode()
+            )
+            self._schemas[model] = schema
+        channel = self._writer.register_channel(
+            key, "json", schema, {"publisher": publisher}
+        )
+        self._channels[(key, publisher)] = channel
+        return channel
+
+    def flush(self) -> None:
+        """Hand everything to the operating system, where it outlives this process.
+
+        Raises
+        ------
+        RunFolderError
+            The disk is full or gone.
+        """
+        try:
+            self._writer.flush()
+        except OSError as error:
+            raise RunFolderError(
+                f"{self._stream.name}: cannot be written any more: {error.strerror}; make room, or "
+                "choose another folder with --out"
+            ) from None
+
+    def close(self) -> None:
+        """Write the index and close the file."""
+        if not self._stream.closed:
+            self._writer.finish()
+            self._stream.close()
+
+    def __enter__(self) -> LogWriter:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def read_log(path: Path) -> Iterator[Logged]:
+    """Yield the messages of a log in the order of writing, up to where it breaks off.
+
+    Raises
+    ------
+    RunFolderError
+        The file cannot be read, or is no MCAP file.
+    """
+    channels: dict[int, Channel] = {}
+    try:
+        with path.open("rb") as stream:
+            for record in StreamReader(stream).records:
+                if isinstance(record, Channel):
+                    channels[record.id] = record
+                elif isinstance(record, Message):
+                    channel = channels[record.channel_id]
+                    yield Logged(
+                        channel.topic,
+                        channel.metadata.get("publisher", ""),
+                        record.log_time,
+                        record.data,
+                    )
+    except OSError as error:
+        raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
+    except McapError as error:
+        if not channels:
+            raise RunFolderError(f"{path}: not an MCAP log: {error}") from None

@@ -1,0 +1,336 @@
+"""Loads scenario files; every error names the file, the JSON path, what was found and expected."""
+
+from __future__ import annotations
+
+import json
+import types
+import typing
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from airhilt import library
+from airhilt.errors import AirhiltError, ScenarioError
+from airhilt.flight import AircraftType, load_aircraft_type
+from airhilt.scenario.models import (
+    ActorMount,
+    AllOf,
+    AltitudeDeviation,
+    AnyOf,
+    Condition,
+    LineEnded,
+    Scenario,
+    TimeReached,
+)
+from airhilt.scenario.perturbation import PathError, locate
+
+MAXIMUM_BYTES = 20_000_000
+SHOWN_PROBLEMS = 8
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong in a document."""
+
+    path: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.path or '(top)'}: {self.text}"
+
+
+def load(name_or_file: str | Path) -> Scenario:
+    """Return a scenario that ships with AIRHILT, by name, or one from a file.
+
+    Raises
+    ------
+    ScenarioError
+        There is none of that name, or it is not valid.
+    """
+    path = _resolve(name_or_file)
+    try:
+        if path.stat().st_size > MAXIMUM_BYTES:
+            raise ScenarioError(f"{path}: over {MAXIMUM_BYTES // 1_000_000} MB, no scenario is")
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
+    return parse(text, str(path))
+
+
+def _resolve(name_or_file: str | Path) -> Path:
+    path = Path(name_or_file)
+    if path.suffix == ".json" or len(path.parts) > 1 or path.is_file():
+        if not path.is_file():
+            raise ScenarioError(
+                f"{path}: no such file; give the path of a scenario file, or one of these names: "
+                f"{', '.join(library.names('scenarios'))}"
+            )
+        return path
+    return library.find("scenarios", str(name_or_file))
+
+
+def parse(text: str, origin: str) -> Scenario:
+    """Return the scenario that a JSON text holds; ``origin`` names it in errors.
+
+    Raises
+    ------
+    ScenarioError
+        It is not JSON, or not a valid scenario.
+    """
+    try:
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise ScenarioError(
+            f"{origin}:{error.lineno}:{error.colno}: not valid JSON: {error.msg}"
+        ) from None
+    except RecursionError:
+        raise ScenarioError(f"{origin}: nested too deeply") from None
+    try:
+        scenario = Scenario.model_validate(document)
+    except ValidationError as error:
+        raise ScenarioError(
+            _report(origin, [describe(problem, Scenario) for problem in error.errors()])
+        ) from None
+    problems = list(_cross_checks(scenario))
+    if problems:
+        raise ScenarioError(_report(origin, problems))
+    return scenario
+
+
+def _report(origin: str, problems: Sequence[Problem]) -> str:
+    lines = [f"{origin}: {problem}" for problem in problems[:SHOWN_PROBLEMS]]
+    if len(problems) > SHOWN_PROBLEMS:
+        lines.append(f"{origin}: and {len(problems) - SHOWN_PROBLEMS} more")
+    return "\n".join(lines)
+
+
+# --- errors of the model, in words ---------------------------------------------------------
+
+
+def describe(error: Any, model: type[BaseModel]) -> Problem:
+    """Return one pydantic error as a path, what was found, and what was expected."""
+    path, parent = _walk(model, error["loc"])
+    found = _short(error["input"])
+    context = error.get("ctx", {})
+    match error["type"]:
+        case "extra_forbidden":
+            known = sorted(parent.model_fields) if parent else []
+            tail = library.nearest(str(error["loc"][-1]), known)
+            return Problem(path, f"unknown field{tail}")
+        case "missing":
+            return Problem(path, "missing; it is required")
+        case "union_tag_not_found":
+            return Problem(path, f"field {context['discriminator']} is missing in {found}")
+        case "union_tag_invalid":
+            known = [tag.strip(" '") for tag in str(context["expected_tags"]).split(",")]
+            tail = library.nearest(str(context["tag"]), known)
+            field = str(context["discriminator"]).strip("'")
+            return Problem(
+                f"{path}/{field}", f"found {context['tag']!r}, expected {', '.join(known)}{tail}"
+            )
+        case "literal_error":
+            return Problem(path, f"found {found}, expected {context['expected']}")
+        case _:
+            message = str(error["msg"])
+            return Problem(path, f"found {found}: {message[0].lower()}{message[1:]}")
+
+
+def _short(value: Any) -> str:
+    text = json.dumps(value, default=str)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _walk(model: type[BaseModel], loc: Sequence[str | int]) -> tuple[str, type[BaseModel] | None]:
+    """Return a pydantic location as a JSON path (without union tags) and its last model."""
+    annotation: Any = model
+    parent: type[BaseModel] | None = None
+    chunks: list[str] = []
+    for part in loc:
+        members = _members(annotation)
+        tagged = [member for member in members if _tag(member) == part]
+        if len(members) > 1 and tagged:
+            annotation = tagged[0]
+            continue
+        chunks.append(str(part))
+        if isinstance(part, int):
+            arguments = typing.get_args(annotation)
+            annotation = arguments[0] if arguments else None
+            continue
+        parent = next((member for member in members if _is_model(member)), None)
+        field = parent.model_fields.get(part) if parent else None
+        annotation = field.annotation if field else None
+    return "/".join(chunks), parent
+
+
+def _members(annotation: Any) -> list[Any]:
+    """Return the members of a union, or the annotation alone, stripped of None."""
+    while typing.get_origin(annotation) is typing.Annotated:
+        annotation = typing.get_args(annotation)[0]
+    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+        inner = [a for a in typing.get_args(annotation) if a is not type(None)]
+        return [member for a in inner for member in _members(a)]
+    return [annotation]
+
+
+def _is_model(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
+
+
+def _tag(annotation: Any) -> str | None:
+    """Return the literal by which a member of a discriminated union is known."""
+    if _is_model(annotation):
+        for field in ("type", "action"):
+            if field in annotation.model_fields:
+                literals = typing.get_args(annotation.model_fields[field].annotation)
+                return str(literals[0]) if literals else None
+    return None
+
+
+# --- what one field cannot know of another --------------------------------------------------
+
+
+def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
+    callsigns = [actor.callsign for actor in scenario.actors]
+    line_ids = [line.id for line in scenario.radio.lines]
+    yield from _duplicates("actors", "callsign", callsigns)
+    yield from _duplicates("actors", "icao24", [actor.icao24 for actor in scenario.actors])
+    yield from _duplicates("radio/lines", "id", line_ids)
+    yield from _duplicates("cameras", "name", [camera.name for camera in scenario.cameras])
+    yield from _actors(scenario)
+    yield from _references(scenario, callsigns, line_ids)
+    yield from _perturbations(scenario)
+
+
+def _duplicates(path: str, field: str, values: Sequence[str]) -> Iterator[Problem]:
+    for index, value in enumerate(values):
+        if value in values[:index]:
+            yield Problem(
+                f"{path}/{index}/{field}",
+                f"found {value!r}, which {path}/{values.index(value)} has already; expected a "
+                "different one for each",
+            )
+
+
+def _actors(scenario: Scenario) -> Iterator[Problem]:
+    ground_ft = scenario.scene.terrain_elevation_ft
+    for index, actor in enumerate(scenario.actors):
+        path, initial = f"actors/{index}", actor.initial
+        if initial.altitude_ft <= ground_ft:
+            yield Problem(
+                f"{path}/initial/altitude_ft",
+                f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
+                f"than scene/terrain_elevation_ft, {ground_ft:g}",
+            )
+        if initial.track_deg is None and not actor.route:
+            yield Problem(
+                f"{path}/initial/track_deg", "missing; it is required where there is no route"
+            )
+        try:
+            kind = load_aircraft_type(actor.aircraft)
+        except AirhiltError as error:
+            yield Problem(f"{path}/aircraft", str(error))
+        else:
+            yield from _envelope(f"{path}/initial", initial.altitude_ft, initial.cas_kt, kind)
+
+
+def _envelope(
+    path: str, altitude_ft: float, cas_kt: float, kind: AircraftType
+) -> Iterator[Problem]:
+    speeds = kind.speeds
+    if altitude_ft > speeds.service_ceiling_ft:
+        yield Problem(
+            f"{path}/altitude_ft",
+            f"found {altitude_ft:g}; expected at most the service ceiling of a {kind.name}, "
+            f"{speeds.service_ceiling_ft:g}",
+        )
+    if not speeds.minimum_clean_kt <= cas_kt <= speeds.maximum_kt:
+        yield Problem(
+            f"{path}/cas_kt",
+            f"found {cas_kt:g}; expected {speeds.minimum_clean_kt:g} to {speeds.maximum_kt:g}, "
+            f"what a {kind.name} flies",
+        )
+
+
+def _references(
+    scenario: Scenario, callsigns: list[str], line_ids: list[str]
+) -> Iterator[Problem]:
+    for path, callsign in _mentioned_actors(scenario):
+        if callsign not in callsigns:
+            yield Problem(
+                path, f"no actor {callsign!r}{library.nearest(callsign, callsigns)}"
+            )
+    for path, condition in _conditions(scenario):
+        if isinstance(condition, LineEnded) and condition.line not in line_ids:
+            yield Problem(
+                f"{path}/line",
+                f"no radio line {condition.line!r}{library.nearest(condition.line, line_ids)}",
+            )
+        pair = getattr(condition, "actors", None)
+        if pair is not None and pair[0] == pair[1]:
+            yield Problem(f"{path}/actors", f"found {pair[0]!r} twice; expected two actors")
+    if scenario.conflict is not None and len(set(scenario.conflict.actors)) < 2:
+        yield Problem("conflict/actors", "found one actor twice; expected two actors")
+
+
+def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    for index, line in enumerate(scenario.radio.lines):
+        for number, scripted in enumerate(line.commands):
+            yield f"radio/lines/{index}/commands/{number}/actor", scripted.actor
+    for index, camera in enumerate(scenario.cameras):
+        if isinstance(camera.mount, ActorMount):
+            yield f"cameras/{index}/mount/actor", camera.mount.actor
+    if scenario.conflict is not None:
+        for number, callsign in enumerate(scenario.conflict.actors):
+            yield f"conflict/actors/{number}", callsign
+    for path, condition in _conditions(scenario):
+        match condition:
+            case AltitudeDeviation(actor=callsign):
+                yield f"{path}/actor", callsign
+            case LineEnded() | TimeReached() | AllOf() | AnyOf():
+                pass
+            case pairwise:
+                for number, callsign in enumerate(pairwise.actors):
+                    yield f"{path}/actors/{number}", callsign
+
+
+def _conditions(scenario: Scenario) -> Iterator[tuple[str, Condition]]:
+    if scenario.conflict is not None:
+        yield from _nested("conflict/opens_when", scenario.conflict.opens_when)
+    for index, condition in enumerate(scenario.end_when):
+        yield from _nested(f"end_when/{index}", condition)
+
+
+def _nested(path: str, condition: Condition) -> Iterator[tuple[str, Condition]]:
+    yield path, condition
+    if isinstance(condition, AllOf | AnyOf):
+        for index, inner in enumerate(condition.conditions):
+            yield from _nested(f"{path}/conditions/{index}", inner)
+
+
+def _perturbations(scenario: Scenario) -> Iterator[Problem]:
+    document = scenario.model_dump(mode="json")
+    for index, perturbation in enumerate(scenario.perturbations):
+        path = f"perturbations/{index}/path"
+        try:
+            container, key = locate(document, perturbation.path)
+        except PathError as error:
+            tail = library.nearest(error.chunk, error.known)
+            yield Problem(
+                path, f"{perturbation.path!r} leads nowhere: no {error.chunk!r} there{tail}"
+            )
+            continue
+        value = container[key]
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            yield Problem(
+                path, f"{perturbation.path!r} is {_short(value)}; expected the path of a number"
+            )
+    yield from _duplicates(
+        "perturbations", "path", [perturbation.path for perturbation in scenario.perturbations]
+    )
+
+

@@ -1,0 +1,31 @@
+"""Virtual time: events, paces, and workers as servers that are as slow as they are.
+
+This package knows nothing of aviation. The two names that matter are `Director`, the
+discrete-event loop, and `Server`, one worker in virtual time.
+"""
+
+from airhilt.sim.director import Director, Priority
+from airhilt.sim.latency import LatencySpec, parse_latency
+from airhilt.sim.pace import Pace, RealTime, Virtual, parse_pace
+from airhilt.sim.server import Server, StepRecord
+from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
+
+__all__ = [
+    "Director",
+    "Endpoint",
+    "Input",
+    "LatencySpec",
+    "Output",
+    "Pace",
+    "Pending",
+    "Policy",
+    "Priority",
+    "RealTime",
+    "Reply",
+    "Server",
+    "StepRecord",
+    "Virtual",
+    "WorkerLost",
+    "parse_latency",
+    "parse_pace",
+]

@@ -1,0 +1,106 @@
+"""The discrete-event loop: a heap of (t_ns, priority, sequence)."""
+
+from __future__ import annotations
+
+import heapq
+from collections import deque
+from collections.abc import Callable
+from enum import IntEnum
+from threading import Event
+
+from airhilt.sim.pace import Pace
+
+Action = Callable[[], None]
+
+
+class Priority(IntEnum):
+    """Order of events of one instant: the world moves, then it is sensed, then thought about."""
+
+    PHYSICS = 0
+    SCRIPT = 1
+    SENSOR = 2
+    RESULT = 3
+    START = 4
+    """Workers whose inputs are due are called, all of an instant before any is waited for."""
+    SETTLE = 5
+    OBSERVE = 6
+
+
+class Director:
+    """Runs events in order of simulation time.
+
+    Events of one instant and priority run in the order in which they were scheduled, so a run
+    depends on nothing but what is scheduled. Only `post` may be called from another thread.
+    """
+
+    def __init__(self, pace: Pace) -> None:
+        self.now_ns = 0
+        self.pace = pace
+        self._heap: list[tuple[int, int, int, Action]] = []
+        self._sequence = 0
+        self._posted: deque[Action] = deque()
+        self._wake = Event()
+        self._stopped = False
+
+    def at(self, t_ns: int, action: Action, priority: Priority) -> None:
+        """Schedule ``action`` at ``t_ns``.
+
+        Raises
+        ------
+        ValueError
+            ``t_ns`` lies in the past.
+        """
+        if t_ns < self.now_ns:
+            raise ValueError(f"event at {t_ns} ns, but it is already {self.now_ns} ns")
+        heapq.heappush(self._heap, (t_ns, priority, self._sequence, action))
+        self._sequence += 1
+
+    def every(
+        self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0
+    ) -> None:
+        """Schedule ``action`` at ``first_ns`` and then once every ``period_ns``.
+
+        Raises
+        ------
+        ValueError
+            ``period_ns`` is not positive.
+        """
+        if period_ns <= 0:
+            raise ValueError(f"period of {period_ns} ns; it must be positive")
+
+        def tick() -> None:
+            action()
+            self.at(self.now_ns + period_ns, tick, priority)
+
+        self.at(first_ns, tick, priority)
+
+    def post(self, action: Action) -> None:
+        """Run ``action`` as soon as possible, at whatever time it then is (any thread)."""
+        self._posted.append(action)
+        self._wake.set()
+
+    def stop(self) -> None:
+        """End `run` after the event in hand."""
+        self._stopped = True
+
+    def change_pace(self, pace: Pace) -> None:
+        """Go on at another pace from now."""
+        pace.start(self.now_ns)
+        self.pace = pace
+
+    def run(self) -> None:
+        """Run events until `stop` is called or none is left."""
+        heap, posted, pop = self._heap, self._posted, heapq.heappop
+        self.pace.start(self.now_ns)
+        while heap and not self._stopped:
+            t_ns = heap[0][0]
+            is_due = bool(posted) or self.pace.wait_until(t_ns, self._wake)
+            if posted:
+                self._wake.clear()
+                self.now_ns = max(self.now_ns, min(self.pace.elapsed_ns(self.now_ns), t_ns))
+                posted.popleft()()
+            elif is_due:
+                self.now_ns, _, _, action = pop(heap)
+                action()
+            else:
+                self._wake.clear()

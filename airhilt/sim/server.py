@@ -1,0 +1,194 @@
+"""One worker as a server in virtual time."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from airhilt.errors import WorkerError
+from airhilt.sim.director import Director, Priority
+from airhilt.sim.latency import LatencySource
+from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
+from airhilt.units import seconds_to_ns
+
+
+@dataclass(frozen=True, slots=True)
+class StepRecord:
+    """One finished step, for the latency log."""
+
+    worker: str
+    seq: int
+    t_in_ns: int
+    t_start_ns: int
+    latency_ns: int
+    compute_s: float
+    outputs: int
+
+
+class Server:
+    """Queues what reaches a worker, calls it when it is free, delivers its results late.
+
+    An input that comes at t_in starts at max(t_in, busy until) and its results leave one latency
+    later. With a latency that is known beforehand the result is only collected when it is due,
+    so the simulation goes on while the worker computes.
+
+    Parameters
+    ----------
+    deliver
+        Called with each output at the time it leaves the worker.
+    done
+        Called with the record of each finished step.
+    lost
+        Called once with the cause when the worker is lost; it is never called again.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        director: Director,
+        endpoint: Endpoint,
+        latency: LatencySource,
+        *,
+        deliver: Callable[[Output], None],
+        done: Callable[[StepRecord], None],
+        lost: Callable[[str, int], None],
+    ) -> None:
+        self.name = name
+        self.dropped: Counter[str] = Counter()
+        self.is_lost = False
+        self._director = director
+        self._endpoint = endpoint
+        self._latency = latency
+        self._deliver = deliver
+        self._done = done
+        self._lost = lost
+        self._waiting: deque[tuple[Policy, Input]] = deque()
+        self._busy = False
+        self._seq = 0
+        self._wake_ns: int | None = None
+
+    def offer(self, item: Input, policy: Policy) -> None:
+        """Queue an input that has reached the worker now."""
+        if self.is_lost:
+            return
+        if policy == "latest":
+            self._drop_older(item.key)
+        self._waiting.append((policy, item))
+        if not self._busy:
+            self._busy = True
+            self._director.at(self._director.now_ns, self._start, Priority.START)
+
+    def lose(self, cause: str) -> None:
+        """Give the worker up: what waits for it is dropped, and nothing more is sent."""
+        if not self.is_lost:
+            self.is_lost = True
+            self._waiting.clear()
+            self._lost(cause, self._seq)
+
+    def _drop_older(self, key: str) -> None:
+        kept = [entry for entry in self._waiting if entry[1].key != key]
+        self.dropped[key] += len(self._waiting) - len(kept)
+        self._waiting = deque(kept)
+
+    def _take(self) -> tuple[Input, ...]:
+        """Take the oldest input, and with a batched one all other batched ones."""
+        if not self._waiting:
+            return ()
+        policy, first = self._waiting.popleft()
+        if policy != "batch":
+            return (first,)
+        batch = [first, *(item for other, item in self._waiting if other == "batch")]
+        self._waiting = deque(entry for entry in self._waiting if entry[0] != "batch")
+        return tuple(batch)
+
+    def _start(self) -> None:
+        if self.is_lost:
+            return
+        inputs = self._take()
+        now_ns, seq = self._director.now_ns, self._seq
+        self._seq += 1
+        self._wake_ns = None
+        t_in_ns = inputs[0].t_in_ns if inputs else now_ns
+        pending = self._endpoint.dispatch(seq, now_ns, inputs)
+        known_ns = self._latency.known_ns(seq)
+        if known_ns is None:
+            self._director.at(
+                now_ns, lambda: self._settle(pending, seq, t_in_ns), Priority.SETTLE
+            )
+        else:
+            self._director.at(
+                now_ns + known_ns,
+                lambda: self._collect_due(pending, seq, t_in_ns, now_ns, known_ns),
+                Priority.RESULT,
+            )
+
+    def _settle(self, pending: Pending, seq: int, t_in_ns: int) -> None:
+        """Wait for a step whose own compute time is its latency."""
+        reply = self._collect(pending)
+        if reply is None:
+            return
+        start_ns, latency_ns = self._director.now_ns, seconds_to_ns(reply.compute_s)
+        self._director.at(
+            start_ns + latency_ns,
+            lambda: self._finish(reply, seq, t_in_ns, start_ns, latency_ns),
+            Priority.RESULT,
+        )
+
+    def _collect_due(
+        self, pending: Pending, seq: int, t_in_ns: int, start_ns: int, latency_ns: int
+    ) -> None:
+        reply = self._collect(pending)
+        if reply is not None:
+            self._finish(reply, seq, t_in_ns, start_ns, latency_ns)
+
+    def _collect(self, pending: Pending) -> Reply | None:
+        if self.is_lost:
+            return None
+        try:
+            return pending.result()
+        except WorkerLost as lost:
+            self.lose(str(lost))
+            return None
+
+    def _finish(
+        self, reply: Reply, seq: int, t_in_ns: int, start_ns: int, latency_ns: int
+    ) -> None:
+        now_ns = self._director.now_ns
+        for output in reply.outputs:
+            self._send(output, start_ns)
+        self._done(
+            StepRecord(
+                self.name, seq, t_in_ns, start_ns, latency_ns, reply.compute_s, len(reply.outputs)
+            )
+        )
+        if self._waiting:
+            self._director.at(now_ns, self._start, Priority.START)
+            return
+        self._busy = False
+        if reply.wake_ns is not None:
+            if reply.wake_ns <= start_ns:
+                raise WorkerError(
+                    f"worker {self.name!r} asked to be woken at {reply.wake_ns} ns in a step that "
+                    f"began at {start_ns} ns; expected a later time or null"
+                )
+            self._wake_ns = max(reply.wake_ns, now_ns)
+            self._director.at(self._wake_ns, self._wake_up, Priority.START)
+
+    def _send(self, output: Output, start_ns: int) -> None:
+        if output.t_out_ns is None or start_ns <= output.t_out_ns <= self._director.now_ns:
+            self._deliver(output)
+        elif output.t_out_ns < start_ns:
+            raise WorkerError(
+                f"worker {self.name!r} sent {output.key!r} with t_out_ns {output.t_out_ns}, before "
+                f"its step began at {start_ns} ns; expected a time from then on, or null"
+            )
+        else:
+            self._director.at(
+                output.t_out_ns, lambda: self._deliver(output), Priority.RESULT
+            )
+
+    def _wake_up(self) -> None:
+        if not self._busy and not self.is_lost and self._wake_ns == self._director.now_ns:
+            self._busy = True
+            self._start()

@@ -1,0 +1,159 @@
+"""When TCAS II would speak: the published thresholds, applied to true states.
+
+Source: FAA, Introduction to TCAS II Version 7.1 (2011), table 2 and the section on inhibits;
+modified tau as in RTCA DO-185B and Munoz, Narkawicz, Chamberlain, "A TCAS-II Resolution Advisory
+Detection Algorithm" (AIAA 2013-4622). The horizontal miss distance filter is left out, so the
+times are the earliest at which TCAS would speak. Both aircraft are taken to be equipped.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple
+
+from airhilt.surveillance.kinematics import Relative, VerticalProfile
+from airhilt.units import FOOT, NAUTICAL_MILE
+
+Alert = Literal["tcas_ta", "tcas_ra"]
+
+CYCLE_S = 1.0
+"""TCAS surveillance runs once a second."""
+
+
+class Thresholds(NamedTuple):
+    """Of one alert in one sensitivity level."""
+
+    tau_s: float
+    dmod_m: float
+    zthr_m: float
+
+
+class SensitivityLevel(NamedTuple):
+    """One row of table 2; ``resolution`` is None where none is given."""
+
+    level: int
+    traffic: Thresholds
+    resolution: Thresholds | None
+
+
+def _thresholds(tau_s: float, dmod_nm: float, zthr_ft: float) -> Thresholds:
+    return Thresholds(tau_s, dmod_nm * NAUTICAL_MILE, zthr_ft * FOOT)
+
+
+_LEVEL_2 = SensitivityLevel(2, _thresholds(20, 0.30, 850), None)
+_LEVEL_3 = SensitivityLevel(3, _thresholds(25, 0.33, 850), _thresholds(15, 0.20, 600))
+_BY_ALTITUDE_FT = (
+    (5_000, SensitivityLevel(4, _thresholds(30, 0.48, 850), _thresholds(20, 0.35, 600))),
+    (10_000, SensitivityLevel(5, _thresholds(40, 0.75, 850), _thresholds(25, 0.55, 600))),
+    (20_000, SensitivityLevel(6, _thresholds(45, 1.00, 850), _thresholds(30, 0.80, 600))),
+    (42_000, SensitivityLevel(7, _thresholds(48, 1.30, 850), _thresholds(35, 1.10, 700))),
+)
+_ABOVE = SensitivityLevel(7, _thresholds(48, 1.30, 1200), _thresholds(35, 1.10, 800))
+
+TRAFFIC_INHIBITED_BELOW_M = 500 * FOOT
+"""Height below which the traffic advisory is not announced."""
+RESOLUTION_INHIBITED_BELOW_M = 1000 * FOOT
+"""Height below which no resolution advisory is given."""
+INTRUDER_ON_GROUND_BELOW_M = 380 * FOOT
+"""Height below which an intruder counts as on the ground while own height is under 1700 ft."""
+OWN_LOW_M = 1700 * FOOT
+
+
+def sensitivity_level(altitude_m: float, height_m: float) -> SensitivityLevel:
+    """Return the row for an own pressure altitude and a height above ground."""
+    if height_m < 1000 * FOOT:
+        return _LEVEL_2
+    if height_m < 2350 * FOOT:
+        return _LEVEL_3
+    return next(
+        (row for limit_ft, row in _BY_ALTITUDE_FT if altitude_m < limit_ft * FOOT), _ABOVE
+    )
+
+
+def _range_test(motion: Relative, thresholds: Thresholds) -> bool:
+    """Return whether the pair is within DMOD or closes with a modified tau within the limit."""
+    distance = motion.distance_m
+    if distance <= thresholds.dmod_m:
+        return True
+    rate = (
+        motion.north_m * motion.velocity_north_m_s + motion.east_m * motion.velocity_east_m_s
+    ) / distance
+    if rate >= 0.0:
+        return False
+    return (thresholds.dmod_m**2 - distance**2) / (distance * rate) <= thresholds.tau_s
+
+
+def _altitude_test(gap_m: float, gap_rate_m_s: float, thresholds: Thresholds) -> bool:
+    """Return whether the pair is within ZTHR or will be co-altitude within tau."""
+    if abs(gap_m) <= thresholds.zthr_m:
+        return True
+    return gap_m * gap_rate_m_s < 0.0 and -gap_m / gap_rate_m_s <= thresholds.tau_s
+
+
+class Own(NamedTuple):
+    """What TCAS knows of its own aircraft and of the intruder's height."""
+
+    altitude_m: float
+    height_m: float
+    intruder_height_m: float
+
+
+def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
+    """Return what TCAS II on the own aircraft would say at this instant.
+
+    Parameters
+    ----------
+    motion
+        The intruder relative to the own aircraft.
+    gap_m, gap_rate_m_s
+        Its altitude less the own one, and how that changes.
+    """
+    if own.height_m < TRAFFIC_INHIBITED_BELOW_M:
+        return None
+    if own.height_m < OWN_LOW_M and own.intruder_height_m < INTRUDER_ON_GROUND_BELOW_M:
+        return None
+    row = sensitivity_level(own.altitude_m, own.height_m)
+    for name, thresholds in (("tcas_ra", row.resolution), ("tcas_ta", row.traffic)):
+        if thresholds is None:
+            continue
+        if name == "tcas_ra" and own.height_m < RESOLUTION_INHIBITED_BELOW_M:
+            continue
+        if _range_test(motion, thresholds) and _altitude_test(gap_m, gap_rate_m_s, thresholds):
+            return "tcas_ra" if name == "tcas_ra" else "tcas_ta"
+    return None
+
+
+class Projection(NamedTuple):
+    """How long until each alert, if both fly on as they do; None if it would not come."""
+
+    traffic_s: float | None
+    resolution_s: float | None
+
+
+def project(
+    motion: Relative,
+    own: VerticalProfile,
+    other: VerticalProfile,
+    ground_m: float,
+    horizon_s: float = 1200.0,
+) -> Projection:
+    """Return when TCAS II would speak if nobody did anything.
+
+    Steps by TCAS's own cycle of one second; a resolution advisory counts as a traffic advisory
+    where none came before.
+    """
+    first: dict[Alert, float] = {}
+    for step in range(math.ceil(horizon_s / CYCLE_S)):
+        time_s = step * CYCLE_S
+        own_m, other_m = own.at(time_s), other.at(time_s)
+        gap = other_m - own_m
+        rate = (other.at(time_s + 0.5) - own.at(time_s + 0.5) - gap) / 0.5
+        said = alert(
+            motion.at(time_s), gap, rate, Own(own_m, own_m - ground_m, other_m - ground_m)
+        )
+        if said is not None:
+            first.setdefault("tcas_ta", time_s)
+            first.setdefault(said, time_s)
+        if "tcas_ra" in first:
+            break
+    return Projection(first.get("tcas_ta"), first.get("tcas_ra"))

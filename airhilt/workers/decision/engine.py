@@ -1,0 +1,426 @@
+"""The reference decision engine for airborne conflicts (S02A).
+
+It keeps a track of each aircraft, foresees losses of separation, compares readbacks with
+clearances, and tells the crews and the controller: one advisory a conflict, which escalates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from airhilt.messages import (
+    AdsbReport,
+    Advisory,
+    Climb,
+    DeclaredLatency,
+    Evidence,
+    InputSpec,
+    MaintainLevel,
+    Recommendation,
+    Severity,
+    Transcript,
+    Turn,
+    WorkerDescription,
+)
+from airhilt.radio.phraseology import Call, parse_call
+from airhilt.sim.worker import Input, Output
+from airhilt.surveillance.kinematics import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.workers.decision.resolution import resolve
+from airhilt.workers.decision.tracks import Track
+from airhilt.workers.protocol import Step
+
+CONTROLLER = "ATC"
+
+
+@dataclass(frozen=True)
+class DecisionConfig:
+    """Thresholds of the reference decision engine.
+
+    The look-ahead times follow those of ground-based short-term conflict alert, about two
+    minutes (EUROCONTROL-GUID-159, edition 1.0), with an earlier ADVISORY and a later WARNING.
+    """
+
+    horizontal_m: float = 5.0 * NAUTICAL_MILE
+    vertical_m: float = 1000.0 * FOOT
+    vertical_tolerance_m: float = 150.0 * FOOT
+    """Level keeping, the 25 ft steps of ADS-B and the spread of its vertical rate."""
+    advisory_s: float = 180.0
+    caution_s: float = 120.0
+    warning_s: float = 60.0
+    persistence_s: float = 1.0
+    """How long a severity must hold before it is told."""
+    release_s: float = 8.0
+    """How long a conflict must be over before it is told so."""
+    stale_s: float = 15.0
+    """Age at which a track is dropped."""
+    readback_window_s: float = 30.0
+    """A readback later than this after its clearance belongs to something else."""
+
+    @property
+    def standard(self) -> Minima:
+        """The separation minima."""
+        return Minima(self.horizontal_m, self.vertical_m)
+
+    @property
+    def infringed(self) -> Minima:
+        """Where separation counts as lost."""
+        return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_m)
+
+
+@dataclass(slots=True)
+class _Conflict:
+    """One conflict from first suspicion to its end."""
+
+    id: str
+    pair: tuple[str, str]
+    severity: Severity | None = None
+    """Told last; None before the first advisory."""
+    revision: int = 0
+    rising: Severity | None = None
+    rising_since_ns: int = 0
+    quiet_since_ns: int | None = None
+    recommendations: tuple[Recommendation | None, Recommendation | None] = (None, None)
+
+
+@dataclass(slots=True)
+class _Clearance:
+    """The last level that the controller gave to an aircraft."""
+
+    altitude_ft: float
+    t_end_ns: int
+
+
+class _Prediction(NamedTuple):
+    """What lies ahead of a pair."""
+
+    time_to_loss_s: float | None
+    time_to_closest_approach_s: float
+    horizontal_m: float
+    vertical_m: float
+    is_past: bool
+    """The two will not come within the horizontal minimum again."""
+
+    def evidence(self) -> Evidence:
+        """Return it as an advisory gives it."""
+        return Evidence(
+            sources=("adsb",),
+            time_to_loss_s=self.time_to_loss_s,
+            time_to_closest_approach_s=self.time_to_closest_approach_s,
+            horizontal_at_closest_approach_m=self.horizontal_m,
+            vertical_at_closest_approach_m=self.vertical_m,
+        )
+
+
+class DecisionWorker:
+    """Implements `airhilt.workers.Worker` for conflicts in the air."""
+
+    def __init__(self, config: DecisionConfig | None = None, name: str = "decision") -> None:
+        self.config = config or DecisionConfig()
+        self.description = WorkerDescription(
+            name=name,
+            modality="decision",
+            inputs=(
+                InputSpec(key="adsb/*", policy="batch"),
+                InputSpec(key="asr/*", policy="batch"),
+            ),
+            latency=DeclaredLatency(median_s=0.15, sigma=0.3),
+        )
+        self._infringed = self.config.infringed
+        self._tracks: dict[str, Track] = {}
+        self._clearances: dict[str, _Clearance] = {}
+        self._conflicts: dict[tuple[str, str], _Conflict] = {}
+        self._told = 0
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        """Take in reports and transcripts; tell what has changed."""
+        updated: dict[str, None] = {}
+        advisories: list[Advisory] = []
+        for item in inputs:
+            if item.key.startswith("adsb/"):
+                updated[self._take_report(AdsbReport.model_validate_json(item.payload))] = None
+            else:
+                transcript = Transcript.model_validate_json(item.payload)
+                advisories += self._take_transcript(t_ns, item.t_in_ns, transcript)
+        t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
+        self._drop_stale(t_ns)
+        for pair in self._pairs_of(updated):
+            advisories += self._judge(t_ns, t_ready_ns, pair)
+        return Step(
+            tuple(
+                Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
+                for advisory in advisories
+            )
+        )
+
+    # --- what is known ----------------------------------------------------------------------
+
+    def _take_report(self, report: AdsbReport) -> str:
+        track = self._tracks.get(report.icao24)
+        if track is None:
+            self._tracks[report.icao24] = Track.of(report)
+        else:
+            track.update(report)
+        return report.icao24
+
+    def _drop_stale(self, t_ns: int) -> None:
+        oldest = t_ns - round(self.config.stale_s * SECOND_NS)
+        for icao24 in [key for key, track in self._tracks.items() if track.t_ns < oldest]:
+            del self._tracks[icao24]
+
+    def _pairs_of(self, updated: dict[str, None]) -> Iterator[tuple[str, str]]:
+        seen = set()
+        for icao24 in updated:
+            for other in self._tracks:
+                pair = (icao24, other) if icao24 < other else (other, icao24)
+                if icao24 != other and pair not in seen and icao24 in self._tracks:
+                    seen.add(pair)
+                    yield pair
+
+    def _by_callsign(self, callsign: str) -> Track | None:
+        return next((t for t in self._tracks.values() if t.callsign == callsign), None)
+
+    # --- readbacks --------------------------------------------------------------------------
+
+    def _take_transcript(
+        self, t_ns: int, t_in_ns: int, transcript: Transcript
+    ) -> list[Advisory]:
+        call = parse_call(transcript.text, [t.callsign for t in self._tracks.values()])
+        track = self._by_callsign(call.callsign) if call.callsign else None
+        if track is None or call.altitude_ft is None:
+            return []
+        if call.addressed_first:
+            self._clearances[track.callsign] = _Clearance(call.altitude_ft, transcript.t_end_ns)
+            return []
+        given = self._clearances.get(track.callsign)
+        track.cleared_m = call.altitude_ft * FOOT
+        if (
+            given is None
+            or call.altitude_ft == given.altitude_ft
+            or transcript.t_tx_ns - given.t_end_ns > self.config.readback_window_s * SECOND_NS
+        ):
+            return []
+        return self._tell_mismatch(t_ns, t_in_ns, track, call, given.altitude_ft)
+
+    def _tell_mismatch(
+        self, t_ns: int, t_in_ns: int, track: Track, call: Call, cleared_ft: float
+    ) -> list[Advisory]:
+        """Readback mismatch with activity at the wrong level: CAUTION (the ladder's step a)."""
+        threatened = self._threatened(t_ns, track, call)
+        if threatened is None:
+            return []
+        self._told += 1
+        recommendation = MaintainLevel(altitude_ft=cleared_ft)
+        traffic = (track.callsign, threatened.callsign)
+        text = (
+            f"read back flight level {call.altitude_ft or 0.0:.0f} ft, cleared "
+            f"{cleared_ft:.0f} ft, traffic {threatened.callsign}"
+        )
+        return [
+            Advisory(
+                id=f"readback-{track.callsign}-{self._told}",
+                revision=0,
+                recipient=recipient,
+                recipients=(track.callsign, CONTROLLER),
+                kind="readback_mismatch",
+                severity=Severity.CAUTION,
+                traffic=traffic,
+                message=f"{track.callsign} {text}",
+                recommendation=recommendation if recipient == track.callsign else None,
+                evidence=Evidence(sources=("radio", "adsb"), note=text),
+                t_ready_ns=t_in_ns,
+            )
+            for recipient in (track.callsign, CONTROLLER)
+        ]
+
+    def _threatened(self, t_ns: int, track: Track, call: Call) -> Track | None:
+        """Return who would lose separation if the aircraft flew to the level read back."""
+        own = track.at(t_ns)
+        target_m = (call.altitude_ft or 0.0) * FOOT
+        low, high = sorted((own.altitude_m, target_m))
+        for other in self._tracks.values():
+            if other.icao24 == track.icao24:
+                continue
+            ahead = other.at(t_ns)
+            interval = relative(own, ahead).interval_within(self.config.horizontal_m)
+            near = interval is not None and interval[1] > 0.0
+            level = ahead.profile().at(60.0)
+            if near and low - self.config.vertical_m < level < high + self.config.vertical_m:
+                return ahead
+        return None
+
+    # --- losses of separation ---------------------------------------------------------------
+
+    def _judge(self, t_ns: int, t_ready_ns: int, pair: tuple[str, str]) -> list[Advisory]:
+        """Predict one pair, and tell it if that changes what is known of its conflict."""
+        first, second = (self._tracks[icao24].at(t_ns) for icao24 in pair)
+        prediction = self._predict(first, second)
+        conflict = self._conflicts.get(pair)
+        level = self._grade(prediction.time_to_loss_s)
+        if conflict is None:
+            if level is None:
+                return []
+            self._told += 1
+            conflict = _Conflict(f"separation-{self._told}", pair)
+            self._conflicts[pair] = conflict
+        if level is None:
+            return self._calm(t_ns, t_ready_ns, conflict, prediction, first, second)
+        conflict.quiet_since_ns = None
+        if conflict.severity is not None and level.rank <= conflict.severity.rank:
+            conflict.rising = None
+            return []
+        if conflict.rising is None or level.rank < conflict.rising.rank:
+            conflict.rising, conflict.rising_since_ns = level, t_ns
+        if t_ns - conflict.rising_since_ns < self.config.persistence_s * SECOND_NS:
+            return []
+        conflict.severity, conflict.rising = level, None
+        return self._tell(t_ready_ns, conflict, prediction, first, second)
+
+    def _predict(self, first: Track, second: Track) -> _Prediction:
+        motion = relative(first, second)
+        profiles = (first.profile(), second.profile())
+        loss = time_to_loss_s(motion, *profiles, self._infringed)
+        approach = max(motion.time_to_closest_approach_s(), 0.0)
+        return _Prediction(
+            loss,
+            approach,
+            motion.at(approach).distance_m,
+            _gap(profiles, approach),
+            is_past=self._is_past(motion.interval_within(self.config.horizontal_m)),
+        )
+
+    def _is_past(self, interval: tuple[float, float] | None) -> bool:
+        return interval is None or interval[1] <= 0.0 or interval[0] > self.config.advisory_s
+
+    def _grade(self, time_to_loss: float | None) -> Severity | None:
+        config = self.config
+        if time_to_loss is None or time_to_loss > config.advisory_s:
+            return None
+        if time_to_loss <= config.warning_s:
+            return Severity.WARNING
+        return Severity.CAUTION if time_to_loss <= config.caution_s else Severity.ADVISORY
+
+    def _calm(
+        self,
+        t_ns: int,
+        t_ready_ns: int,
+        conflict: _Conflict,
+        prediction: _Prediction,
+        first: Track,
+        second: Track,
+    ) -> list[Advisory]:
+        """End a conflict once it is over for good.
+
+        While a recommendation is being followed the prediction is clear, but going back to the
+        old level would bring the conflict back: it stays until the two are past each other.
+        """
+        conflict.rising = None
+        if conflict.severity is None:
+            del self._conflicts[conflict.pair]
+            return []
+        if not prediction.is_past and conflict.severity.rank >= Severity.CAUTION.rank:
+            conflict.quiet_since_ns = None
+            return []
+        if conflict.quiet_since_ns is None:
+            conflict.quiet_since_ns = t_ns
+        if t_ns - conflict.quiet_since_ns < self.config.release_s * SECOND_NS:
+            return []
+        del self._conflicts[conflict.pair]
+        return self._advisories(t_ready_ns, conflict, prediction, first, second, active=False)
+
+    def _tell(
+        self,
+        t_ready_ns: int,
+        conflict: _Conflict,
+        prediction: _Prediction,
+        first: Track,
+        second: Track,
+    ) -> list[Advisory]:
+        if conflict.severity in (Severity.CAUTION, Severity.WARNING):
+            resolution = resolve(
+                first,
+                second,
+                self.config.standard,
+                self._infringed,
+                strong=conflict.severity is Severity.WARNING and conflict.revision > 0,
+            )
+            conflict.recommendations = (resolution.first, resolution.second)
+        return self._advisories(t_ready_ns, conflict, prediction, first, second, active=True)
+
+    def _advisories(
+        self,
+        t_ready_ns: int,
+        conflict: _Conflict,
+        prediction: _Prediction,
+        first: Track,
+        second: Track,
+        active: bool,
+    ) -> list[Advisory]:
+        """Return the advisory for each recipient; crews hear from CAUTION on."""
+        severity = conflict.severity or Severity.INFO
+        to_crews = severity.rank >= Severity.CAUTION.rank
+        callsigns = (first.callsign, second.callsign)
+        recipients = (*callsigns, CONTROLLER) if to_crews else (CONTROLLER,)
+        recommended = dict(zip(callsigns, conflict.recommendations, strict=True))
+        told = []
+        for recipient in recipients:
+            recommendation = recommended.get(recipient) if active else None
+            told.append(
+                Advisory(
+                    id=conflict.id,
+                    revision=conflict.revision,
+                    recipient=recipient,
+                    recipients=recipients,
+                    kind="loss_of_separation",
+                    severity=severity if active else Severity.INFO,
+                    active=active,
+                    traffic=callsigns,
+                    message=_words(recipient, callsigns, recommended, prediction, active),
+                    recommendation=recommendation,
+                    evidence=prediction.evidence(),
+                    t_ready_ns=t_ready_ns,
+                )
+            )
+        conflict.revision += 1
+        return told
+
+
+def _gap(profiles: tuple[VerticalProfile, VerticalProfile], time_s: float) -> float:
+    return abs(profiles[0].at(time_s) - profiles[1].at(time_s))
+
+
+def _words(
+    recipient: str,
+    callsigns: tuple[str, str],
+    recommended: dict[str, Recommendation | None],
+    prediction: _Prediction,
+    active: bool,
+) -> str:
+    if not active:
+        return "clear of conflict"
+    loss = prediction.time_to_loss_s or 0.0
+    if recipient not in callsigns:
+        advice = "; ".join(
+            f"{callsign} {_advice(recommendation)}"
+            for callsign, recommendation in recommended.items()
+            if recommendation is not None
+        )
+        text = f"{callsigns[0]} and {callsigns[1]} lose separation in {loss:.0f} s"
+        return f"{text}; {advice}" if advice else text
+    other = callsigns[1] if recipient == callsigns[0] else callsigns[0]
+    advice = _advice(recommended[recipient])
+    return f"{recipient} traffic {other}, loss of separation in {loss:.0f} s, {advice}"
+
+
+def _advice(recommendation: Recommendation | None) -> str:
+    match recommendation:
+        case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate):
+            return f"{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
+        case MaintainLevel(altitude_ft=altitude):
+            return f"maintain {altitude:.0f} ft"
+        case Turn(degrees=degrees):
+            return f"turn {'right' if degrees >= 0 else 'left'} {abs(degrees):.0f} degrees"
+        case None:
+            return "maintain present level and track"

@@ -1,0 +1,158 @@
+"""The workers of a run: who they are, what reaches them, what they may say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from pydantic import ValidationError
+
+from airhilt.errors import WorkerError
+from airhilt.messages import WORKER_OUTPUTS, Advisory, Message, WorkerDescription
+from airhilt.sim import (
+    Director,
+    Endpoint,
+    Input,
+    LatencySpec,
+    Output,
+    Policy,
+    Server,
+    StepRecord,
+)
+
+
+@dataclass(frozen=True)
+class Participant:
+    """A worker that takes part, wherever it runs."""
+
+    description: WorkerDescription
+    endpoint: Endpoint
+    attached: bool
+    """In another process."""
+
+
+class WorkerPool:
+    """Routes messages to workers and checks what they give back.
+
+    Parameters
+    ----------
+    publish
+        Called with key, checked message and worker when an output leaves a worker.
+    done
+        Called with the record of each finished step.
+    lost
+        Called with description, cause and step when a worker is lost.
+
+    Raises
+    ------
+    WorkerError
+        A worker asks for truth.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        participants: Sequence[Participant],
+        latency: LatencySpec,
+        seed: int,
+        *,
+        publish: Callable[[str, Message, str], None],
+        done: Callable[[StepRecord], None],
+        lost: Callable[[WorkerDescription, str, int], None],
+    ) -> None:
+        self._director = director
+        self._publish = publish
+        self._inputs: list[tuple[Server, dict[str, Policy]]] = []
+        self._routes: dict[str, list[tuple[Server, Policy]]] = {}
+        self.servers: dict[str, Server] = {}
+        for participant in participants:
+            description = participant.description
+            server = Server(
+                description.name,
+                director,
+                participant.endpoint,
+                latency.source(
+                    description.name, seed, description.latency.median_s, description.latency.sigma
+                ),
+                deliver=lambda output, name=description.name: self._deliver(name, output),
+                done=done,
+                lost=lambda cause, seq, worker=description: lost(worker, cause, seq),
+            )
+            policies: dict[str, Policy] = {}
+            for wanted in description.inputs:
+                if wanted.key.split("/")[0] in ("truth", "**", "*"):
+                    raise WorkerError(
+                        f"worker {description.name!r} asks for {wanted.key!r}; truth never "
+                        "reaches a worker, so the first part of a key must be named: adsb/*"
+                    )
+                policies[wanted.key] = wanted.policy
+            self.servers[description.name] = server
+            self._inputs.append((server, policies))
+
+    def offer(self, key: str, message: Message, data: bytes) -> None:
+        """Give a message to the workers that want its key."""
+        routes = self._routes.get(key)
+        if routes is None:
+            routes = self._routes[key] = [
+                (server, policy)
+                for server, policies in self._inputs
+                if (policy := policy_of(key, policies)) is not None
+            ]
+        for server, policy in routes:
+            server.offer(Input(key, message.t_ns, data), policy)
+
+    def inputs_dropped(self) -> dict[str, int]:
+        """Return how many inputs were dropped as out of date, by worker and key."""
+        return {
+            f"{name}: {key}": count
+            for name, server in self.servers.items()
+            for key, count in sorted(server.dropped.items())
+        }
+
+    def _deliver(self, worker: str, output: Output) -> None:
+        message = parse_output(worker, output.key, output.payload)
+        stamped = message.model_copy(update={"t_ns": self._director.now_ns})
+        self._publish(output.key, stamped, worker)
+
+
+def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
+    """Return the policy for ``key`` among patterns in which ``*`` stands for one chunk."""
+    chunks = key.split("/")
+    for pattern, policy in policies.items():
+        parts = pattern.split("/")
+        if len(parts) == len(chunks) and all(
+            part in ("*", chunk) for part, chunk in zip(parts, chunks, strict=True)
+        ):
+            return policy
+    return None
+
+
+def parse_output(worker: str, key: str, payload: bytes) -> Message:
+    """Return the message that a worker put on a key.
+
+    Raises
+    ------
+    WorkerError
+        It may not publish there, or the payload is not what belongs there.
+    """
+    model = WORKER_OUTPUTS.get(key.split("/")[0])
+    if model is None:
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r}; expected a key under "
+            f"{', '.join(sorted(WORKER_OUTPUTS))}"
+        )
+    try:
+        message = model.model_validate_json(payload)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = "/".join(str(part) for part in first["loc"])
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} something that is no {model.__name__}: "
+            f"{where or 'payload'}: {first['msg']}; see `airhilt schema`"
+        ) from None
+    if isinstance(message, Advisory) and key != f"advisory/{message.recipient}":
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} an advisory for {message.recipient!r}; "
+            "expected the recipient in the key"
+        )
+    return message

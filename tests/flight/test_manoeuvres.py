@@ -1,0 +1,149 @@
+"""What an aircraft is told to do, it does: climbs, turns, speeds, avoidance."""
+
+import math
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from airhilt.flight import Atmosphere
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
+
+CLIMBS = {"737": (2_000, 1_500), "B747": (2_000, 1_500), "c172p": (500, 500), "c310": (500, 1_000)}
+"""Feet, and feet per minute."""
+
+
+@pytest.mark.parametrize("sign", [1, -1], ids=["climb", "descent"])
+def test_it_changes_level_and_levels_off_without_overshoot(name, sign, in_cruise, states):
+    feet, rate_fpm = CLIMBS[name]
+    aircraft = in_cruise(name)
+    start = aircraft.state.altitude_m
+    target = start + sign * feet * FOOT
+    aircraft.hold_altitude(target, rate_fpm * FOOT_PER_MINUTE)
+    assert aircraft.target_altitude_m == target
+    flown = list(states(aircraft, feet / rate_fpm * 60 + 45))
+    assert max(sign * (state.altitude_m - target) for state in flown) < 50 * FOOT
+    assert flown[-1].altitude_m == pytest.approx(target, abs=20 * FOOT)
+    halfway = flown[round(feet / rate_fpm * 60 * 20 / 2)]
+    assert sign * halfway.vertical_rate_m_s == pytest.approx(rate_fpm * FOOT_PER_MINUTE, rel=0.15)
+    assert aircraft.target_vertical_rate_m_s == pytest.approx(0.0, abs=1.0)
+
+
+@pytest.mark.parametrize("name", ["737", "B747"])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_an_avoidance_climb_is_established_within_7_seconds(name, sign, in_cruise, states):
+    aircraft = in_cruise(name)
+    rate = 1_500 * FOOT_PER_MINUTE
+    aircraft.hold_altitude(aircraft.state.altitude_m + sign * 1_000 * FOOT, rate)
+    reached = next(
+        tick / 20
+        for tick, state in enumerate(states(aircraft, 20))
+        if sign * state.vertical_rate_m_s > 0.9 * rate
+    )
+    assert reached < 7.0
+
+
+@pytest.mark.parametrize("angle_deg", [30, -30])
+def test_it_turns_by_an_angle(name, angle_deg, in_cruise, states):
+    aircraft = in_cruise(name)
+    altitude = aircraft.state.altitude_m
+    aircraft.turn_by(angle_deg * DEGREE)
+    flown = list(states(aircraft, 60))
+    target = (60 + angle_deg) * DEGREE
+    assert abs(wrap_angle(flown[-1].track_rad - target)) < 0.3 * DEGREE
+    side = math.copysign(1.0, angle_deg)
+    assert max(side * wrap_angle(state.track_rad - target) for state in flown) < 1 * DEGREE
+    assert max(abs(state.roll_rad) for state in flown) < 32 * DEGREE
+    assert max(abs(state.altitude_m - altitude) for state in flown) < 50 * FOOT
+
+
+def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(in_cruise, states):
+    aircraft = in_cruise("c172p")
+    aircraft.turn_by(-270 * DEGREE)
+    flown = list(states(aircraft, 110))
+    assert abs(wrap_angle(flown[-1].track_rad - 150 * DEGREE)) < 1 * DEGREE
+    assert flown[200].roll_rad < -15 * DEGREE
+    assert flown[700].roll_rad < -15 * DEGREE
+
+
+def test_it_holds_a_heading_in_wind(in_cruise, states):
+    aircraft = in_cruise("c172p", atmosphere=Atmosphere(wind_east_m_s=12.0))
+    aircraft.hold_heading(0.0)
+    *_, state = states(aircraft, 60)
+    assert abs(wrap_angle(state.heading_rad)) < 1 * DEGREE
+    assert state.track_rad > 10 * DEGREE
+
+
+@pytest.mark.parametrize("change_kt", [20, -20])
+def test_it_changes_speed(name, change_kt, in_cruise, states):
+    aircraft = in_cruise(name, airspeed_kt={"c310": 140}.get(name))
+    altitude = aircraft.state.altitude_m
+    target = aircraft.hold_speed(aircraft.target_speed_m_s + change_kt * KNOT)
+    flown = list(states(aircraft, 120))
+    assert flown[-1].calibrated_airspeed_m_s == pytest.approx(target, abs=2 * KNOT)
+    side = math.copysign(1.0, change_kt)
+    overshoot = max(side * (state.calibrated_airspeed_m_s - target) for state in flown)
+    assert overshoot < 5 * KNOT
+    assert max(abs(state.altitude_m - altitude) for state in flown) < 50 * FOOT
+
+
+def test_a_climb_that_the_engines_cannot_keep_gives_way_before_the_airspeed(in_cruise, states):
+    aircraft = in_cruise("737")
+    aircraft.hold_altitude(40_000 * FOOT, 4_000 * FOOT_PER_MINUTE)
+    flown = list(states(aircraft, 200))
+    assert aircraft.ended is None
+    assert min(state.calibrated_airspeed_m_s for state in flown) > 230 * KNOT
+    assert flown[-1].altitude_m > 38_000 * FOOT
+
+
+def test_commands_beyond_the_envelope_are_brought_into_it_and_told_back(in_cruise):
+    aircraft = in_cruise("737")
+    accepted = aircraft.hold_altitude(50_000 * FOOT, 9_000 * FOOT_PER_MINUTE)
+    assert accepted.altitude_m == 41_000 * FOOT
+    assert accepted.vertical_rate_m_s == pytest.approx(4_000 * FOOT_PER_MINUTE)
+    assert aircraft.hold_speed(50 * KNOT) == 200 * KNOT
+    # At FL350 the Mach limit is the lower one: M 0.82 is about 280 kt.
+    assert aircraft.hold_speed(400 * KNOT) == pytest.approx(280 * KNOT, abs=5 * KNOT)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_command_that_is_not_finite_is_refused(bad, in_cruise):
+    aircraft = in_cruise("c172p")
+    for command in (
+        aircraft.hold_track,
+        aircraft.hold_heading,
+        aircraft.turn_by,
+        aircraft.hold_altitude,
+        aircraft.hold_speed,
+    ):
+        with pytest.raises(ValueError, match="expected a finite number"):
+            command(bad)
+    with pytest.raises(ValueError, match="vertical_rate_m_s"):
+        aircraft.hold_altitude(1_000.0, bad)
+    with pytest.raises(ValueError, match="finite"):
+        aircraft.fly_route([(bad, 0.1)])
+    with pytest.raises(ValueError, match="leads nowhere"):
+        aircraft.fly_route([])
+
+
+@settings(
+    max_examples=12,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+@given(
+    altitude_m=st.floats(1_000.0, 4_500.0),
+    rate_m_s=st.floats(0.1, 20.0),
+    speed_m_s=st.floats(1.0, 300.0),
+    turn_rad=st.floats(-6.28, 6.28),
+)
+def test_no_sequence_of_commands_throws_it_out_of_the_air(
+    altitude_m, rate_m_s, speed_m_s, turn_rad, in_cruise, states
+):
+    aircraft = in_cruise("c172p")
+    aircraft.hold_altitude(altitude_m, rate_m_s)
+    aircraft.hold_speed(speed_m_s)
+    aircraft.turn_by(turn_rad)
+    for _ in states(aircraft, 30):
+        assert aircraft.ended is None
