@@ -7,9 +7,10 @@ what it needs as arguments. Data flows one way: aircraft, sensors, workers, advi
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -42,9 +43,10 @@ from airhilt.messages import (
 from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.conditions import ConditionCompiler
 from airhilt.metrics.monitor import ConflictMonitor, Pair
+from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary
 from airhilt.radio.script import RadioScript, Spoken
-from airhilt.record import LatencyLog, LogWriter, RunFolder, RunInfo, read_latencies
+from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
 from airhilt.scenario import Scenario, realise
 from airhilt.scenario.models import ScriptedCommand, Separation
@@ -120,6 +122,7 @@ class Recorded:
     """What a replay puts in the place of other processes."""
 
     workers: tuple[Participant, ...] = ()
+    losses: Mapping[str, Loss] = field(default_factory=dict)
     foreign: tuple[Foreign, ...] = ()
 
 
@@ -188,7 +191,7 @@ def run(
         simulation = Simulation(
             realised, options, bus, folder, flights, participants, latency, pace, observer
         )
-        simulation.schedule_foreign(recorded.foreign)
+        simulation.schedule(recorded)
         return simulation.run(info)
 
 
@@ -230,9 +233,7 @@ def _participants(
     """Return the workers that take grants, and whether an attached program takes none."""
     participants = list(recorded.workers)
     names = [name for name in options.attach if not recorded.workers]
-    attached = attach(
-        bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice
-    )
+    attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice)
     participants += [
         Participant(description, worker, attached=True)
         for worker, description in attached
@@ -339,7 +340,9 @@ class Simulation:
             None if scenario.conflict is None else compiler.compile(scenario.conflict.opens_when)
         )
         self._ends = [compiler.compile(condition) for condition in scenario.end_when]
-        self._collector = Collector(scenario, self._monitor)
+        lines = scenario.radio.lines
+        script = RadioScript(self._director, lines, scenario.radio.words_per_minute, self._spoken)
+        self._collector = Collector(scenario, self._monitor, Plans(lines, script))
         self._pool = WorkerPool(
             self._director,
             participants,
@@ -362,10 +365,7 @@ class Simulation:
             publish=self._publish_report,
             done=self._latency_log.step,
         )
-        RadioScript(
-            self._director, scenario.radio.lines, scenario.radio.words_per_minute, self._spoken
-        )
-        self._schedule()
+        self._schedule_world()
         self._serve_bus(participants)
 
     # --- the run ----------------------------------------------------------------------------
@@ -394,9 +394,11 @@ class Simulation:
         return Result(summary, self._folder.path)
 
     def _finish(self, info: RunInfo, cause: str, wall_s: float, cpu_s: float) -> Summary:
-        phase = "finished" if self._phase == "finished" else "stopped"
+        phase: Literal["finished", "stopped"] = "stopped" if cause else "finished"
         self._event(phase, "run", cause or "came to its end")
         self._publish_clock()
+        for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
+            self._latency_log.step(step)
         self._log.close()
         self._latency_log.close()
         now_ns = self._director.now_ns
@@ -424,7 +426,7 @@ class Simulation:
         )
         return summary
 
-    def _schedule(self) -> None:
+    def _schedule_world(self) -> None:
         director, every = self._director, self._director.every
         tick_ns = seconds_to_ns(TICK_S)
         every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
@@ -439,7 +441,7 @@ class Simulation:
     def _end_if_due(self) -> None:
         now_ns = self._director.now_ns
         everybody_ended = all(f.aircraft.ended is not None for f in self._flights.values())
-        if everybody_ended or any([test(now_ns) for test in self._ends]):
+        if everybody_ended or any(test(now_ns) for test in self._ends):
             self._director.stop()
 
     # --- the world --------------------------------------------------------------------------
@@ -542,7 +544,7 @@ class Simulation:
         for scripted in line.commands:
             self._director.at(
                 now_ns + seconds_to_ns(scripted.delay_s),
-                lambda scripted=scripted: self._carry_out(scripted),
+                partial(self._carry_out, scripted),
                 Priority.SCRIPT,
             )
 
@@ -576,9 +578,9 @@ class Simulation:
         self._latency_log.step(record)
         self._collector.step(record)
 
-    def _worker_lost(self, worker: WorkerDescription, cause: str, seq: int) -> None:
+    def _worker_lost(self, worker: WorkerDescription, cause: str) -> None:
         now_ns = self._director.now_ns
-        self._latency_log.lost(worker.name, seq, now_ns, cause)
+        self._latency_log.lost(worker.name, now_ns, cause)
         self._set_modality(worker.modality, "lost", cause)
         self._event("worker_lost", worker.name, cause)
         self._observer.notice(f"lost at {now_ns / SECOND_NS:.1f} s: {cause}")
@@ -607,14 +609,17 @@ class Simulation:
                 lambda key, data: self._director.post(lambda: self._hear_unregistered(key, data)),
             )
 
-    def schedule_foreign(self, messages: Sequence[Foreign]) -> None:
-        """Let what unregistered programs published in an earlier run come at its time."""
-        for message in messages:
+    def schedule(self, recorded: Recorded) -> None:
+        """Let what came from other processes in an earlier run come at its time."""
+        for message in recorded.foreign:
             self._director.at(
                 message.t_ns,
-                lambda message=message: self._foreign(message.key, message.data),
+                partial(self._foreign, message.key, message.data),
                 Priority.SCRIPT,
             )
+        for name, loss in recorded.losses.items():
+            server = self._pool.servers[name]
+            self._director.at(loss.t_ns, partial(server.lose, loss.cause), Priority.RESULT)
 
     def _hear_unregistered(self, key: str, data: bytes) -> None:
         """Take in a message that no grant asked for; such a program needs real time."""

@@ -7,7 +7,7 @@ worker is. ``airhilt schema`` prints all of this as JSON Schema.
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import StrEnum
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
@@ -26,7 +26,7 @@ class Message(BaseModel):
     t_ns: Nanoseconds = Field(default=0, description="when it was published, stamped by the run")
 
 
-class Severity(str, Enum):
+class Severity(StrEnum):
     """How urgent an advisory is, in rising order."""
 
     INFO = "INFO"

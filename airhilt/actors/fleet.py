@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from airhilt.actors.crew import Crew, ReactionTime
 from airhilt.errors import ScenarioError
 from airhilt.flight.aircraft import Aircraft
 from airhilt.flight.aircraft_type import load_aircraft_type
-from airhilt.actors.crew import Crew, ReactionTime
 from airhilt.flight.model import ModelError
 from airhilt.flight.state import Atmosphere, InitialCondition
 from airhilt.scenario.geometry import azimuth, resolve

@@ -48,9 +48,7 @@ def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
         try:
             config.insert_json5(key, json.dumps(value))
         except zenoh.ZError:
-            raise BusError(
-                f"endpoint {endpoint!r}: expected the form tcp/127.0.0.1:7447"
-            ) from None
+            raise BusError(f"endpoint {endpoint!r}: expected the form tcp/127.0.0.1:7447") from None
     return config
 
 
@@ -132,7 +130,7 @@ class Bus:
 
     def close(self) -> None:
         """Close the session; workers notice."""
-        self.session.close()
+        self.session.close()  # type: ignore[no-untyped-call]
 
     def __enter__(self) -> Bus:
         return self

@@ -11,6 +11,7 @@ from airhilt.flight.airframe import Airframe, heading_to_track
 from airhilt.flight.autopilot import Autopilot
 from airhilt.flight.guard import Guard
 from airhilt.flight.guidance import (
+    Airspeed,
     Altitude,
     AltitudeClearance,
     Heading,
@@ -97,7 +98,7 @@ class Aircraft:
         heading = heading_to_track(initial, atmosphere)
         self._lateral: LateralMode = Track(heading, self._gains.course_per_s)
         self._vertical = self._initial_altitude(initial, terrain_elevation_m)
-        self._speed = initial.calibrated_airspeed_m_s
+        self._speed = Airspeed(initial.calibrated_airspeed_m_s, kind.speeds.maximum_mach)
         airframe.start(initial, heading)
         self._autopilot = self._trimmed(tick_s) if kind.start == "trim" else self._settled(tick_s)
         airframe.release(initial, atmosphere)
@@ -116,8 +117,8 @@ class Aircraft:
 
     @property
     def target_speed_m_s(self) -> float:
-        """The calibrated airspeed that is flown to, or held."""
-        return self._speed
+        """The calibrated airspeed that is flown to, or held as far as the Mach limit lets it."""
+        return self._speed.target_m_s
 
     def advance(self) -> None:
         """Fly one tick; do nothing once the flight has ended."""
@@ -128,7 +129,7 @@ class Aircraft:
             state,
             self._lateral.turn_rate(state),
             self._vertical.vertical_rate(state),
-            self._speed,
+            self._speed.airspeed(state),
         )
         step = self._airframe.step
         for _ in self._substeps:
@@ -266,8 +267,9 @@ class Aircraft:
         """
         require_finite("calibrated_airspeed_m_s", calibrated_airspeed_m_s)
         slowest, greatest = self._speed_limits(self.state.altitude_m)
-        self._speed = min(max(calibrated_airspeed_m_s, slowest), greatest)
-        return self._speed
+        accepted = min(max(calibrated_airspeed_m_s, slowest), greatest)
+        self._speed = Airspeed(accepted, self.kind.speeds.maximum_mach)
+        return accepted
 
     def _initial_altitude(self, initial: InitialCondition, terrain_elevation_m: float) -> Altitude:
         speeds = self.kind.speeds
@@ -297,15 +299,16 @@ class Aircraft:
                 state,
                 self._lateral.turn_rate(state),
                 self._vertical.vertical_rate(state),
-                self._speed,
+                self._speed.airspeed(state),
             )
             for _ in self._substeps:
                 self._airframe.step()
             state = self._airframe.state()
-        error = abs(state.calibrated_airspeed_m_s - self._speed)
+        wanted = self.target_speed_m_s
+        error = abs(state.calibrated_airspeed_m_s - wanted)
         if not error < SETTLED_SPEED_M_S:
             raise ModelError(
-                f"{self.kind.name} cannot fly steadily at {self._speed / KNOT:.0f} kt at "
+                f"{self.kind.name} cannot fly steadily at {wanted / KNOT:.0f} kt at "
                 f"{state.altitude_m / FOOT:.0f} ft: it came to "
                 f"{state.calibrated_airspeed_m_s / KNOT:.0f} kt"
             )

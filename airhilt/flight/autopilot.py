@@ -22,8 +22,8 @@ CLIMB_INTEGRAL_GAIN = 0.05
 """1/s."""
 LEAST_LOAD_FACTOR = 0.5
 """Below it, lift tells nothing of the angle of attack that level flight needs."""
-SPEED_LAG_S = 10.0
-"""Of airspeed behind its command."""
+SPEED_LAG_S = 8.0
+"""Of the reference airspeed behind the commanded one."""
 ACCELERATION_LAG_S = 1.0
 ENERGY_LAG_S = 4.0
 ROLL_RATE_MARGIN = 1.5
@@ -82,7 +82,7 @@ class Autopilot:
         self._yaw_rate_gain = yaw.rate_s
         self._speed_gain = thrust.speed_s_m
         self._speed_integral_gain = thrust.speed_integral_m * tick_s
-        self._damping_gain = thrust.speed_integral_m * SPEED_LAG_S
+        self._reference_blend = tick_s / SPEED_LAG_S
         self._acceleration_gain = thrust.acceleration_s2_m
         self._climb_gain = thrust.climb_angle
         self._lever_step = thrust.lever_rate_per_s * tick_s
@@ -99,13 +99,10 @@ class Autopilot:
         self._acceleration = 0.0
         climb = state.vertical_rate_m_s / state.true_airspeed_m_s
         self._potential_climb = climb
-        self._speed_error = 0.0
+        self._shortfall = 0.0
         self._lever = airframe.throttle()
-        self._lever_integral = (
-            self._lever
-            - self._climb_gain * climb
-            + self._damping_gain * state.calibrated_airspeed_m_s
-        )
+        self._lever_integral = self._lever - self._climb_gain * climb
+        self._reference_airspeed = state.calibrated_airspeed_m_s
 
     def fly(
         self, state: AircraftState, turn_rate: float, vertical_rate: float, airspeed: float
@@ -139,25 +136,26 @@ class Autopilot:
         )
         self._true_airspeed = speed
         acceleration = self._acceleration
-        error = airspeed - state.calibrated_airspeed_m_s
+        shortfall = airspeed - state.calibrated_airspeed_m_s
         potential = acceleration / STANDARD_GRAVITY - state.velocity_down_m_s / speed
         self._potential_climb += self._energy_blend * (potential - self._potential_climb)
-        self._speed_error += self._energy_blend * (error - self._speed_error)
+        self._shortfall += self._energy_blend * (shortfall - self._shortfall)
 
         climb_angle = within(climb_angle, MAXIMUM_CLIMB_ANGLE)
         lever = self._lever
         if lever >= 1.0:
-            excess = SPEED_BAND * airspeed - self._speed_error
+            excess = SPEED_BAND * airspeed - self._shortfall
             climb_angle = min(climb_angle, self._potential_climb + SPEED_TO_CLIMB * excess)
         elif lever <= 0.0:
-            excess = -SPEED_BAND * airspeed - self._speed_error
+            excess = -SPEED_BAND * airspeed - self._shortfall
             climb_angle = max(climb_angle, self._potential_climb + SPEED_TO_CLIMB * excess)
 
-        # The damping by airspeed itself lets a long integral meet a new command without overshoot.
+        # The reference takes its time to a new airspeed: the integral then has none to overshoot.
+        self._reference_airspeed += self._reference_blend * (airspeed - self._reference_airspeed)
+        error = self._reference_airspeed - state.calibrated_airspeed_m_s
         wanted = (
             self._speed_gain * error
             + self._lever_integral
-            - self._damping_gain * state.calibrated_airspeed_m_s
             - self._acceleration_gain * acceleration
             + self._climb_gain * climb_angle
         )

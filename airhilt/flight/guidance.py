@@ -1,8 +1,8 @@
 """Outer loops: what was commanded becomes a turn rate, a vertical rate and an airspeed.
 
 Each direction has its modes, small objects that are replaced when a command comes: `Track`,
-`Heading`, `Route` for the lateral one, `Altitude` for the vertical one. Procedures (takeoff,
-approach, flare) are further modes.
+`Heading`, `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. Procedures
+(takeoff, approach, flare) are further modes.
 """
 
 from __future__ import annotations
@@ -198,3 +198,25 @@ class Altitude:
     def vertical_rate(self, state: AircraftState) -> float:
         """Return the commanded vertical rate (m/s, positive up)."""
         return within(self._gain * (self._altitude - state.altitude_m), self._rate)
+
+
+class Airspeed:
+    """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb.
+
+    Parameters
+    ----------
+    airspeed_m_s
+        Calibrated.
+    maximum_mach
+        Not exceeded.
+    """
+
+    def __init__(self, airspeed_m_s: float, maximum_mach: float) -> None:
+        self.target_m_s = airspeed_m_s
+        self._maximum_mach = maximum_mach
+
+    def airspeed(self, state: AircraftState) -> float:
+        """Return the commanded calibrated airspeed (m/s)."""
+        # Exact at the maximum Mach number, which is where it matters.
+        limit = state.calibrated_airspeed_m_s * self._maximum_mach / state.mach
+        return self.target_m_s if self.target_m_s < limit else limit

@@ -9,7 +9,6 @@ model's own, since AIRHILT flies it.
 from __future__ import annotations
 
 import functools
-import logging
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -18,37 +17,19 @@ import jsbsim
 
 from airhilt.errors import AirhiltError
 
-_log = logging.getLogger(__name__)
+_SILENCE = jsbsim.DefaultLogger(jsbsim.LogLevel.STDOUT)
+# Kept here for good: JSBSim drops its reference when a thread ends, without holding the
+# interpreter lock, and the process dies of it if that was the last one.
 
 
 class ModelError(AirhiltError):
     """JSBSim does not have the model, or cannot fly it from the asked condition."""
 
 
-class _JsbsimLog(jsbsim.FGLogger):
-    """Takes what JSBSim would print, and passes errors on to Python's logging."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._text = ""
-        self._level = jsbsim.LogLevel.BULK
-
-    def set_level(self, level: jsbsim.LogLevel) -> None:
-        self._level = level
-        self._text = ""
-
-    def message(self, message: str) -> None:
-        self._text += message
-
-    def flush(self) -> None:
-        if self._level >= jsbsim.LogLevel.ERROR and self._text.strip():
-            _log.error("JSBSim: %s", self._text.strip())
-
-
 def load_model(model: str) -> jsbsim.FGFDMExec:
     """Return a fresh FGFDMExec with the model loaded, silent and alone.
 
-    JSBSim's logger belongs to a thread: what the aircraft says later, in a thread in which none
+    JSBSim's logger belongs to a thread: what a model has to say later, in a thread in which none
     was loaded, goes to stdout.
 
     Raises
@@ -56,7 +37,7 @@ def load_model(model: str) -> jsbsim.FGFDMExec:
     ModelError
         The installed JSBSim has no such model, or cannot load it.
     """
-    jsbsim.set_logger(_JsbsimLog())
+    jsbsim.set_logger(_SILENCE)
     root = Path(jsbsim.get_default_root_dir())
     files = _stripped_files(root, model)
     with tempfile.TemporaryDirectory(prefix="airhilt-jsbsim-") as scratch:

@@ -16,6 +16,7 @@ from airhilt.messages import (
     Transcript,
 )
 from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
+from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import (
     ClosestApproach,
     LatencyStatistics,
@@ -26,7 +27,7 @@ from airhilt.metrics.summary import (
 from airhilt.scenario.models import Scenario
 from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
-from airhilt.units import SECOND_NS
+from airhilt.units import FOOT, SECOND_NS
 
 SPEAK_MIN_LEVEL = Severity.CAUTION
 """Least severity that is spoken, and so the least that counts as a warning."""
@@ -65,13 +66,14 @@ class Collector:
         Kept by the run.
     """
 
-    def __init__(self, scenario: Scenario, monitor: ConflictMonitor) -> None:
+    def __init__(self, scenario: Scenario, monitor: ConflictMonitor, plans: Plans) -> None:
         self.window = ConflictWindow()
         self.modalities: dict[Modality, ModalityState] = {}
         self.ended_actors: dict[str, str] = {}
         self.last_advisory: Advisory | None = None
         self._scenario = scenario
         self._monitor = monitor
+        self._plans = plans
         self._pair = pair_of(scenario)
         self._callsigns = {actor.icao24: actor.callsign for actor in scenario.actors}
         self._told: dict[str, _Told] = {}
@@ -114,7 +116,17 @@ class Collector:
         ):
             self._first_warning_ns = advisory.t_ns
             if self._pair is not None and self._monitor.flying(self._pair):
-                self._projection = self._monitor.project_tcas(self._pair)
+                self._projection = self._project(self._pair, advisory.t_ns)
+
+    def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
+        """Return when TCAS II would speak, had nobody been warned: by what the script plans."""
+        motion, first, second = self._monitor.motion(pair)
+        return tcas.project(
+            motion,
+            self._plans.altitude_at(pair[0], now_ns, first),
+            self._plans.altitude_at(pair[1], now_ns, second),
+            self._scenario.scene.terrain_elevation_ft * FOOT,
+        )
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
         return self._pair is not None and set(self._traffic(advisory)) <= set(self._pair)
@@ -169,8 +181,7 @@ class Collector:
             collision=self._happened("collision"),
             avoided=self._avoided(truth),
             nuisance_alerts=sum(
-                told.nuisance
-                and severest(told.severities).rank >= SPEAK_MIN_LEVEL.rank
+                told.nuisance and severest(told.severities).rank >= SPEAK_MIN_LEVEL.rank
                 for told in self._told.values()
             ),
             advisories=[
@@ -186,8 +197,7 @@ class Collector:
                 for told in self._told.values()
             ],
             latencies={
-                stage: LatencyStatistics.of(samples)
-                for stage, samples in self._latencies_s.items()
+                stage: LatencyStatistics.of(samples) for stage, samples in self._latencies_s.items()
             },
             modalities=self.modalities,
             ended_actors=self.ended_actors,

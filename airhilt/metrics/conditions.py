@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from airhilt.flight import Aircraft
 from airhilt.metrics.monitor import ConflictMonitor, Pair
 from airhilt.scenario.models import (
     AllOf,
-    AltitudeDeviation,
     AnyOf,
+    BoundForAltitude,
     ClosestApproachPassed,
     Condition,
     LineEnded,
@@ -44,8 +44,8 @@ class ConditionCompiler:
                 return lambda now_ns: now_ns >= due_ns
             case LineEnded(line=line):
                 return lambda _: line in self._ended_lines
-            case AltitudeDeviation():
-                return self._deviation(condition)
+            case BoundForAltitude():
+                return self._bound_for(condition)
             case PredictedLossOfSeparation(actors=pair, within_s=within_s):
                 return self._of_flying(pair, lambda: self._loss_within(pair, within_s))
             case SeparationBelow():
@@ -54,10 +54,10 @@ class ConditionCompiler:
                 return self._passed(pair, for_s)
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
-                return lambda now_ns: all(test(now_ns) for test in tests)
+                return lambda now_ns: all(_each(tests, now_ns))
             case AnyOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
-                return lambda now_ns: any(test(now_ns) for test in tests)
+                return lambda now_ns: any(_each(tests, now_ns))
 
     def _of_flying(self, pair: Pair, test: Callable[[], bool]) -> Test:
         return lambda _: self._monitor.flying(pair) and test()
@@ -66,11 +66,11 @@ class ConditionCompiler:
         loss = self._monitor.time_to_loss_s(pair)
         return loss is not None and loss <= within_s
 
-    def _deviation(self, condition: AltitudeDeviation) -> Test:
+    def _bound_for(self, condition: BoundForAltitude) -> Test:
         aircraft = self._aircraft[condition.actor]
-        cleared_m, by_m = condition.cleared_ft * FOOT, condition.by_ft * FOOT
+        altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
         return lambda _: (
-            aircraft.ended is None and abs(aircraft.target_altitude_m - cleared_m) > by_m
+            aircraft.ended is None and abs(aircraft.target_altitude_m - altitude_m) <= within_m
         )
 
     def _separation(self, condition: SeparationBelow) -> Test:
@@ -99,3 +99,8 @@ class ConditionCompiler:
             return now_ns - diverging_since_ns >= seconds_to_ns(for_s)
 
         return passed
+
+
+def _each(tests: Sequence[Test], now_ns: int) -> list[bool]:
+    """Ask every test, also those that cannot change the answer: some keep time."""
+    return [test(now_ns) for test in tests]

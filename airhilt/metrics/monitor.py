@@ -132,11 +132,6 @@ class ConflictMonitor:
         """Return how long until the pair loses separation, if both fly on as they do."""
         return time_to_loss_s(*self.motion(pair), self._minima)
 
-    def project_tcas(self, pair: Pair) -> tcas.Projection:
-        """Return how long until TCAS II on either aircraft would speak, if both fly on."""
-        motion, first, second = self.motion(pair)
-        return tcas.project(motion, first, second, self._ground_m)
-
     def flying(self, pair: Pair) -> bool:
         """Return whether both aircraft still fly."""
         return all(self._aircraft[callsign].ended is None for callsign in pair)

@@ -117,6 +117,6 @@ def parse_call(text: str, callsigns: Iterable[str]) -> Call:
     if found is None:
         return Call(None, False, sense, altitude_ft(words))
     position, callsign, size = found
-    rest = words[:position] + ["|"] + words[position + size :]
+    rest = [*words[:position], "|", *words[position + size :]]
     level = altitude_ft(rest) if sense is not None else None
     return Call(callsign, position == 0, sense, level)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from airhilt.scenario.models import RadioLine
 from airhilt.sim import Director, Priority
@@ -37,18 +38,23 @@ class RadioScript:
         self._ended = ended
         self._busy_until_ns: dict[int, int] = {}
         for line in lines:
-            director.at(
-                seconds_to_ns(line.at_s), lambda line=line: self._begin(line), Priority.SCRIPT
-            )
+            director.at(seconds_to_ns(line.at_s), partial(self._begin, line), Priority.SCRIPT)
+
+    def planned_end_ns(self, line: RadioLine) -> int:
+        """Return when a line ends if its frequency is free."""
+        return seconds_to_ns(line.at_s) + self._duration_ns(line)
+
+    def _duration_ns(self, line: RadioLine) -> int:
+        return seconds_to_ns(len(line.text.split()) * self._seconds_per_word)
 
     def _begin(self, line: RadioLine) -> None:
         now_ns = self._director.now_ns
         free_ns = self._busy_until_ns.get(line.frequency_khz, 0)
         if free_ns > now_ns:
             again = free_ns + seconds_to_ns(GAP_S)
-            self._director.at(again, lambda: self._begin(line), Priority.SCRIPT)
+            self._director.at(again, partial(self._begin, line), Priority.SCRIPT)
             return
-        end_ns = now_ns + seconds_to_ns(len(line.text.split()) * self._seconds_per_word)
+        end_ns = now_ns + self._duration_ns(line)
         self._busy_until_ns[line.frequency_khz] = end_ns
         spoken = Spoken(line, now_ns, end_ns)
-        self._director.at(end_ns, lambda: self._ended(spoken), Priority.SCRIPT)
+        self._director.at(end_ns, partial(self._ended, spoken), Priority.SCRIPT)

@@ -26,7 +26,7 @@ class RunOptions(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     seed: int
-    assistant: str
+    assistant: Literal["reference", "none", "external"]
     pace: str
     latency: str
     attached: tuple[str, ...]

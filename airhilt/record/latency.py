@@ -17,16 +17,17 @@ class LatencyLog:
         self._stream = path.open("w", encoding="utf-8", buffering=1)
 
     def step(self, record: StepRecord) -> None:
-        """Write a finished step."""
+        """Write a step."""
         self._stream.write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
-            f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}}}\n'
+            f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}, '
+            f'"finished": {"true" if record.finished else "false"}}}\n'
         )
 
-    def lost(self, worker: str, seq: int, t_ns: int, cause: str) -> None:
-        """Write that a worker was lost at its step ``seq``."""
-        row = {"worker": worker, "seq": seq, "t_ns": t_ns, "lost": cause}
+    def lost(self, worker: str, t_ns: int, cause: str) -> None:
+        """Write that a worker was lost."""
+        row = {"worker": worker, "t_ns": t_ns, "lost": cause}
         self._stream.write(json.dumps(row) + "\n")
 
     def close(self) -> None:
@@ -38,7 +39,6 @@ class LatencyLog:
 class Loss:
     """When and why a worker was lost."""
 
-    seq: int
     t_ns: int
     cause: str
 
@@ -49,7 +49,7 @@ class RecordedLatencies:
 
     latencies_ns: dict[str, dict[int, int]] = field(default_factory=dict)
     outputs: dict[str, dict[int, int]] = field(default_factory=dict)
-    compute_s: dict[str, list[float]] = field(default_factory=dict)
+    """By worker and step."""
     losses: dict[str, Loss] = field(default_factory=dict)
 
 
@@ -71,11 +71,11 @@ def read_latencies(path: Path) -> RecordedLatencies:
             row = json.loads(line)
         except json.JSONDecodeError:
             break
-        worker, seq = row["worker"], row["seq"]
+        worker = row["worker"]
         if "lost" in row:
-            recorded.losses[worker] = Loss(seq, row["t_ns"], row["lost"])
+            recorded.losses[worker] = Loss(row["t_ns"], row["lost"])
         else:
+            seq = row["seq"]
             recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
             recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
-            recorded.compute_s.setdefault(worker, []).append(row["compute_s"])
     return recorded

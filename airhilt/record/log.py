@@ -64,9 +64,7 @@ class LogWriter:
                 f"airhilt.{model.__name__}", "jsonschema", text.encode()
             )
             self._schemas[model] = schema
-        channel = self._writer.register_channel(
-            key, "json", schema, {"publisher": publisher}
-        )
+        channel = self._writer.register_channel(key, "json", schema, {"publisher": publisher})
         self._channels[(key, publisher)] = channel
         return channel
 
@@ -79,7 +77,7 @@ class LogWriter:
             The disk is full or gone.
         """
         try:
-            self._writer.flush()
+            self._writer.flush()  # type: ignore[no-untyped-call]
         except OSError as error:
             raise RunFolderError(
                 f"{self._stream.name}: cannot be written any more: {error.strerror}; make room, or "
@@ -89,7 +87,7 @@ class LogWriter:
     def close(self) -> None:
         """Write the index and close the file."""
         if not self._stream.closed:
-            self._writer.finish()
+            self._writer.finish()  # type: ignore[no-untyped-call]
             self._stream.close()
 
     def __enter__(self) -> LogWriter:

@@ -18,8 +18,8 @@ from airhilt.flight import AircraftType, load_aircraft_type
 from airhilt.scenario.models import (
     ActorMount,
     AllOf,
-    AltitudeDeviation,
     AnyOf,
+    BoundForAltitude,
     Condition,
     LineEnded,
     Scenario,
@@ -256,14 +256,10 @@ def _envelope(
         )
 
 
-def _references(
-    scenario: Scenario, callsigns: list[str], line_ids: list[str]
-) -> Iterator[Problem]:
+def _references(scenario: Scenario, callsigns: list[str], line_ids: list[str]) -> Iterator[Problem]:
     for path, callsign in _mentioned_actors(scenario):
         if callsign not in callsigns:
-            yield Problem(
-                path, f"no actor {callsign!r}{library.nearest(callsign, callsigns)}"
-            )
+            yield Problem(path, f"no actor {callsign!r}{library.nearest(callsign, callsigns)}")
     for path, condition in _conditions(scenario):
         if isinstance(condition, LineEnded) and condition.line not in line_ids:
             yield Problem(
@@ -289,7 +285,7 @@ def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
             yield f"conflict/actors/{number}", callsign
     for path, condition in _conditions(scenario):
         match condition:
-            case AltitudeDeviation(actor=callsign):
+            case BoundForAltitude(actor=callsign):
                 yield f"{path}/actor", callsign
             case LineEnded() | TimeReached() | AllOf() | AnyOf():
                 pass
@@ -332,5 +328,3 @@ def _perturbations(scenario: Scenario) -> Iterator[Problem]:
     yield from _duplicates(
         "perturbations", "path", [perturbation.path for perturbation in scenario.perturbations]
     )
-
-

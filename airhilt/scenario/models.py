@@ -256,13 +256,13 @@ class ClosestApproachPassed(_Model):
     for_s: float = Field(default=20.0, gt=0.0, le=600.0)
 
 
-class AltitudeDeviation(_Model):
-    """True while an actor is flying to an altitude other than the one it was cleared to."""
+class BoundForAltitude(_Model):
+    """True while the altitude that an actor really flies to, or holds, is this one."""
 
-    type: Literal["altitude_deviation"]
+    type: Literal["bound_for_altitude"]
     actor: Callsign
-    cleared_ft: float
-    by_ft: float = Field(default=300.0, gt=0.0)
+    altitude_ft: float
+    within_ft: float = Field(default=50.0, gt=0.0)
 
 
 class LineEnded(_Model):
@@ -291,7 +291,7 @@ Condition = Annotated[
     | PredictedLossOfSeparation
     | SeparationBelow
     | ClosestApproachPassed
-    | AltitudeDeviation
+    | BoundForAltitude
     | LineEnded
     | AllOf
     | AnyOf,

@@ -55,9 +55,7 @@ class Director:
         heapq.heappush(self._heap, (t_ns, priority, self._sequence, action))
         self._sequence += 1
 
-    def every(
-        self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0
-    ) -> None:
+    def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
         """Schedule ``action`` at ``first_ns`` and then once every ``period_ns``.
 
         Raises

@@ -18,7 +18,7 @@ class Pace(Protocol):
         ...
 
     def start(self, t_ns: int) -> None:
-        """Simulation time ``t_ns`` is now."""
+        """Take the present instant as simulation time ``t_ns``."""
         ...
 
     def wait_until(self, t_ns: int, wake: Event) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from airhilt.errors import WorkerError
 from airhilt.sim.director import Director, Priority
@@ -15,7 +15,7 @@ from airhilt.units import seconds_to_ns
 
 @dataclass(frozen=True, slots=True)
 class StepRecord:
-    """One finished step, for the latency log."""
+    """One step, for the latency log; one that the run's end cut off has not finished."""
 
     worker: str
     seq: int
@@ -24,6 +24,7 @@ class StepRecord:
     latency_ns: int
     compute_s: float
     outputs: int
+    finished: bool = True
 
 
 class Server:
@@ -52,7 +53,7 @@ class Server:
         *,
         deliver: Callable[[Output], None],
         done: Callable[[StepRecord], None],
-        lost: Callable[[str, int], None],
+        lost: Callable[[str], None],
     ) -> None:
         self.name = name
         self.dropped: Counter[str] = Counter()
@@ -67,6 +68,7 @@ class Server:
         self._busy = False
         self._seq = 0
         self._wake_ns: int | None = None
+        self._in_hand: StepRecord | None = None
 
     def offer(self, item: Input, policy: Policy) -> None:
         """Queue an input that has reached the worker now."""
@@ -84,7 +86,11 @@ class Server:
         if not self.is_lost:
             self.is_lost = True
             self._waiting.clear()
-            self._lost(cause, self._seq)
+            self._lost(cause)
+
+    def unfinished(self) -> StepRecord | None:
+        """Return the step in hand, if there is one."""
+        return self._in_hand
 
     def _drop_older(self, key: str) -> None:
         kept = [entry for entry in self._waiting if entry[1].key != key]
@@ -109,38 +115,33 @@ class Server:
         now_ns, seq = self._director.now_ns, self._seq
         self._seq += 1
         self._wake_ns = None
-        t_in_ns = inputs[0].t_in_ns if inputs else now_ns
         pending = self._endpoint.dispatch(seq, now_ns, inputs)
         known_ns = self._latency.known_ns(seq)
+        t_in_ns = inputs[0].t_in_ns if inputs else now_ns
+        self._in_hand = step = StepRecord(
+            self.name, seq, t_in_ns, now_ns, known_ns or 0, 0.0, 0, finished=False
+        )
         if known_ns is None:
-            self._director.at(
-                now_ns, lambda: self._settle(pending, seq, t_in_ns), Priority.SETTLE
-            )
+            self._director.at(now_ns, lambda: self._settle(pending, step), Priority.SETTLE)
         else:
-            self._director.at(
-                now_ns + known_ns,
-                lambda: self._collect_due(pending, seq, t_in_ns, now_ns, known_ns),
-                Priority.RESULT,
-            )
+            due_ns = now_ns + known_ns
+            self._director.at(due_ns, lambda: self._collect_due(pending, step), Priority.RESULT)
 
-    def _settle(self, pending: Pending, seq: int, t_in_ns: int) -> None:
+    def _settle(self, pending: Pending, step: StepRecord) -> None:
         """Wait for a step whose own compute time is its latency."""
         reply = self._collect(pending)
         if reply is None:
             return
-        start_ns, latency_ns = self._director.now_ns, seconds_to_ns(reply.compute_s)
+        latency_ns = seconds_to_ns(reply.compute_s)
+        self._in_hand = settled = replace(step, latency_ns=latency_ns)
         self._director.at(
-            start_ns + latency_ns,
-            lambda: self._finish(reply, seq, t_in_ns, start_ns, latency_ns),
-            Priority.RESULT,
+            step.t_start_ns + latency_ns, lambda: self._finish(reply, settled), Priority.RESULT
         )
 
-    def _collect_due(
-        self, pending: Pending, seq: int, t_in_ns: int, start_ns: int, latency_ns: int
-    ) -> None:
+    def _collect_due(self, pending: Pending, step: StepRecord) -> None:
         reply = self._collect(pending)
         if reply is not None:
-            self._finish(reply, seq, t_in_ns, start_ns, latency_ns)
+            self._finish(reply, step)
 
     def _collect(self, pending: Pending) -> Reply | None:
         if self.is_lost:
@@ -151,29 +152,31 @@ class Server:
             self.lose(str(lost))
             return None
 
-    def _finish(
-        self, reply: Reply, seq: int, t_in_ns: int, start_ns: int, latency_ns: int
-    ) -> None:
+    def _finish(self, reply: Reply, step: StepRecord) -> None:
+        if self.is_lost:
+            return
         now_ns = self._director.now_ns
         for output in reply.outputs:
-            self._send(output, start_ns)
+            self._send(output, step.t_start_ns)
+        self._in_hand = None
         self._done(
-            StepRecord(
-                self.name, seq, t_in_ns, start_ns, latency_ns, reply.compute_s, len(reply.outputs)
-            )
+            replace(step, compute_s=reply.compute_s, outputs=len(reply.outputs), finished=True)
         )
         if self._waiting:
             self._director.at(now_ns, self._start, Priority.START)
             return
         self._busy = False
         if reply.wake_ns is not None:
-            if reply.wake_ns <= start_ns:
-                raise WorkerError(
-                    f"worker {self.name!r} asked to be woken at {reply.wake_ns} ns in a step that "
-                    f"began at {start_ns} ns; expected a later time or null"
-                )
-            self._wake_ns = max(reply.wake_ns, now_ns)
-            self._director.at(self._wake_ns, self._wake_up, Priority.START)
+            self._set_alarm(reply.wake_ns, step.t_start_ns)
+
+    def _set_alarm(self, wake_ns: int, start_ns: int) -> None:
+        if wake_ns <= start_ns:
+            raise WorkerError(
+                f"worker {self.name!r} asked to be woken at {wake_ns} ns in a step that began at "
+                f"{start_ns} ns; expected a later time or null"
+            )
+        self._wake_ns = max(wake_ns, self._director.now_ns)
+        self._director.at(self._wake_ns, self._wake_up, Priority.START)
 
     def _send(self, output: Output, start_ns: int) -> None:
         if output.t_out_ns is None or start_ns <= output.t_out_ns <= self._director.now_ns:
@@ -184,9 +187,7 @@ class Server:
                 f"its step began at {start_ns} ns; expected a time from then on, or null"
             )
         else:
-            self._director.at(
-                output.t_out_ns, lambda: self._deliver(output), Priority.RESULT
-            )
+            self._director.at(output.t_out_ns, lambda: self._deliver(output), Priority.RESULT)
 
     def _wake_up(self) -> None:
         if not self._busy and not self.is_lost and self._wake_ns == self._director.now_ns:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -46,7 +46,7 @@ EFFECTIVE_EARTH_RADIUS = 4.0 / 3.0
 """Factor for the radio horizon in a standard atmosphere (ITU-R P.310)."""
 
 
-class FlownState(Kinematics):
+class FlownState(Kinematics, Protocol):
     """What a transponder needs of its aircraft."""
 
     @property

@@ -5,6 +5,7 @@ Horizontal distances are along the surface at the aircraft's height, not slant r
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import NamedTuple, Protocol
 
@@ -154,7 +155,7 @@ def time_to_loss_s(
     begin, end = max(interval[0], 0.0), interval[1]
     knots = [t for t in (own.level_off_s(), other.level_off_s()) if begin < t < end]
     edges = [begin, *sorted(knots), end]
-    for left, right in zip(edges, edges[1:], strict=False):
+    for left, right in itertools.pairwise(edges):
         found = _first_below(left, right, own, other, minima.vertical_m)
         if found is not None:
             return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from airhilt.actors import Flight
 from airhilt.flight.state import AircraftState
@@ -61,6 +62,7 @@ class AdsbSensor:
             STAGE, seed, DECLARED_LATENCY.median_s, DECLARED_LATENCY.sigma
         )
         self._seq = 0
+        self._in_flight: dict[int, StepRecord] = {}
         self._reception = Reception(
             [_receiver(declared, scenario) for declared in _declared(scenario)],
             scenario.adsb.loss_probability,
@@ -109,9 +111,7 @@ class AdsbSensor:
             after_ns = seconds_to_ns(uniform(*interval_s))
             self._director.at(now_ns + after_ns, squitter, Priority.SENSOR)
 
-        self._director.at(
-            seconds_to_ns(uniform(0.0, interval_s[0])), squitter, Priority.SENSOR
-        )
+        self._director.at(seconds_to_ns(uniform(0.0, interval_s[0])), squitter, Priority.SENSOR)
 
     def _receive(self, sender: Transponder, squitter: Squitter, state: AircraftState) -> None:
         now_ns, begun = self._director.now_ns, time.perf_counter()
@@ -119,17 +119,23 @@ class AdsbSensor:
         compute_s = time.perf_counter() - begun
         if decoded is None:
             return
-        seq = self._seq
-        self._seq += 1
-        known_ns = self._latency.known_ns(seq)
+        known_ns = self._latency.known_ns(self._seq)
         latency_ns = seconds_to_ns(compute_s) if known_ns is None else known_ns
         out_ns = now_ns + latency_ns
+        step = StepRecord(STAGE, self._seq, now_ns, now_ns, latency_ns, compute_s, 1)
+        self._in_flight[self._seq] = step
+        self._seq += 1
 
         def leave() -> None:
+            del self._in_flight[step.seq]
             self._publish(decoded.report(out_ns))
-            self._done(StepRecord(STAGE, seq, now_ns, now_ns, latency_ns, compute_s, 1))
+            self._done(step)
 
         self._director.at(out_ns, leave, Priority.RESULT)
+
+    def unfinished(self) -> list[StepRecord]:
+        """Return the reports that are still in a receiver."""
+        return [replace(step, outputs=0, finished=False) for step in self._in_flight.values()]
 
 
 def carried_on(state: AircraftState, elapsed_s: float) -> AircraftState:

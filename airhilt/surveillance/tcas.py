@@ -9,12 +9,15 @@ times are the earliest at which TCAS would speak. Both aircraft are taken to be 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from airhilt.surveillance.kinematics import Relative, VerticalProfile
+from airhilt.surveillance.kinematics import Relative
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 Alert = Literal["tcas_ta", "tcas_ra"]
+AltitudeAt = Callable[[float], float]
+"""Altitude (m) at a time from now (s)."""
 
 CYCLE_S = 1.0
 """TCAS surveillance runs once a second."""
@@ -65,9 +68,7 @@ def sensitivity_level(altitude_m: float, height_m: float) -> SensitivityLevel:
         return _LEVEL_2
     if height_m < 2350 * FOOT:
         return _LEVEL_3
-    return next(
-        (row for limit_ft, row in _BY_ALTITUDE_FT if altitude_m < limit_ft * FOOT), _ABOVE
-    )
+    return next((row for limit_ft, row in _BY_ALTITUDE_FT if altitude_m < limit_ft * FOOT), _ABOVE)
 
 
 def _range_test(motion: Relative, thresholds: Thresholds) -> bool:
@@ -132,24 +133,28 @@ class Projection(NamedTuple):
 
 def project(
     motion: Relative,
-    own: VerticalProfile,
-    other: VerticalProfile,
+    own_altitude_m: AltitudeAt,
+    other_altitude_m: AltitudeAt,
     ground_m: float,
     horizon_s: float = 1200.0,
 ) -> Projection:
     """Return when TCAS II would speak if nobody did anything.
 
+    Horizontally both fly straight on; their altitudes are functions of the time from now.
     Steps by TCAS's own cycle of one second; a resolution advisory counts as a traffic advisory
     where none came before.
     """
     first: dict[Alert, float] = {}
     for step in range(math.ceil(horizon_s / CYCLE_S)):
         time_s = step * CYCLE_S
-        own_m, other_m = own.at(time_s), other.at(time_s)
+        own_m, other_m = own_altitude_m(time_s), other_altitude_m(time_s)
         gap = other_m - own_m
-        rate = (other.at(time_s + 0.5) - own.at(time_s + 0.5) - gap) / 0.5
+        later = other_altitude_m(time_s + CYCLE_S) - own_altitude_m(time_s + CYCLE_S)
         said = alert(
-            motion.at(time_s), gap, rate, Own(own_m, own_m - ground_m, other_m - ground_m)
+            motion.at(time_s),
+            gap,
+            (later - gap) / CYCLE_S,
+            Own(own_m, own_m - ground_m, other_m - ground_m),
         )
         if said is not None:
             first.setdefault("tcas_ta", time_s)

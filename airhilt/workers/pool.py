@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from pydantic import ValidationError
 
@@ -41,7 +42,7 @@ class WorkerPool:
     done
         Called with the record of each finished step.
     lost
-        Called with description, cause and step when a worker is lost.
+        Called with description and cause when a worker is lost.
 
     Raises
     ------
@@ -58,7 +59,7 @@ class WorkerPool:
         *,
         publish: Callable[[str, Message, str], None],
         done: Callable[[StepRecord], None],
-        lost: Callable[[WorkerDescription, str, int], None],
+        lost: Callable[[WorkerDescription, str], None],
     ) -> None:
         self._director = director
         self._publish = publish
@@ -74,9 +75,9 @@ class WorkerPool:
                 latency.source(
                     description.name, seed, description.latency.median_s, description.latency.sigma
                 ),
-                deliver=lambda output, name=description.name: self._deliver(name, output),
+                deliver=partial(self._deliver, description.name),
                 done=done,
-                lost=lambda cause, seq, worker=description: lost(worker, cause, seq),
+                lost=partial(lost, description),
             )
             policies: dict[str, Policy] = {}
             for wanted in description.inputs:
@@ -108,6 +109,11 @@ class WorkerPool:
             for name, server in self.servers.items()
             for key, count in sorted(server.dropped.items())
         }
+
+    def unfinished(self) -> list[StepRecord]:
+        """Return the steps in hand."""
+        steps = [server.unfinished() for server in self.servers.values()]
+        return [step for step in steps if step is not None]
 
     def _deliver(self, worker: str, output: Output) -> None:
         message = parse_output(worker, output.key, output.payload)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from typing import Any
 
 import zenoh
 from pydantic import ValidationError
@@ -38,7 +39,7 @@ def serve(worker: Worker, connect: str, run: str | None = None, patience_s: floa
         prefix = f"{ROOT}/{run}" if run else _find_run(session, connect, patience_s)
         _serve(session, worker, prefix)
     finally:
-        session.close()
+        session.close()  # type: ignore[no-untyped-call]
 
 
 def _open(connect: str, patience_s: float) -> zenoh.Session:
@@ -88,7 +89,7 @@ def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
         if sample.kind == zenoh.SampleKind.DELETE:
             over.set()
 
-    kept = [
+    kept: list[Any] = [
         session.liveliness().declare_subscriber(f"{prefix}/run", ended, history=True),
         session.declare_queryable(f"{key}/describe", describe),
         session.declare_queryable(f"{key}/step", step),

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from airhilt import library
@@ -10,6 +11,7 @@ from airhilt.flight import Atmosphere
 AIR = Atmosphere(wind_north_m_s=5.0, turbulence_wind_at_20ft_m_s=15.0, turbulence_severity=4)
 PROGRAM = """
 import sys
+from concurrent.futures import ThreadPoolExecutor
 sys.path.insert(0, {tests!r})
 from conftest import in_cruise, states
 from test_determinism import AIR, flight
@@ -53,3 +55,9 @@ def test_in_another_process(in_cruise, states):
         check=True,
     )
     assert answer.stdout == f"{flight(in_cruise, states)!r}\n"
+
+
+def test_in_threads(in_cruise, states):
+    with ThreadPoolExecutor(3) as threads:
+        flights = [threads.submit(flight, in_cruise, states) for _ in range(3)]
+    assert {one.result() for one in flights} == {flight(in_cruise, states)}

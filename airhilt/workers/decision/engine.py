@@ -184,9 +184,7 @@ class DecisionWorker:
 
     # --- readbacks --------------------------------------------------------------------------
 
-    def _take_transcript(
-        self, t_ns: int, t_in_ns: int, transcript: Transcript
-    ) -> list[Advisory]:
+    def _take_transcript(self, t_ns: int, t_in_ns: int, transcript: Transcript) -> list[Advisory]:
         call = parse_call(transcript.text, [t.callsign for t in self._tracks.values()])
         track = self._by_callsign(call.callsign) if call.callsign else None
         if track is None or call.altitude_ft is None:
@@ -339,14 +337,23 @@ class DecisionWorker:
         second: Track,
     ) -> list[Advisory]:
         if conflict.severity in (Severity.CAUTION, Severity.WARNING):
+            others = [
+                track.at(first.t_ns)
+                for icao24, track in self._tracks.items()
+                if icao24 not in conflict.pair
+            ]
             resolution = resolve(
                 first,
                 second,
+                others,
                 self.config.standard,
                 self._infringed,
                 strong=conflict.severity is Severity.WARNING and conflict.revision > 0,
             )
             conflict.recommendations = (resolution.first, resolution.second)
+            for icao24, recommended in zip(conflict.pair, conflict.recommendations, strict=True):
+                if isinstance(recommended, Climb | MaintainLevel):
+                    self._tracks[icao24].cleared_m = recommended.altitude_ft * FOOT
         return self._advisories(t_ready_ns, conflict, prediction, first, second, active=True)
 
     def _advisories(

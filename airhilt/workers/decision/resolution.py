@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
-from airhilt.surveillance.kinematics import Minima, VerticalProfile, relative
+from airhilt.surveillance.kinematics import Minima, VerticalProfile, relative, time_to_loss_s
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
 from airhilt.workers.decision.tracks import Track
 
@@ -48,12 +48,17 @@ class Resolution:
 
 
 def resolve(
-    first: Track, second: Track, standard: Minima, infringed: Minima, strong: bool
+    first: Track,
+    second: Track,
+    others: Sequence[Track],
+    standard: Minima,
+    infringed: Minima,
+    strong: bool,
 ) -> Resolution:
     """Return the first candidate that keeps separation, or the one that keeps most of it.
 
     It aims at ``standard``; separation counts as lost below ``infringed``, which is a tolerance
-    less.
+    less. A candidate that brings either into conflict with ``others`` is a last resort.
 
     Candidates are coordinated: of two that move vertically, the higher one climbs (of two at the
     same level the one with the higher address, so that the choice never flips).
@@ -62,6 +67,10 @@ def resolve(
     best: tuple[float, Manoeuvre, Manoeuvre] | None = None
     for own, other in _candidates(first, second, standard, rate_fpm * FOOT_PER_MINUTE):
         margin = _least_margin(first, second, own, other, infringed)
+        if _threatens(first, own, others, infringed) or _threatens(
+            second, other, others, infringed
+        ):
+            margin -= 1.0
         if best is None or margin > best[0]:
             best = (margin, own, other)
         if margin >= 1.0:
@@ -143,12 +152,25 @@ def _least_margin(
                 turning.north_m + after.velocity_north_m_s * flown,
                 turning.east_m + after.velocity_east_m_s * flown,
             )
-        vertical = abs(
-            _altitude(profiles[0], own, time_s) - _altitude(profiles[1], other, time_s)
-        )
+        vertical = abs(_altitude(profiles[0], own, time_s) - _altitude(profiles[1], other, time_s))
         ratio = max(horizontal / minima.horizontal_m, vertical / minima.vertical_m)
         least = min(least, ratio)
     return least
+
+
+def _threatens(track: Track, manoeuvre: Manoeuvre, others: Sequence[Track], minima: Minima) -> bool:
+    """Return whether a manoeuvre brings an aircraft into conflict with somebody else."""
+    if manoeuvre == NONE:
+        return False
+    turned = _turned(track, manoeuvre)
+    profile = track.profile()
+    if manoeuvre.target_m is not None:
+        rate = math.copysign(manoeuvre.rate_m_s, manoeuvre.target_m - track.altitude_m)
+        profile = VerticalProfile(track.altitude_m, rate, manoeuvre.target_m)
+    return any(
+        time_to_loss_s(relative(turned, other), profile, other.profile(), minima) is not None
+        for other in others
+    )
 
 
 def _turned(track: Track, manoeuvre: Manoeuvre) -> Track:
@@ -169,9 +191,7 @@ def _altitude(profile: VerticalProfile, manoeuvre: Manoeuvre, time_s: float) -> 
     return begun + math.copysign(min(abs(to_go), moved), to_go)
 
 
-def _recommendation(
-    track: Track, manoeuvre: Manoeuvre, rate_fpm: float
-) -> Recommendation | None:
+def _recommendation(track: Track, manoeuvre: Manoeuvre, rate_fpm: float) -> Recommendation | None:
     if manoeuvre.target_m is not None:
         target_ft = round(manoeuvre.target_m / FOOT)
         if (manoeuvre.target_m - track.altitude_m) * _vertical(track) > 0.0:

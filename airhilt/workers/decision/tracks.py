@@ -71,8 +71,7 @@ class Track:
             self.icao24,
             self.callsign,
             t_ns,
-            self.latitude_rad
-            + self.velocity_north_m_s * elapsed / (meridional + self.altitude_m),
+            self.latitude_rad + self.velocity_north_m_s * elapsed / (meridional + self.altitude_m),
             self.longitude_rad
             + self.velocity_east_m_s
             * elapsed
@@ -89,9 +88,7 @@ class Track:
         rate = self.vertical_rate_m_s
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)
-        ahead = (
-            self.cleared_m is not None and (self.cleared_m - self.altitude_m) * rate > 0.0
-        )
+        ahead = self.cleared_m is not None and (self.cleared_m - self.altitude_m) * rate > 0.0
         return VerticalProfile(self.altitude_m, rate, self.cleared_m if ahead else None)
 
 

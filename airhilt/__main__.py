@@ -1,0 +1,5 @@
+"""``python -m airhilt``."""
+
+from airhilt.cli import main
+
+main()

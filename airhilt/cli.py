@@ -1,0 +1,332 @@
+"""The commands. Each only reads its arguments, calls the package, and prints."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from pathlib import Path
+from typing import Any, NoReturn
+
+import click
+
+from airhilt._version import __version__
+from airhilt.errors import AirhiltError
+
+CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
+INTERRUPTED = 130
+
+
+@click.group(context_settings=CONTEXT)
+@click.version_option(__version__, prog_name="airhilt")
+def cli() -> None:
+    r"""Run, replay and report encounters for assistants that warn pilots and controllers.
+
+    \b
+    airhilt list                              what scenarios there are
+    airhilt cosim --scenario s02a_headon      run one
+    airhilt report RUN                        make its report, one HTML file
+    airhilt replay RUN                        run it again and compare
+    """
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt cosim --scenario s02a_headon
+  airhilt cosim --scenario my.json --seed 7 --latency lognormal --out runs/mine
+  airhilt cosim --scenario s02a_headon --assistant none --json
+  airhilt cosim --scenario s02a_headon --listen tcp/127.0.0.1:7447 --attach decision
+"""
+)
+@click.option(
+    "--scenario",
+    required=True,
+    metavar="NAME_OR_FILE",
+    help="A scenario of `airhilt list`, or a JSON file.",
+)
+@click.option(
+    "--seed",
+    type=int,
+    default=0,
+    show_default=True,
+    help="Of perturbations, sensors, crews and turbulence.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="The run folder.  [default: a new one under runs/]",
+)
+@click.option("--overwrite", is_flag=True, help="Replace the run that --out holds.")
+@click.option(
+    "--assistant",
+    type=click.Choice(["reference", "none", "external"]),
+    metavar="NAME",
+    help="reference, none, or external (attached workers only).  [default: reference, "
+    "external with --attach]",
+)
+@click.option(
+    "--pace", metavar="PACE", help="virtual (as fast as it goes), realtime, or a factor such as 4x."
+)
+@click.option(
+    "--latency",
+    default="measured",
+    show_default=True,
+    metavar="SOURCE",
+    help="measured, fixed, fixed:SECONDS, lognormal or replay:RUN.",
+)
+@click.option(
+    "--listen",
+    metavar="ENDPOINT",
+    help="Where the bus listens, such as tcp/127.0.0.1:7447.  [default: a free port]",
+)
+@click.option(
+    "--attach",
+    multiple=True,
+    metavar="WORKER",
+    help="Wait for this worker of another process; may be given again.",
+)
+@click.option(
+    "--attach-timeout",
+    type=float,
+    default=60.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="How long to wait for it.",
+)
+@click.option(
+    "--step-timeout",
+    type=float,
+    default=5.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="Wall time after which a worker that does not answer is lost.",
+)
+@click.option("--no-cameras", is_flag=True, help="Leave cameras and vision out.")
+@click.option("--no-speech", is_flag=True, help="Radio calls as text, not as sound.")
+@click.option("--strict", is_flag=True, help="Stop when a worker is lost (exit code 3).")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="Print summary.json on standard output, everything else on standard error.",
+)
+def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -> None:
+    """Run a scenario and leave a run folder."""
+    from airhilt.cosim import Options, run
+    from airhilt.progress import ProgressLine, print_summary
+    from airhilt.scenario import load
+
+    options = Options(
+        seed=given["seed"],
+        out=given["out"],
+        overwrite=given["overwrite"],
+        assistant=given["assistant"],
+        pace=given["pace"],
+        latency=given["latency"],
+        listen=given["listen"],
+        attach=attach,
+        attach_timeout_s=given["attach_timeout"],
+        step_timeout_s=given["step_timeout"],
+        cameras=not given["no_cameras"],
+        speech=not given["no_speech"],
+        strict=given["strict"],
+    )
+    with ProgressLine(scenario) as progress:
+        result = run(load(scenario), options, progress)
+    if as_json:
+        click.echo(result.summary.model_dump_json(indent=2))
+        click.echo(f"run folder: {result.folder}", err=True)
+    else:
+        print_summary(result.summary, result.folder)
+
+
+@cli.command(
+    "list",
+    epilog="""\b
+Examples:
+  airhilt list
+  airhilt list --json
+""",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+def list_scenarios(as_json: bool) -> None:
+    """Name the scenarios that ship with AIRHILT."""
+    from airhilt import library
+
+    rows = []
+    for name in library.names("scenarios"):
+        document = json.loads(library.find("scenarios", name).read_text(encoding="utf-8"))
+        rows.append({key: document.get(key, "") for key in ("name", "family", "title")})
+    if as_json:
+        click.echo(json.dumps(rows, indent=2))
+        return
+    width = max((len(row["name"]) for row in rows), default=0)
+    for row in rows:
+        click.echo(f"{row['name']:{width}}  {row['family']}  {row['title']}")
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt report runs/s02a_headon-0-20260101T120000
+  airhilt report RUN --out headon.html
+"""
+)
+@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Where to write it.  [default: report.html in the run folder]",
+)
+def report(run_folder: Path, out: Path | None) -> None:
+    """Make the report of a run: one HTML file that opens offline."""
+    from airhilt.metrics.report import write_report
+
+    click.echo(write_report(run_folder, out))
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt replay runs/s02a_headon-0-20260101T120000
+  airhilt replay RUN --json
+"""
+)
+@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def replay(run_folder: Path, as_json: bool) -> None:
+    """Run a run again with the latencies it had, and say where the two differ.
+
+    Exit code 0: identical. 1: they differ.
+    """
+    from airhilt.progress import ProgressLine
+    from airhilt.replay import replay as replay_run
+
+    with ProgressLine(f"replay of {run_folder}") as progress:
+        verdict = replay_run(run_folder, progress)
+    if as_json:
+        click.echo(json.dumps(verdict.as_dict(), indent=2))
+    else:
+        click.echo(str(verdict))
+    if not verdict.identical:
+        sys.exit(1)
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt validate my_scenario.json
+"""
+)
+@click.argument("file")
+def validate(file: str) -> None:
+    """Check a scenario file, and fly its aircraft for an instant."""
+    from airhilt.actors import build_fleet
+    from airhilt.cosim import TICK_S
+    from airhilt.scenario import load, realise
+
+    scenario = load(file)
+    realised, _ = realise(scenario, 0)
+    build_fleet(realised, 0, TICK_S)
+    click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt schema > messages.json
+  airhilt schema --scenario > scenario.schema.json
+"""
+)
+@click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
+def schema(scenario: bool) -> None:
+    """Print the JSON Schemas of all messages on the bus."""
+    if scenario:
+        from airhilt.scenario import Scenario
+
+        document = Scenario.model_json_schema()
+    else:
+        from airhilt.messages import json_schemas
+
+        document = json_schemas()
+    click.echo(json.dumps(document, indent=2))
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt doctor
+  airhilt doctor --json
+"""
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+def doctor(as_json: bool) -> None:
+    """Say what is installed, what is missing, and how to get it.
+
+    Exit code 1 if something is missing that every run needs.
+    """
+    from airhilt.doctor import examine
+
+    findings = examine()
+    if as_json:
+        click.echo(json.dumps([finding.as_dict() for finding in findings], indent=2))
+    else:
+        for finding in findings:
+            click.echo(str(finding))
+    if any(finding.needed and not finding.found for finding in findings):
+        sys.exit(1)
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt worker decision --connect tcp/127.0.0.1:7447
+"""
+)
+@click.argument("kind", type=click.Choice(["decision"]))
+@click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
+@click.option(
+    "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."
+)
+@click.option("--name", default=None, help="Name of the worker.  [default: its kind]")
+@click.option(
+    "--patience",
+    type=float,
+    default=30.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="How long to wait for the run to come up.",
+)
+def worker(
+    kind: str, connect: str, run_name: str | None, name: str | None, patience: float
+) -> None:
+    """Attach a reference worker to a run from this process."""
+    from airhilt.workers import serve
+    from airhilt.workers.decision import DecisionWorker
+
+    serve(DecisionWorker(name=name or kind), connect, run_name, patience)
+
+
+def main() -> NoReturn:
+    """Run the command line; a user's mistake ends with one line and exit code 2."""
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        code = cli.main(standalone_mode=False)
+    except AirhiltError as error:
+        for line in str(error).splitlines():
+            click.echo(f"airhilt: {line}", err=True)
+        sys.exit(error.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (KeyboardInterrupt, click.exceptions.Abort):
+        click.echo("airhilt: interrupted; the run folder is complete up to here", err=True)
+        sys.exit(INTERRUPTED)
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt

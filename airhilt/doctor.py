@@ -1,0 +1,80 @@
+"""What is installed, what is missing, and how to get it."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from airhilt import library
+from airhilt._version import __version__
+
+NEEDED = ("jsbsim", "numpy", "eclipse-zenoh", "pydantic", "mcap", "zstandard", "geographiclib")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked for."""
+
+    name: str
+    found: str
+    """Version or count; empty if it is missing."""
+    needed: bool
+    remedy: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        if self.found:
+            return f"ok       {self.name} {self.found}"
+        return f"{'MISSING' if self.needed else 'absent '}  {self.name}: {self.remedy}"
+
+
+def examine() -> list[Finding]:
+    """Return what was found, the things that every run needs first."""
+    findings = [
+        Finding("airhilt", __version__, needed=True),
+        Finding("python", platform.python_version(), needed=True),
+        *[_package(name) for name in NEEDED],
+        *[_library(kind) for kind in ("aircraft", "scenarios")],
+    ]
+    return [*findings, _jsbsim_models()]
+
+
+def _package(name: str) -> Finding:
+    try:
+        found = importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        found = ""
+    return Finding(name, found, needed=True, remedy=f"{sys.executable} -m pip install {name}")
+
+
+def _library(kind: str) -> Finding:
+    names = library.names(kind)
+    found = f"({len(names)}: {', '.join(names)})" if names else ""
+    return Finding(kind, found, needed=True, remedy="install airhilt again, its files are missing")
+
+
+def _jsbsim_models() -> Finding:
+    """Look for the models that aircraft/ names in the installed JSBSim."""
+    import jsbsim
+
+    from airhilt.flight import load_aircraft_type
+
+    models = Path(jsbsim.get_default_root_dir()) / "aircraft"
+    missing = [
+        name
+        for name in library.names("aircraft")
+        if not (models / load_aircraft_type(name).jsbsim_model).is_dir()
+    ]
+    return Finding(
+        "JSBSim models",
+        "" if missing else "(all that aircraft/ names)",
+        needed=True,
+        remedy=f"{', '.join(missing)}: not in the installed JSBSim; install jsbsim again",
+    )

@@ -1,0 +1,61 @@
+"""What the script still has in store for each aircraft, had nobody been warned."""
+
+from __future__ import annotations
+
+import bisect
+from collections.abc import Sequence
+
+from airhilt.commands import AltitudeCommand
+from airhilt.radio.script import RadioScript
+from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.surveillance.kinematics import VerticalProfile
+from airhilt.surveillance.tcas import AltitudeAt
+from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
+
+DEFAULT_RATE_M_S = 1500 * FOOT_PER_MINUTE
+"""Of a scripted climb that names none."""
+
+
+class Plans:
+    """Altitude commands of the script, and when each is, or was, carried out.
+
+    Until a line has ended, its end is where it would be if the frequency were free.
+    """
+
+    def __init__(self, lines: Sequence[RadioLine], script: RadioScript) -> None:
+        self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
+        for line in lines:
+            end_ns = script.planned_end_ns(line)
+            for scripted in line.commands:
+                self._plan(end_ns, scripted)
+
+    def _plan(self, end_ns: int, scripted: ScriptedCommand) -> None:
+        if isinstance(scripted.command, AltitudeCommand):
+            due_ns = end_ns + seconds_to_ns(scripted.delay_s)
+            self._due.setdefault(scripted.actor, []).append((due_ns, scripted.command))
+
+    def altitude_at(self, callsign: str, now_ns: int, profile: VerticalProfile) -> AltitudeAt:
+        """Return where an aircraft with this profile now would be, by what is still planned."""
+        times, altitudes, rates, targets = [0.0], [profile.altitude_m], [], []
+        rates.append(profile.rate_m_s)
+        targets.append(profile.target_m)
+        for due_ns, command in sorted(self._due.get(callsign, []), key=lambda plan: plan[0]):
+            if due_ns <= now_ns:
+                continue
+            time_s = (due_ns - now_ns) / SECOND_NS
+            last = VerticalProfile(altitudes[-1], rates[-1], targets[-1])
+            begin_m = last.at(time_s - times[-1])
+            rate = command.vertical_rate_fpm
+            speed = DEFAULT_RATE_M_S if rate is None else rate * FOOT_PER_MINUTE
+            target_m = command.altitude_ft * FOOT
+            times.append(time_s)
+            altitudes.append(begin_m)
+            rates.append(speed if target_m > begin_m else -speed)
+            targets.append(target_m)
+
+        def at(time_s: float) -> float:
+            index = bisect.bisect_right(times, time_s) - 1
+            piece = VerticalProfile(altitudes[index], rates[index], targets[index])
+            return piece.at(time_s - times[index])
+
+        return at

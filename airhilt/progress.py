@@ -1,0 +1,192 @@
+"""What a person sees of a run: the line while it goes on, the numbers at its end."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from types import TracebackType
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+from airhilt.cosim import Observer, Snapshot
+from airhilt.messages import Advisory, Severity
+from airhilt.metrics.summary import LatencyStatistics, Summary
+from airhilt.units import FOOT, NAUTICAL_MILE
+
+PLAIN_PERIOD_S = 5.0
+"""Between two lines where standard error is no terminal."""
+REFRESHES_A_SECOND = 8
+STYLES = {
+    Severity.INFO: "",
+    Severity.ADVISORY: "cyan",
+    Severity.CAUTION: "yellow",
+    Severity.WARNING: "bold red",
+}
+
+
+class ProgressLine(Observer):
+    """Shows time, speed against real time, separation and the last advisory, on standard error."""
+
+    def __init__(self, title: str) -> None:
+        self._console = Console(stderr=True, highlight=False)
+        self._title = title
+        self._live: Live | None = None
+        self._snapshot: Snapshot | None = None
+        self._begun = time.monotonic()
+        self._printed = self._begun
+
+    def __enter__(self) -> ProgressLine:
+        if self._console.is_terminal:
+            self._live = Live(
+                get_renderable=self._line,
+                console=self._console,
+                refresh_per_second=REFRESHES_A_SECOND,
+                transient=True,
+            )
+            self._live.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._live is not None:
+            self._live.stop()
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        """Show how the run is doing."""
+        if self._snapshot is None:
+            self._begun = time.monotonic()
+        self._snapshot = snapshot
+        if self._live is None and time.monotonic() - self._printed > PLAIN_PERIOD_S:
+            self._printed = time.monotonic()
+            self._console.print(self._line(), soft_wrap=True)
+
+    def notice(self, text: str) -> None:
+        """Print a line that stays."""
+        self._console.print(Text(f"airhilt: {text}", style="yellow"), soft_wrap=True)
+
+    def _line(self) -> Text:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return Text(f"{self._title}: getting ready")
+        wall_s = max(time.monotonic() - self._begun, 1e-6)
+        parts = [
+            Text(f"{snapshot.t_s:6.1f} of at most {snapshot.duration_s:.0f} s"),
+            Text(f"{snapshot.t_s / wall_s:.0f} x real time"),
+        ]
+        if snapshot.horizontal_m is not None and snapshot.vertical_m is not None:
+            parts.append(
+                Text(
+                    f"{snapshot.horizontal_m / NAUTICAL_MILE:.1f} NM / "
+                    f"{snapshot.vertical_m / FOOT:.0f} ft apart"
+                )
+            )
+        if snapshot.advisory is not None:
+            parts.append(_advisory_text(snapshot.advisory))
+        return Text("  |  ").join(parts)
+
+
+def _advisory_text(advisory: Advisory) -> Text:
+    return Text(f"{advisory.severity.value} {advisory.message}", style=STYLES[advisory.severity])
+
+
+def print_summary(summary: Summary, folder: Path) -> None:
+    """Print the numbers that a researcher quotes, on standard output."""
+    console = Console(highlight=False, soft_wrap=True)
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column()
+    for label, value in _rows(summary):
+        table.add_row(label, value)
+    console.print(table)
+    console.print(_latency_table(summary))
+    console.print(f"run folder: {folder}")
+
+
+def _rows(summary: Summary) -> list[tuple[str, str]]:
+    window = "none: the scenario declares no conflict, or its condition never came true"
+    if summary.t_conflict_s is not None and summary.t_conflict_end_s is not None:
+        window = f"{summary.t_conflict_s:.2f} to {summary.t_conflict_end_s:.2f} s"
+    approach = summary.closest_approach
+    rows = [
+        ("scenario", f"{summary.scenario}, seed {summary.seed}"),
+        ("assistant", _assistant(summary)),
+        ("outcome", summary.outcome),
+        (
+            "simulated",
+            f"{summary.duration_s:.1f} s, {summary.real_time_factor:.0f} x real time, "
+            f"{summary.cpu_s:.2f} s of CPU",
+        ),
+        ("conflict window", window),
+        ("first warning", _seconds(summary.t_first_warning_s)),
+        ("time to first warning", _seconds(summary.time_to_first_warning_s)),
+        ("before closest approach", _seconds(summary.lead_before_closest_approach_s)),
+        (
+            "before TCAS TA / RA",
+            f"{_seconds(summary.margin_over_tcas_ta_s)} / "
+            f"{_seconds(summary.margin_over_tcas_ra_s)}",
+        ),
+        (
+            "least separation",
+            f"horizontal {_distance(summary.min_horizontal_separation_m)} while vertical was lost, "
+            f"vertical {_height(summary.min_vertical_separation_m)} while horizontal was lost",
+        ),
+    ]
+    if approach is not None:
+        rows.append(
+            (
+                "closest approach",
+                f"{_distance(approach.horizontal_m)}, {_height(approach.vertical_m)} at "
+                f"{approach.t_s:.1f} s",
+            )
+        )
+    rows += [
+        ("loss of separation", _yes(summary.loss_of_separation)),
+        ("NMAC", _yes(summary.nmac)),
+        ("collision", _yes(summary.collision)),
+        ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
+        ("nuisance alerts", str(summary.nuisance_alerts)),
+        ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
+    ]
+    rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
+    return rows
+
+
+def _latency_table(summary: Summary) -> Table:
+    table = Table("latency", "n", "p50 s", "p95 s", "max s", box=None, pad_edge=False)
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for stage, statistics in summary.latencies.items():
+        table.add_row(stage, str(statistics.n), *_numbers(statistics))
+    return table
+
+
+def _numbers(statistics: LatencyStatistics) -> list[str]:
+    values = (statistics.p50_s, statistics.p95_s, statistics.max_s)
+    return ["-" if value is None else f"{value:.4f}" for value in values]
+
+
+def _assistant(summary: Summary) -> str:
+    return "none: nobody was warned" if summary.assistant == "none" else summary.assistant
+
+
+def _seconds(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f} s"
+
+
+def _distance(value: float | None) -> str:
+    return "never" if value is None else f"{value:.0f} m ({value / NAUTICAL_MILE:.2f} NM)"
+
+
+def _height(value: float | None) -> str:
+    return "never" if value is None else f"{value:.0f} m ({value / FOOT:.0f} ft)"
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"

@@ -1,0 +1,183 @@
+"""Runs a run again from its folder, and tells where the two diverge."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from airhilt.cosim import FOREIGN, Foreign, Observer, Options, Recorded, run
+from airhilt.errors import RunFolderError
+from airhilt.messages import Event
+from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
+from airhilt.record.folder import versions
+from airhilt.record.latency import RecordedLatencies
+from airhilt.scenario import Scenario
+from airhilt.sim import Input, Output, Reply
+from airhilt.units import SECOND_NS
+from airhilt.workers.pool import Participant
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a replay compares with its recording."""
+
+    identical: bool
+    messages: int
+    """Compared."""
+    difference: str
+    notes: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return {
+            "identical": self.identical,
+            "messages": self.messages,
+            "difference": self.difference or None,
+            "notes": list(self.notes),
+        }
+
+    def __str__(self) -> str:
+        head = f"identical: {self.messages} messages" if self.identical else self.difference
+        return "\n".join([head, *(f"note: {note}" for note in self.notes)])
+
+
+def replay(path: Path, observer: Observer | None = None) -> Verdict:
+    """Run a run again with the seed and the latencies that it had, and compare.
+
+    Workers of this process compute afresh; what came from other processes comes from the record.
+
+    Raises
+    ------
+    RunFolderError
+        There is no run, or it cannot be read.
+    """
+    folder = RunFolder.open(path)
+    info = folder.info()
+    latencies = read_latencies(folder.latency_path)
+    recorded_log = list(read_log(folder.log_path))
+    try:
+        scenario = Scenario.model_validate(info.scenario)
+    except ValidationError as error:
+        raise RunFolderError(
+            f"{folder.info_path}: its scenario is not valid here: {error.errors()[0]['msg']}; "
+            f"expected AIRHILT {info.versions.get('airhilt')}"
+        ) from None
+    with tempfile.TemporaryDirectory(prefix="airhilt-replay-") as scratch:
+        options = Options(
+            seed=info.options.seed,
+            out=Path(scratch) / "run",
+            assistant=info.options.assistant,
+            latency=f"replay:{path}",
+            cameras=info.options.cameras,
+            speech=info.options.speech,
+            run_name=info.run,
+        )
+        result = run(scenario, options, observer, _recorded(info, latencies, recorded_log))
+        repeated = list(read_log(RunFolder(result.folder).log_path))
+    return _compare(recorded_log, repeated, info)
+
+
+def _recorded(info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]) -> Recorded:
+    attached = [worker.description for worker in info.workers if worker.where == "attached"]
+    names = {description.name for description in attached}
+    return Recorded(
+        workers=tuple(
+            Participant(
+                description,
+                RecordedWorker(
+                    [logged for logged in log if logged.publisher == description.name],
+                    latencies.outputs.get(description.name, {}),
+                ),
+                attached=True,
+            )
+            for description in attached
+        ),
+        losses={name: loss for name, loss in latencies.losses.items() if name in names},
+        foreign=tuple(
+            Foreign(logged.key, logged.t_ns, logged.data)
+            for logged in log
+            if logged.publisher == FOREIGN
+        ),
+    )
+
+
+class RecordedWorker:
+    """Gives what a worker of another process gave, step by step."""
+
+    def __init__(self, published: Sequence[Logged], outputs: dict[int, int]) -> None:
+        self._published = deque(published)
+        self._outputs = outputs
+
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RecordedStep:  # noqa: ARG002
+        """Return the step as it was."""
+        count = min(self._outputs.get(seq, 0), len(self._published))
+        taken = [self._published.popleft() for _ in range(count)]
+        outputs = tuple(Output(item.key, item.data, item.t_ns) for item in taken)
+        return RecordedStep(Reply(outputs, 0.0))
+
+
+@dataclass(frozen=True)
+class RecordedStep:
+    """A step of an earlier run."""
+
+    reply: Reply
+
+    def result(self) -> Reply:
+        """Return what it gave."""
+        return self.reply
+
+
+def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:
+    notes = []
+    now = versions()
+    changed = [
+        f"{name} {was} -> {now.get(name)}"
+        for name, was in info.versions.items()
+        if now.get(name) != was
+    ]
+    if changed:
+        notes.append(f"versions differ from the recording: {', '.join(changed)}")
+    if info.phase != "finished":
+        recorded = [logged for logged in recorded if not _is_stop(logged)]
+        repeated = repeated[: len(recorded)]
+        notes.append("the recording breaks off; compared up to there")
+    for index, (was, now_is) in enumerate(zip_longest(recorded, repeated)):
+        if was != now_is:
+            return Verdict(False, index, _difference(index, was, now_is), tuple(notes))
+    return Verdict(True, len(recorded), "", tuple(notes))
+
+
+def _is_stop(logged: Logged) -> bool:
+    return logged.key == "truth/event" and Event.model_validate_json(logged.data).kind == "stopped"
+
+
+def _difference(index: int, was: Logged | None, now_is: Logged | None) -> str:
+    first = was or now_is
+    t_s = first.t_ns / SECOND_NS if first else 0.0
+    head = f"differs first at message {index}, {t_s:.3f} s"
+    if was is None or now_is is None:
+        longer, found = ("replay", now_is) if was is None else ("recording", was)
+        return f"{head}: only the {longer} has {found.key if found else ''}"
+    if was[:3] != now_is[:3]:
+        return (
+            f"{head}: recorded {was.key} by {was.publisher} at {was.t_ns} ns, "
+            f"now {now_is.key} by {now_is.publisher} at {now_is.t_ns} ns"
+        )
+    fields = _first_field(json.loads(was.data), json.loads(now_is.data), "")
+    return f"{head}: {was.key}{fields}"
+
+
+def _first_field(was: Any, now_is: Any, path: str) -> str:
+    if isinstance(was, dict) and isinstance(now_is, dict):
+        for key in sorted({*was, *now_is}):
+            if was.get(key) != now_is.get(key):
+                return _first_field(was.get(key), now_is.get(key), f"{path}/{key}")
+    return f"{path}: recorded {was!r}, now {now_is!r}"
