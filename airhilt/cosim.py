@@ -34,6 +34,7 @@ from airhilt.messages import (
     Message,
     Modality,
     ModalityState,
+    Phase,
     SpokenTruth,
     Status,
     Transcript,
@@ -182,6 +183,7 @@ def run(
     folder.require_free(options.overwrite)
     flights = build_fleet(realised, options.seed, TICK_S)
     with Bus(name, options.listen) as bus:
+        _tell_clock(bus, 0, "waiting", pace)
         participants, takes_no_grants = _participants(realised, options, bus, observer, recorded)
         if takes_no_grants and options.pace is None:
             pace = RealTime()
@@ -244,6 +246,11 @@ def _participants(
         worker = DecisionWorker(_decision_config(scenario.separation))
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
     return participants, any(description is None for _, description in attached)
+
+
+def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
+    clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name)
+    bus.keep("clock", clock.model_dump_json().encode())
 
 
 def _decision_config(separation: Separation) -> DecisionConfig:
@@ -320,7 +327,7 @@ class Simulation:
         self._log = LogWriter(folder.log_path)
         self._latency_log = LatencyLog(folder.latency_path)
         self._exchange = Exchange(bus, self._log)
-        self._phase: Literal["running", "finished", "stopped"] = "running"
+        self._phase: Phase = "running"
         self._ticked_ns = 0
         self._heard_unregistered = False
         self._ended_lines: set[str] = set()
@@ -591,8 +598,7 @@ class Simulation:
             )
 
     def _serve_bus(self, participants: Sequence[Participant]) -> None:
-        """Answer who asks for the clock, and hear what other programs publish by themselves."""
-        self._bus.answer("clock", lambda: self._clock().model_dump_json().encode())
+        """Notice workers that go, and hear what other programs publish by themselves."""
         attached = {p.description.name for p in participants if p.attached}
 
         def changed(name: str, alive: bool) -> None:
@@ -619,7 +625,7 @@ class Simulation:
             )
         for name, loss in recorded.losses.items():
             server = self._pool.servers[name]
-            self._director.at(loss.t_ns, partial(server.lose, loss.cause), Priority.RESULT)
+            self._director.at(loss.t_ns, partial(server.lose, loss.cause), Priority.SETTLE)
 
     def _hear_unregistered(self, key: str, data: bytes) -> None:
         """Take in a message that no grant asked for; such a program needs real time."""
@@ -669,16 +675,8 @@ class Simulation:
             Status(t_ns=self._director.now_ns, modality=modality, state=state, cause=cause),
         )
 
-    def _clock(self) -> Clock:
-        return Clock(
-            t_ns=self._director.now_ns,
-            run=self._bus.run,
-            phase=self._phase,
-            pace=self._director.pace.name,
-        )
-
     def _publish_clock(self) -> None:
-        self._bus.put("clock", self._clock().model_dump_json().encode())
+        _tell_clock(self._bus, self._director.now_ns, self._phase, self._director.pace)
 
     def _event(self, kind: EventKind, subject: str, text: str) -> None:
         self._exchange.publish(

@@ -46,11 +46,14 @@ _SEVERITY_ORDER = tuple(Severity)
 # --- the run itself -------------------------------------------------------------------------
 
 
+Phase = Literal["waiting", "running", "finished", "stopped"]
+
+
 class Clock(Message):
     """``clock``: where the run is; also answered to a query on that key. Not in the log."""
 
     run: str
-    phase: Literal["running", "finished", "stopped"]
+    phase: Phase
     pace: str
 
 

@@ -80,6 +80,7 @@ class Bus:
                 "choose another with --listen, or leave it out for a free one"
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
+        self._latest: dict[str, bytes] = {}
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
     def put(self, key: str, payload: bytes, attachment: bytes | None = None) -> None:
@@ -92,14 +93,19 @@ class Bus:
             self._publishers[key] = publisher
         publisher.put(payload, attachment=attachment)
 
-    def answer(self, key: str, answer: Callable[[], bytes]) -> None:
-        """Answer queries on a key with what ``answer`` then returns."""
+    def keep(self, key: str, payload: bytes) -> None:
+        """Publish, and answer later queries on the key with what was kept last."""
+        if key not in self._latest:
+            self._kept.append(self.session.declare_queryable(f"{self.prefix}/{key}", self._reply))
+        self._latest[key] = payload
+        self.put(key, payload)
 
-        def reply(query: zenoh.Query) -> None:
-            with query:
-                query.reply(f"{self.prefix}/{key}", answer())
-
-        self._kept.append(self.session.declare_queryable(f"{self.prefix}/{key}", reply))
+    def _reply(self, query: zenoh.Query) -> None:
+        with query:
+            for key, payload in self._latest.items():
+                name = f"{self.prefix}/{key}"
+                if query.key_expr.intersects(zenoh.KeyExpr(name)):
+                    query.reply(name, payload)
 
     def hear(self, pattern: str, heard: Callable[[str, bytes], None]) -> None:
         """Call ``heard`` with key (relative to the run) and payload of what others publish.
