@@ -36,7 +36,7 @@ def find(kind: str, name: str) -> Path:
     known = names(kind)
     if name in known:
         return folder(kind) / f"{name}.json"
-    raise ScenarioError(f"no {kind} named {name!r}{nearest(name, known)}")
+    raise ScenarioError(f"no {kind.removesuffix('s')} named {name!r}{nearest(name, known)}")
 
 
 def nearest(name: str, known: list[str]) -> str:

@@ -283,11 +283,14 @@ class DeclaredLatency(BaseModel):
     sigma: float = Field(default=0.25, ge=0.0, description="of the logarithm, for lognormal")
 
 
+WORKER_NAME = r"^[a-z0-9_-]+$"
+
+
 class WorkerDescription(BaseModel):
     """Answer to a query on ``worker/<name>/describe``."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    name: str = Field(pattern=r"^[a-z0-9_-]+$")
+    name: str = Field(pattern=WORKER_NAME)
     modality: Modality
     inputs: tuple[InputSpec, ...] = Field(min_length=1)
     latency: DeclaredLatency = DeclaredLatency(median_s=0.1)

@@ -20,7 +20,7 @@ from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.folder import versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
-from airhilt.sim import Input, Output, Reply
+from airhilt.sim import Input, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
 
@@ -87,20 +87,21 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
 
 def _recorded(info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]) -> Recorded:
     attached = [worker.description for worker in info.workers if worker.where == "attached"]
-    names = {description.name for description in attached}
+    workers, losses = [], {}
+    for description in attached:
+        name = description.name
+        loss, unfinished = latencies.losses.get(name), latencies.unfinished.get(name)
+        failure = None
+        if loss is not None and unfinished is not None and unfinished.due_ns == loss.t_ns:
+            failure = (unfinished.seq, loss.cause)
+        elif loss is not None:
+            losses[name] = loss
+        published = [logged for logged in log if logged.publisher == name]
+        worker = RecordedWorker(published, latencies.outputs.get(name, {}), failure)
+        workers.append(Participant(description, worker, attached=True))
     return Recorded(
-        workers=tuple(
-            Participant(
-                description,
-                RecordedWorker(
-                    [logged for logged in log if logged.publisher == description.name],
-                    latencies.outputs.get(description.name, {}),
-                ),
-                attached=True,
-            )
-            for description in attached
-        ),
-        losses={name: loss for name, loss in latencies.losses.items() if name in names},
+        workers=tuple(workers),
+        losses=losses,
         foreign=tuple(
             Foreign(logged.key, logged.t_ns, logged.data)
             for logged in log
@@ -110,18 +111,33 @@ def _recorded(info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
 
 
 class RecordedWorker:
-    """Gives what a worker of another process gave, step by step."""
+    """Gives what a worker of another process gave, step by step.
 
-    def __init__(self, published: Sequence[Logged], outputs: dict[int, int]) -> None:
+    Parameters
+    ----------
+    published
+        Its messages, in order.
+    outputs
+        How many of them each step gave.
+    failure
+        The step in which it was lost, and why; None if it was lost between steps or not at all.
+    """
+
+    def __init__(
+        self, published: Sequence[Logged], outputs: dict[int, int], failure: tuple[int, str] | None
+    ) -> None:
         self._published = deque(published)
         self._outputs = outputs
+        self._failure = failure
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RecordedStep:  # noqa: ARG002
         """Return the step as it was."""
+        if self._failure is not None and self._failure[0] == seq:
+            return RecordedStep(Reply((), 0.0), self._failure[1])
         count = min(self._outputs.get(seq, 0), len(self._published))
         taken = [self._published.popleft() for _ in range(count)]
         outputs = tuple(Output(item.key, item.data, item.t_ns) for item in taken)
-        return RecordedStep(Reply(outputs, 0.0))
+        return RecordedStep(Reply(outputs, 0.0), None)
 
 
 @dataclass(frozen=True)
@@ -129,9 +145,18 @@ class RecordedStep:
     """A step of an earlier run."""
 
     reply: Reply
+    failure: str | None
 
     def result(self) -> Reply:
-        """Return what it gave."""
+        """Return what it gave.
+
+        Raises
+        ------
+        WorkerLost
+            The worker was lost in it.
+        """
+        if self.failure is not None:
+            raise WorkerLost(self.failure)
         return self.reply
 
 

@@ -3,7 +3,7 @@
     airhilt cosim --scenario s02a_headon --listen tcp/127.0.0.1:7447 --attach simple
     python examples/sdk_worker.py tcp/127.0.0.1:7447
 
-It warns the controller once when two aircraft at one level come within 30 km of each other.
+It warns the controller once when two aircraft at one level come within 0.45 degrees (some 40 km) of each other.
 """
 
 import sys
@@ -29,9 +29,9 @@ class SimpleWorker:
             self.reports[report.icao24] = report
         outputs = []
         for a, b in combinations(self.reports.values(), 2):
-            pair = f"{a.icao24}-{b.icao24}"
+            pair = "-".join(sorted((a.icao24, b.icao24)))
             near = abs(a.latitude_deg - b.latitude_deg) + abs(a.longitude_deg - b.longitude_deg)
-            if near < 0.35 and abs(a.altitude_ft - b.altitude_ft) < 1000 and pair not in self.told:
+            if near < 0.45 and abs(a.altitude_ft - b.altitude_ft) < 1000 and pair not in self.told:
                 self.told.add(pair)
                 outputs.append(self.advisory(pair, a, b, t_ns))
         return Step(tuple(outputs))

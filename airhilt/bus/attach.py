@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import queue
+import re
 import time
 from collections.abc import Callable, Sequence
 
 from airhilt.bus.session import Bus
 from airhilt.bus.workers import RemoteWorker
 from airhilt.errors import BusError
-from airhilt.messages import WorkerDescription
+from airhilt.messages import WORKER_NAME, WorkerDescription
 
 
 def attach(
@@ -33,6 +34,12 @@ def attach(
     BusError
         One did not come in time.
     """
+    for name in names:
+        if not re.fullmatch(WORKER_NAME, name):
+            raise BusError(
+                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
+                "'decision'"
+            )
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)

@@ -44,6 +44,14 @@ class Loss:
 
 
 @dataclass
+class UnfinishedStep:
+    """A step that did not come to its end, and when it would have been due."""
+
+    seq: int
+    due_ns: int
+
+
+@dataclass
 class RecordedLatencies:
     """What a latency log says."""
 
@@ -51,6 +59,8 @@ class RecordedLatencies:
     outputs: dict[str, dict[int, int]] = field(default_factory=dict)
     """By worker and step."""
     losses: dict[str, Loss] = field(default_factory=dict)
+    unfinished: dict[str, UnfinishedStep] = field(default_factory=dict)
+    """What each worker had in hand when it was lost, or when the run ended."""
 
 
 def read_latencies(path: Path) -> RecordedLatencies:
@@ -78,4 +88,7 @@ def read_latencies(path: Path) -> RecordedLatencies:
             seq = row["seq"]
             recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
             recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
+            if not row["finished"]:
+                due_ns = row["t_start_ns"] + row["latency_ns"]
+                recorded.unfinished[worker] = UnfinishedStep(seq, due_ns)
     return recorded

@@ -196,13 +196,14 @@ def _tag(annotation: Any) -> str | None:
 
 def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     callsigns = [actor.callsign for actor in scenario.actors]
+    known = list(dict.fromkeys(callsigns))
     line_ids = [line.id for line in scenario.radio.lines]
     yield from _duplicates("actors", "callsign", callsigns)
     yield from _duplicates("actors", "icao24", [actor.icao24 for actor in scenario.actors])
     yield from _duplicates("radio/lines", "id", line_ids)
     yield from _duplicates("cameras", "name", [camera.name for camera in scenario.cameras])
     yield from _actors(scenario)
-    yield from _references(scenario, callsigns, line_ids)
+    yield from _references(scenario, known, line_ids)
     yield from _perturbations(scenario)
 
 

@@ -87,18 +87,22 @@ class Director:
         self.pace = pace
 
     def run(self) -> None:
-        """Run events until `stop` is called or none is left."""
+        """Run events until `stop` is called or none is left.
+
+        What was posted runs between two instants, never among the events of one, so that it can
+        be repeated from its time alone.
+        """
         heap, posted, pop = self._heap, self._posted, heapq.heappop
         self.pace.start(self.now_ns)
         while heap and not self._stopped:
             t_ns = heap[0][0]
-            is_due = bool(posted) or self.pace.wait_until(t_ns, self._wake)
-            if posted:
+            has_room = t_ns > self.now_ns + 1
+            if not (posted and has_room) and not self.pace.wait_until(t_ns, self._wake):
                 self._wake.clear()
-                self.now_ns = max(self.now_ns, min(self.pace.elapsed_ns(self.now_ns), t_ns))
+            elif posted and has_room:
+                elapsed_ns = self.pace.elapsed_ns(self.now_ns)
+                self.now_ns = min(max(elapsed_ns, self.now_ns + 1), t_ns - 1)
                 posted.popleft()()
-            elif is_due:
+            else:
                 self.now_ns, _, _, action = pop(heap)
                 action()
-            else:
-                self._wake.clear()

@@ -33,6 +33,8 @@ from airhilt.workers.decision.tracks import Track
 from airhilt.workers.protocol import Step
 
 CONTROLLER = "ATC"
+LEAST_CURVATURE_RADIUS_M = 6.335e6
+"""Of the ellipsoid's meridians, at the equator."""
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,7 @@ class DecisionWorker:
         self._tracks: dict[str, Track] = {}
         self._clearances: dict[str, _Clearance] = {}
         self._conflicts: dict[tuple[str, str], _Conflict] = {}
+        self._carried: dict[str, Track] = {}
         self._told = 0
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
@@ -144,6 +147,7 @@ class DecisionWorker:
             else:
                 transcript = Transcript.model_validate_json(item.payload)
                 advisories += self._take_transcript(t_ns, item.t_in_ns, transcript)
+        self._carried.clear()
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         self._drop_stale(t_ns)
         for pair in self._pairs_of(updated):
@@ -253,9 +257,11 @@ class DecisionWorker:
 
     def _judge(self, t_ns: int, t_ready_ns: int, pair: tuple[str, str]) -> list[Advisory]:
         """Predict one pair, and tell it if that changes what is known of its conflict."""
-        first, second = (self._tracks[icao24].at(t_ns) for icao24 in pair)
-        prediction = self._predict(first, second)
         conflict = self._conflicts.get(pair)
+        if conflict is None and self._cannot_meet(*(self._tracks[icao24] for icao24 in pair)):
+            return []
+        first, second = (self._present(icao24, t_ns) for icao24 in pair)
+        prediction = self._predict(first, second)
         level = self._grade(prediction.time_to_loss_s)
         if conflict is None:
             if level is None:
@@ -276,21 +282,40 @@ class DecisionWorker:
         conflict.severity, conflict.rising = level, None
         return self._tell(t_ready_ns, conflict, prediction, first, second)
 
+    def _cannot_meet(self, first: Track, second: Track) -> bool:
+        """Return whether two are too far apart for any conflict within the look-ahead.
+
+        Cheap, because most pairs of a busy sky are: by level and by latitude only.
+        """
+        reach_s = self.config.advisory_s + self.config.stale_s
+        gap_m = abs(first.altitude_m - second.altitude_m)
+        closing_m_s = abs(first.vertical_rate_m_s) + abs(second.vertical_rate_m_s)
+        if gap_m > self.config.vertical_m + closing_m_s * reach_s:
+            return True
+        north_m = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
+        closing_m_s = abs(first.velocity_north_m_s) + abs(second.velocity_north_m_s)
+        return north_m > self.config.horizontal_m + closing_m_s * reach_s
+
+    def _present(self, icao24: str, t_ns: int) -> Track:
+        """Return a track carried on to now, computed once a step."""
+        track = self._carried.get(icao24)
+        if track is None:
+            track = self._carried[icao24] = self._tracks[icao24].at(t_ns)
+        return track
+
     def _predict(self, first: Track, second: Track) -> _Prediction:
         motion = relative(first, second)
         profiles = (first.profile(), second.profile())
-        loss = time_to_loss_s(motion, *profiles, self._infringed)
+        interval = motion.interval_within(self.config.horizontal_m)
+        is_past = interval is None or interval[1] <= 0.0 or interval[0] > self.config.advisory_s
         approach = max(motion.time_to_closest_approach_s(), 0.0)
         return _Prediction(
-            loss,
+            None if is_past else time_to_loss_s(motion, *profiles, self._infringed),
             approach,
             motion.at(approach).distance_m,
             _gap(profiles, approach),
-            is_past=self._is_past(motion.interval_within(self.config.horizontal_m)),
+            is_past,
         )
-
-    def _is_past(self, interval: tuple[float, float] | None) -> bool:
-        return interval is None or interval[1] <= 0.0 or interval[0] > self.config.advisory_s
 
     def _grade(self, time_to_loss: float | None) -> Severity | None:
         config = self.config

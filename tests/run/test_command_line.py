@@ -1,0 +1,196 @@
+"""The command line, as a person or a script meets it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt import library
+from airhilt.record import RunFolder, read_log
+
+SUMMARY_FIELDS = {
+    "scenario", "seed", "assistant", "duration_s", "t_conflict_s", "t_first_warning_s",
+    "time_to_first_warning_s", "lead_before_closest_approach_s", "margin_over_tcas_ta_s",
+    "margin_over_tcas_ra_s", "min_horizontal_separation_m", "min_vertical_separation_m",
+    "loss_of_separation", "nmac", "collision", "avoided", "nuisance_alerts", "advisories",
+    "latencies", "modalities", "real_time_factor", "cpu_s",
+}  # fmt: skip
+
+
+def assert_is_a_users_mistake(done: subprocess.CompletedProcess[str], *said: str) -> None:
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    for text in said:
+        assert text in done.stderr
+
+
+def test_json_prints_the_summary_alone(airhilt_command: Any, encounter_file: Path) -> None:
+    done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run", "--json")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert set(summary) >= SUMMARY_FIELDS
+    folder = encounter_file.parent / "run"
+    assert json.loads((folder / "summary.json").read_text()) == summary
+    assert set(summary["latencies"]["adsb"]) == {"n", "p50_s", "p95_s", "max_s"}
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "latency.jsonl", "log.mcap", "report.html", "run.json", "summary.json",
+    ]  # fmt: skip
+
+
+def test_what_a_person_reads_names_the_numbers(airhilt_command: Any, encounter_file: Path) -> None:
+    done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
+    assert done.returncode == 0, done.stderr
+    for text in ("conflict window", "time to first warning", "before TCAS", "avoided", "p95"):
+        assert text in done.stdout
+    assert done.stdout.rstrip().endswith("run folder: run")
+
+
+def test_modalities_left_out_are_off(airhilt_command: Any, encounter_file: Path) -> None:
+    done = airhilt_command(
+        "cosim", "--scenario", encounter_file, "--no-speech", "--no-cameras",
+        "--assistant", "none", "--json",
+    )  # fmt: skip
+    modalities = json.loads(done.stdout)["modalities"]
+    assert modalities == {
+        "adsb": "on", "radio": "on", "speech": "off", "vision": "off", "decision": "off",
+    }  # fmt: skip
+
+
+def test_list_names_every_scenario_with_a_title(airhilt_command: Any) -> None:
+    rows = json.loads(airhilt_command("list", "--json").stdout)
+    assert [row["name"] for row in rows] == library.names("scenarios")
+    assert all(row["title"] for row in rows)
+
+
+def test_help_has_examples(airhilt_command: Any) -> None:
+    for command in ("cosim", "list", "report", "replay", "validate", "schema", "doctor", "worker"):
+        assert "Examples:" in airhilt_command(command, "--help").stdout
+
+
+def test_doctor_finds_everything(airhilt_command: Any) -> None:
+    done = airhilt_command("doctor")
+    assert done.returncode == 0, done.stdout
+    assert "MISSING" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("cosim", "--scenario", "s02a_haedon"), "did you mean 's02a_headon'?"),
+        (("cosim", "--scenario", "none.json"), "no such file"),
+        (("cosim", "--scenario", "s02a_headon", "--pace", "fast"), "4x"),
+        (("cosim", "--scenario", "s02a_headon", "--latency", "slow"), "lognormal"),
+        (("cosim", "--scenario", "s02a_headon", "--latency", "replay:x"), "no run here"),
+        (("cosim", "--scenario", "s02a_headon", "--seed", "-1"), "expected 0 or more"),
+        (("cosim", "--scenario", "s02a_headon", "--listen", "nonsense"), "tcp/127.0.0.1:7447"),
+        (
+            ("cosim", "--scenario", "s02a_headon", "--attach", "x", "--attach-timeout", "0.3"),
+            "did not attach",
+        ),
+        (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
+        (("cosim",), "--scenario"),
+        (("replay", "nowhere"), "no run here"),
+        (("report", "nowhere"), "no run here"),
+        (
+            ("worker", "decision", "--connect", "tcp/127.0.0.1:9", "--patience", "0.3"),
+            "start the run first",
+        ),
+    ],
+)
+def test_a_mistake_is_told_in_one_line_and_leaves_nothing_behind(
+    airhilt_command: Any, tmp_path: Path, arguments: tuple[str, ...], said: str
+) -> None:
+    assert_is_a_users_mistake(airhilt_command(*arguments), said)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_port_in_use_is_named(airhilt_command: Any, tmp_path: Path) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        endpoint = f"tcp/127.0.0.1:{taken.getsockname()[1]}"
+        done = airhilt_command("cosim", "--scenario", "s02a_headon", "--listen", endpoint)
+    assert_is_a_users_mistake(done, endpoint, "--listen")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unwritable_run_folder_is_named(airhilt_command: Any, tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.touch()
+    done = airhilt_command("cosim", "--scenario", "s02a_headon", "--out", file / "run")
+    assert_is_a_users_mistake(done, "cannot be written", "--out")
+
+
+def test_a_run_is_not_overwritten_unless_asked(airhilt_command: Any, encounter_file: Path) -> None:
+    command = ("cosim", "--scenario", encounter_file, "--assistant", "none", "--out", "run")
+    assert airhilt_command(*command).returncode == 0
+    assert_is_a_users_mistake(airhilt_command(*command), "holds a run already", "--overwrite")
+    assert airhilt_command(*command, "--overwrite").returncode == 0
+
+
+def test_a_folder_with_other_files_is_never_overwritten(
+    airhilt_command: Any, tmp_path: Path
+) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.txt").write_text("years of work")
+    done = airhilt_command("cosim", "--scenario", "s02a_headon", "--out", "mine", "--overwrite")
+    assert_is_a_users_mistake(done, "no run")
+    assert (tmp_path / "mine" / "thesis.txt").read_text() == "years of work"
+
+
+def start_slow_run(scenario: Path, out: Path) -> subprocess.Popen[bytes]:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "airhilt", "cosim", "--scenario", scenario, "--pace", "4x",
+         "--out", out],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    )  # fmt: skip
+    log = out / "log.mcap"
+    deadline = time.monotonic() + 60.0
+    while not (log.is_file() and log.stat().st_size > 20_000):
+        assert time.monotonic() < deadline
+        assert process.poll() is None
+        time.sleep(0.05)
+    return process
+
+
+def test_a_run_killed_outright_is_readable_up_to_the_last_second(
+    airhilt_command: Any, encounter_file: Path
+) -> None:
+    out = encounter_file.parent / "run"
+    process = start_slow_run(encounter_file, out)
+    before = max(logged.t_ns for logged in read_log(out / "log.mcap"))
+    process.kill()
+    process.communicate()
+    assert max(logged.t_ns for logged in read_log(out / "log.mcap")) >= before
+    assert RunFolder(out).info().phase == "running"
+    assert airhilt_command("report", out).returncode == 0
+    replayed = airhilt_command("replay", out)
+    assert replayed.returncode == 0, replayed.stdout + replayed.stderr
+    assert "breaks off" in replayed.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_leaves_a_complete_folder(
+    airhilt_command: Any, encounter_file: Path, number: signal.Signals
+) -> None:
+    out = encounter_file.parent / "run"
+    process = start_slow_run(encounter_file, out)
+    process.send_signal(number)
+    _, told = process.communicate(timeout=30.0)
+    assert process.returncode == 130
+    assert b"Traceback" not in told
+    folder = RunFolder(out)
+    assert folder.info().phase == "stopped"
+    assert folder.info().cause == "interrupted"
+    assert (folder.summary() or {})["outcome"] == "stopped: interrupted"
+    assert "breaks off" in airhilt_command("replay", out).stdout

@@ -1,0 +1,157 @@
+"""Events run in the order of simulation time, whatever the order in which they were scheduled."""
+
+import threading
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.sim import Director, Priority, RealTime, Virtual
+
+events = st.lists(st.tuples(st.integers(0, 20), st.sampled_from(Priority)), max_size=40)
+
+
+@settings(deadline=None)
+@given(events)
+def test_events_run_by_time_then_priority_then_order_of_scheduling(plan):
+    director, ran = Director(Virtual()), []
+    for number, (t_ns, priority) in enumerate(plan):
+        director.at(t_ns, lambda n=number: ran.append((director.now_ns, n)), priority)
+    director.run()
+    due = sorted(range(len(plan)), key=lambda n: (*plan[n], n))
+    assert ran == [(plan[n][0], n) for n in due]
+
+
+@settings(deadline=None)
+@given(st.lists(st.integers(0, 5), min_size=1, max_size=30))
+def test_time_never_runs_backwards_when_events_schedule_events(delays):
+    director, times, left = Director(Virtual()), [], list(delays)
+
+    def act() -> None:
+        times.append(director.now_ns)
+        for _ in range(2):
+            if left:
+                director.at(director.now_ns + left.pop(), act, Priority.SCRIPT)
+
+    director.at(0, act, Priority.SCRIPT)
+    director.run()
+    assert len(times) == len(delays) + 1
+    assert times == sorted(times)
+
+
+def test_an_event_of_this_instant_may_be_scheduled_while_the_instant_runs():
+    director, ran = Director(Virtual()), []
+
+    def sensor() -> None:
+        ran.append("sensor")
+        director.at(director.now_ns, lambda: ran.append("physics"), Priority.PHYSICS)
+
+    director.at(5, sensor, Priority.SENSOR)
+    director.at(5, lambda: ran.append("observe"), Priority.OBSERVE)
+    director.run()
+    assert ran == ["sensor", "physics", "observe"]
+
+
+def test_an_event_in_the_past_is_refused_and_says_what_time_it_is():
+    director = Director(Virtual())
+
+    def act() -> None:
+        with pytest.raises(ValueError, match=r"event at 9 ns, but it is already 10 ns"):
+            director.at(9, lambda: None, Priority.SCRIPT)
+
+    director.at(10, act, Priority.SCRIPT)
+    director.run()
+    assert director.now_ns == 10
+
+
+def test_every_repeats_at_its_period_from_its_first_time():
+    director, times = Director(Virtual()), []
+    director.every(30, lambda: times.append(director.now_ns), Priority.PHYSICS, first_ns=10)
+    director.at(100, director.stop, Priority.OBSERVE)
+    director.run()
+    assert times == [10, 40, 70, 100]
+
+
+@pytest.mark.parametrize("period_ns", [0, -1])
+def test_every_needs_a_positive_period(period_ns):
+    with pytest.raises(ValueError, match="must be positive"):
+        Director(Virtual()).every(period_ns, lambda: None, Priority.PHYSICS)
+
+
+def test_stop_ends_the_run_after_the_event_in_hand():
+    director, ran = Director(Virtual()), []
+
+    def stop() -> None:
+        director.stop()
+        ran.append("first")
+
+    director.at(1, stop, Priority.SCRIPT)
+    director.at(1, lambda: ran.append("second"), Priority.SCRIPT)
+    director.run()
+    assert ran == ["first"]
+
+
+def test_what_is_posted_runs_before_the_next_event():
+    director, ran = Director(Virtual()), []
+
+    def act() -> None:
+        director.post(lambda: ran.append(("posted", director.now_ns)))
+
+    director.at(5, act, Priority.SCRIPT)
+    director.at(9, lambda: ran.append(("event", director.now_ns)), Priority.SCRIPT)
+    director.run()
+    (posted, posted_ns), event = ran
+    assert posted == "posted"
+    assert 5 <= posted_ns < 9
+    assert event == ("event", 9)
+
+
+def test_what_is_posted_never_runs_among_the_events_of_one_instant():
+    director, ran = Director(Virtual()), []
+    director.at(5, lambda: director.post(lambda: ran.append("posted")), Priority.PHYSICS)
+    director.at(5, lambda: ran.append("observed"), Priority.OBSERVE)
+    director.at(99, lambda: ran.append("later"), Priority.PHYSICS)
+    director.run()
+    assert ran == ["observed", "posted", "later"]
+
+
+def test_a_post_from_another_thread_runs_in_the_thread_of_the_director():
+    director, ran = Director(Virtual()), []
+
+    def post() -> None:
+        for number in range(100):
+            director.post(lambda n=number: ran.append((n, threading.get_ident())))
+        director.post(director.stop)
+
+    poster = threading.Thread(target=post)
+    director.at(0, poster.start, Priority.SCRIPT)
+    director.every(1_000, lambda: None, Priority.PHYSICS)
+    director.run()
+    poster.join()
+    assert ran == [(number, threading.get_ident()) for number in range(100)]
+
+
+def test_a_post_wakes_a_director_that_waits_for_the_wall_clock():
+    director = Director(RealTime())
+    in_an_hour, posted_ns = 3_600_000_000_000, []
+
+    def posted() -> None:
+        posted_ns.append(director.now_ns)
+        director.stop()
+
+    director.at(in_an_hour, lambda: None, Priority.SCRIPT)
+    runner = threading.Thread(target=director.run, daemon=True)
+    runner.start()
+    director.post(posted)
+    runner.join(timeout=30.0)
+    assert not runner.is_alive()
+    assert 0 <= posted_ns[0] < in_an_hour
+
+
+def test_the_pace_may_change_while_it_runs():
+    director, times = Director(RealTime()), []
+    in_an_hour = 3_600_000_000_000
+    director.at(0, lambda: director.change_pace(Virtual()), Priority.SCRIPT)
+    director.at(in_an_hour, lambda: times.append(director.now_ns), Priority.SCRIPT)
+    director.run()
+    assert times == [in_an_hour]

@@ -1,0 +1,321 @@
+"""A worker is a server in virtual time: it is as late as its model is slow."""
+
+from dataclasses import dataclass, field
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.errors import WorkerError
+from airhilt.sim import (
+    Director,
+    Input,
+    Output,
+    Priority,
+    Reply,
+    Server,
+    Virtual,
+    WorkerLost,
+    parse_latency,
+)
+from airhilt.sim.latency import Fixed, Measured
+
+
+@dataclass
+class Answer:
+    """A step that is under way: ``reply`` may be what it raises."""
+
+    reply: Reply | Exception
+
+    def result(self) -> Reply:
+        if isinstance(self.reply, Exception):
+            raise self.reply
+        return self.reply
+
+
+@dataclass
+class Bench:
+    """One server with a worker that the test writes, and all that comes out of it."""
+
+    answer: object
+    latency: object
+    name: str = "worker"
+    director: Director = field(default_factory=lambda: Director(Virtual()))
+
+    def __post_init__(self) -> None:
+        self.calls, self.out, self.steps, self.losses = [], [], [], []
+        self.server = Server(
+            self.name,
+            self.director,
+            self,
+            self.latency,
+            deliver=lambda output: self.out.append((self.director.now_ns, output.payload)),
+            done=self.steps.append,
+            lost=self.losses.append,
+        )
+
+    def dispatch(self, seq, t_ns, inputs):
+        self.calls.append((seq, t_ns, tuple(item.payload for item in inputs)))
+        return Answer(self.answer(seq, t_ns, inputs))
+
+    def offer_at(self, t_ns, payload, policy="fifo", key="k"):
+        def offer() -> None:
+            self.server.offer(Input(key, t_ns, payload), policy)
+
+        self.director.at(t_ns, offer, Priority.SENSOR)
+
+    def run(self):
+        self.director.run()
+        return self
+
+
+def echo(seq, t_ns, inputs):
+    return Reply(tuple(Output("out", item.payload) for item in inputs), compute_s=0.0)
+
+
+def test_a_result_leaves_one_latency_after_the_start():
+    bench = Bench(echo, Fixed(30))
+    bench.offer_at(100, b"a")
+    bench.run()
+    assert bench.calls == [(0, 100, (b"a",))]
+    assert bench.out == [(130, b"a")]
+    (step,) = bench.steps
+    assert (step.t_in_ns, step.t_start_ns, step.latency_ns) == (100, 100, 30)
+    assert (step.outputs, step.finished) == (1, True)
+
+
+@settings(deadline=None)
+@given(
+    st.lists(st.integers(0, 500), min_size=1, max_size=20),
+    st.lists(st.integers(0, 60), min_size=20, max_size=20),
+)
+def test_an_input_starts_when_it_has_come_and_the_worker_is_free(arrivals, latencies):
+    recorded = dict(enumerate(latencies))
+    spec = parse_latency("replay:a")
+    source = type(spec)("replay", replay_of="a", recorded={"worker": recorded}).source(
+        "worker", 0, 0.0, 0.0
+    )
+    bench = Bench(echo, source)
+    for number, t_ns in enumerate(sorted(arrivals)):
+        bench.offer_at(t_ns, b"%d" % number)
+    bench.run()
+
+    expected, free_ns = [], 0
+    for number, t_in_ns in enumerate(sorted(arrivals)):
+        start_ns = max(t_in_ns, free_ns)
+        free_ns = start_ns + latencies[number]
+        expected.append((t_in_ns, start_ns, free_ns, b"%d" % number))
+    assert [call[1:] for call in bench.calls] == [
+        (start, (name,)) for _, start, _, name in expected
+    ]
+    assert bench.out == [(out, name) for _, _, out, name in expected]
+    assert [step.t_in_ns for step in bench.steps] == [t_in for t_in, *_ in expected]
+
+
+def test_fifo_takes_one_a_step_in_the_order_of_arrival():
+    bench = Bench(echo, Fixed(10))
+    for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c")):
+        bench.offer_at(t_ns, name)
+    bench.run()
+    assert bench.out == [(10, b"a"), (20, b"b"), (30, b"c")]
+    assert not bench.server.dropped.total()
+
+
+def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops():
+    bench = Bench(echo, Fixed(10))
+    for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (3, b"d")):
+        bench.offer_at(t_ns, name, "latest", key="left")
+    bench.offer_at(2, b"other", "latest", key="right")
+    bench.run()
+    assert [payload for _, payload in bench.out] == [b"a", b"other", b"d"]
+    assert +bench.server.dropped == {"left": 2}
+
+
+def test_latest_never_takes_back_what_the_worker_has_in_hand():
+    bench = Bench(echo, Fixed(10))
+    bench.offer_at(0, b"a", "latest")
+    bench.offer_at(5, b"b", "latest")
+    bench.run()
+    assert bench.out == [(10, b"a"), (20, b"b")]
+    assert not bench.server.dropped.total()
+
+
+def test_a_batch_takes_all_batched_inputs_that_wait():
+    bench = Bench(echo, Fixed(10))
+    for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (12, b"d")):
+        bench.offer_at(t_ns, name, "batch", key=name.decode())
+    bench.run()
+    assert [inputs for _, _, inputs in bench.calls] == [(b"a",), (b"b", b"c"), (b"d",)]
+
+
+def test_inputs_of_one_instant_are_one_batch():
+    bench = Bench(echo, Fixed(10))
+    bench.offer_at(5, b"a", "batch")
+    bench.offer_at(5, b"b", "batch")
+    bench.run()
+    assert bench.calls == [(0, 5, (b"a", b"b"))]
+
+
+def test_a_batch_leaves_the_unbatched_ones_in_the_queue():
+    bench = Bench(echo, Fixed(10))
+    for name, policy in ((b"a", "fifo"), (b"b", "batch"), (b"c", "fifo"), (b"d", "batch")):
+        bench.offer_at(0, name, policy)
+    bench.run()
+    assert [inputs for _, _, inputs in bench.calls] == [(b"a",), (b"b", b"d"), (b"c",)]
+
+
+def test_with_a_known_latency_the_world_goes_on_while_the_worker_computes():
+    world = []
+
+    class Watched(Answer):
+        def result(self):
+            world.append("collected")
+            return super().result()
+
+    bench = Bench(echo, Fixed(10))
+    bench.dispatch = lambda seq, t_ns, inputs: Watched(echo(seq, t_ns, inputs))
+    bench.offer_at(0, b"a")
+    bench.director.at(5, lambda: world.append("physics"), Priority.PHYSICS)
+    bench.run()
+    assert world == ["physics", "collected"]
+
+
+def test_a_measured_latency_is_the_compute_time_that_the_reply_tells():
+    bench = Bench(lambda *_: Reply((Output("out", b"x"),), compute_s=40e-9), Measured())
+    bench.offer_at(100, b"a")
+    bench.offer_at(110, b"b")
+    bench.run()
+    assert bench.out == [(140, b"x"), (180, b"x")]
+    assert [step.latency_ns for step in bench.steps] == [40, 40]
+    assert [step.t_start_ns for step in bench.steps] == [100, 140]
+
+
+def test_with_a_measured_latency_all_workers_of_an_instant_are_called_before_one_is_waited_for():
+    order = []
+
+    class Watched(Answer):
+        def result(self):
+            order.append("waited for")
+            return super().result()
+
+    director = Director(Virtual())
+    for name in ("one", "two"):
+        bench = Bench(echo, Measured(), name=name, director=director)
+        bench.dispatch = lambda *_: order.append("called") or Watched(Reply((), 0.0))
+        bench.offer_at(5, b"a")
+    director.run()
+    assert order == ["called", "called", "waited for", "waited for"]
+
+
+def test_results_of_one_instant_come_in_the_order_in_which_their_steps_began():
+    director, published = Director(Virtual()), []
+    benches = {
+        name: Bench(echo, Fixed(latency_ns), name=name, director=director)
+        for name, latency_ns in (("slow", 90), ("quick", 40), ("quicker", 10))
+    }
+    for name, t_ns in (("slow", 0), ("quick", 50), ("quicker", 80)):
+        benches[name].server._deliver = lambda _, n=name: published.append((director.now_ns, n))
+        benches[name].offer_at(t_ns, b"a")
+    director.run()
+    assert published == [(90, "slow"), (90, "quick"), (90, "quicker")]
+
+
+def test_a_worker_is_woken_without_inputs_at_the_time_that_it_asked_for():
+    def answer(seq, t_ns, inputs):
+        return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
+
+    bench = Bench(answer, Fixed(10))
+    bench.offer_at(100, b"a")
+    bench.run()
+    assert bench.calls == [(0, 100, (b"a",)), (1, 500, ())]
+
+
+def test_an_input_before_the_alarm_makes_the_worker_ask_anew():
+    def answer(seq, t_ns, inputs):
+        return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
+
+    bench = Bench(answer, Fixed(10))
+    bench.offer_at(100, b"a")
+    bench.offer_at(300, b"b")
+    bench.run()
+    assert [t_ns for _, t_ns, _ in bench.calls] == [100, 300]
+
+
+def test_an_alarm_that_has_passed_when_the_step_ends_rings_at_once():
+    def answer(seq, t_ns, inputs):
+        return Reply((), 0.0, wake_ns=101 if seq == 0 else None)
+
+    bench = Bench(answer, Fixed(10))
+    bench.offer_at(100, b"a")
+    bench.run()
+    assert [t_ns for _, t_ns, _ in bench.calls] == [100, 110]
+
+
+@pytest.mark.parametrize("wake_ns", [99, 100])
+def test_an_alarm_no_later_than_its_step_is_refused(wake_ns):
+    bench = Bench(lambda *_: Reply((), 0.0, wake_ns=wake_ns), Fixed(10))
+    bench.offer_at(100, b"a")
+    with pytest.raises(WorkerError, match=rf"'worker' asked to be woken at {wake_ns} ns"):
+        bench.run()
+
+
+@pytest.mark.parametrize(
+    ("t_out_ns", "leaves_ns"), [(None, 110), (100, 110), (110, 110), (150, 150)]
+)
+def test_an_output_leaves_no_earlier_than_the_latency_allows(t_out_ns, leaves_ns):
+    bench = Bench(lambda *_: Reply((Output("out", b"x", t_out_ns),), 0.0), Fixed(10))
+    bench.offer_at(100, b"a")
+    bench.run()
+    assert bench.out == [(leaves_ns, b"x")]
+
+
+def test_an_output_from_before_its_step_is_refused():
+    bench = Bench(lambda *_: Reply((Output("asr/1", b"x", 99),), 0.0), Fixed(10))
+    bench.offer_at(100, b"a")
+    with pytest.raises(WorkerError, match=r"'worker' sent 'asr/1' with t_out_ns 99.*at 100 ns"):
+        bench.run()
+
+
+@pytest.mark.parametrize("latency", [Fixed(10), Measured()])
+def test_a_lost_worker_is_told_of_once_and_called_no_more(latency):
+    def answer(seq, t_ns, inputs):
+        return WorkerLost("it died") if seq == 1 else echo(seq, t_ns, inputs)
+
+    bench = Bench(answer, latency)
+    for number in range(5):
+        bench.offer_at(20 * number, b"%d" % number)
+    bench.run()
+    assert bench.losses == ["it died"]
+    assert bench.server.is_lost
+    assert len(bench.calls) == 2
+    assert [payload for _, payload in bench.out] == [b"0"]
+
+
+def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_nothing():
+    bench = Bench(echo, Fixed(100))
+    bench.offer_at(0, b"a")
+    bench.offer_at(10, b"b")
+    bench.director.at(50, lambda: bench.server.lose("gone"), Priority.SCRIPT)
+    bench.director.at(60, lambda: bench.server.lose("gone again"), Priority.SCRIPT)
+    bench.offer_at(70, b"c")
+    bench.run()
+    assert bench.losses == ["gone"]
+    assert bench.out == []
+    assert len(bench.calls) == 1
+
+
+def test_the_run_can_end_before_a_step_does():
+    bench = Bench(echo, Fixed(100))
+    bench.offer_at(7, b"a")
+    bench.director.at(50, bench.director.stop, Priority.OBSERVE)
+    bench.run()
+    step = bench.server.unfinished()
+    assert step is not None
+    assert (step.t_start_ns, step.latency_ns, step.finished) == (7, 100, False)
+    assert bench.steps == []
+
+
+def test_a_worker_that_is_idle_has_nothing_unfinished():
+    bench = Bench(echo, Fixed(10))
+    bench.offer_at(0, b"a")
+    assert bench.run().server.unfinished() is None

@@ -1,0 +1,193 @@
+"""Benchmarks, each printed as ratios within one run.
+
+    python tools/bench.py headon            one encounter against bare JSBSim and real time
+    python tools/bench.py fifty             fifty aircraft: real-time factor and memory
+    python tools/bench.py startup           from the command to the first simulated second
+    python tools/bench.py bluesky --bluesky-python VENV/bin/python
+    python tools/bench.py headon --json
+
+Each number is the best of several rounds, because other load on a machine only ever slows it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+ROUNDS = 5
+
+BLUESKY = """
+import time, bluesky as bs
+bs.init(mode="sim", detached=True)
+bs.settings.simdt = 0.05
+bs.sim.simdt = 0.05
+for i, lon in enumerate((-77.4, -76.6)):
+    bs.traf.cre(f"AC{i}", "B737", 38.9, lon, 90 if i == 0 else 270, 35000 * 0.3048, 135)
+bs.sim.op()
+best = 0.0
+for _ in range(3):
+    begun = time.perf_counter()
+    for _ in range(4000):
+        bs.sim.step()
+    best = max(best, 200.0 / (time.perf_counter() - begun))
+print(best)
+"""
+
+
+def best(measure: Callable[[], float], rounds: int = ROUNDS) -> float:
+    """Return the least of several measurements."""
+    return min(measure() for _ in range(rounds))
+
+
+def headon() -> dict[str, float]:
+    """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
+    from airhilt import load, run
+    from airhilt.actors import build_fleet
+    from airhilt.cosim import TICK_S
+    from airhilt.scenario import realise
+
+    scenario = load("s02a_headon")
+    factors, whole, bare = [], [], []
+    for _ in range(ROUNDS):
+        with tempfile.TemporaryDirectory() as scratch:
+            summary = run(scenario, out=Path(scratch) / "run").summary
+        factors.append(summary.real_time_factor)
+        whole.append(summary.cpu_s / summary.duration_s)
+        fleet = build_fleet(realise(scenario, 0)[0], 0, TICK_S)
+        steppers = [flight.aircraft._airframe.step for flight in fleet.values()]  # noqa: SLF001
+        begun = time.process_time()
+        for _ in range(60 * round(6 / TICK_S)):
+            for step in steppers:
+                step()
+        bare.append((time.process_time() - begun) / 60.0)
+    return {
+        "real_time_factor_best": max(factors),
+        "real_time_factor_median": statistics.median(factors),
+        "cpu_ms_per_simulated_s": 1000.0 * min(whole),
+        "bare_cpu_ms_per_simulated_s": 1000.0 * min(bare),
+        "cpu_ratio_to_bare_best": min(whole) / min(bare),
+        "cpu_ratio_to_bare_median": statistics.median(
+            a / b for a, b in zip(whole, bare, strict=True)
+        ),
+    }
+
+
+def fifty() -> dict[str, float]:
+    """Run fifty 737s on crossing tracks."""
+    from airhilt import load, run
+    from airhilt.scenario import Scenario
+
+    document = load("s02a_headon").model_dump(mode="json")
+    template = document["actors"][0]
+    document |= {"name": "fifty", "conflict": None, "end_when": [], "perturbations": []}
+    document |= {"duration_s": 60.0, "radio": {}}
+    document["actors"] = [
+        template
+        | {
+            "callsign": f"TST{index}",
+            "icao24": f"{0xABC000 + index:06x}",
+            "initial": {
+                "position": {
+                    "type": "from_centre",
+                    "bearing_deg": index * 7.2,
+                    "distance_nm": 40.0 + 3.0 * (index % 5),
+                },
+                "altitude_ft": 29_000 + 1000.0 * (index % 10),
+                "cas_kt": 255.0,
+            },
+            "route": [{"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}],
+        }
+        for index in range(50)
+    ]
+    with tempfile.TemporaryDirectory() as scratch:
+        summary = run(Scenario.model_validate(document), out=Path(scratch) / "run").summary
+    peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return {"real_time_factor": summary.real_time_factor, "peak_memory_mb": peak_kib / 1024.0}
+
+
+FIRST_SECOND = """
+import sys, time
+from pathlib import Path
+from airhilt.cosim import Observer, Options, run
+from airhilt.scenario import load
+class First(Observer):
+    def snapshot(self, snapshot):
+        if snapshot.t_s >= 1.0:
+            print(time.time())
+            sys.stdout.flush()
+            raise KeyboardInterrupt
+try:
+    run(load("s02a_headon"), Options(out=Path(sys.argv[1]) / "run"), First())
+except KeyboardInterrupt:
+    pass
+"""
+
+
+def startup() -> dict[str, float]:
+    """Time the command line to its help and to the first simulated second."""
+
+    def first_second() -> float:
+        with tempfile.TemporaryDirectory() as scratch:
+            begun = time.time()
+            command = [sys.executable, "-c", FIRST_SECOND, scratch]
+            done = subprocess.run(command, capture_output=True, text=True, check=True)
+        return float(done.stdout) - begun
+
+    def show_help() -> float:
+        begun = time.perf_counter()
+        command = [sys.executable, "-m", "airhilt", "--help"]
+        subprocess.run(command, capture_output=True, check=True)
+        return time.perf_counter() - begun
+
+    return {"first_simulated_second_s": best(first_second), "help_s": best(show_help)}
+
+
+def bluesky(python: str) -> dict[str, float]:
+    """Compare with BlueSky's point masses at the same step, BlueSky being in its own environment.
+
+    Raises
+    ------
+    SystemExit
+        There is no BlueSky in that environment.
+    """
+    ours = headon()["real_time_factor_best"]
+    done = subprocess.run([python, "-c", BLUESKY], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(
+            f"{python}: cannot run BlueSky: {done.stderr.strip().splitlines()[-1:]}; make an "
+            "environment with `pip install bluesky-simulator` and give its python"
+        )
+    theirs = float(done.stdout.strip().splitlines()[-1])
+    return {"airhilt_x": ours, "bluesky_x": theirs, "ratio": ours / theirs}
+
+
+BENCHMARKS = {"headon": headon, "fifty": fifty, "startup": startup}
+
+
+def main() -> None:
+    """Run one benchmark."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky"])
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
+    given = parser.parse_args()
+    numbers = bluesky(given.bluesky_python) if given.name == "bluesky" else BENCHMARKS[given.name]()
+    if given.json:
+        print(json.dumps(numbers, indent=2))
+        return
+    for name, value in numbers.items():
+        print(f"{name:32} {value:10.3f}")
+
+
+if __name__ == "__main__":
+    main()
