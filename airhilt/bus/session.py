@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import socket
+import time
 from collections.abc import Callable
 from types import TracebackType
 from typing import Any
@@ -14,6 +15,7 @@ from airhilt.errors import BusError
 
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
+RETRY_S = 0.2
 
 
 def free_endpoint() -> str:
@@ -50,6 +52,28 @@ def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
         except zenoh.ZError:
             raise BusError(f"endpoint {endpoint!r}: expected the form tcp/127.0.0.1:7447") from None
     return config
+
+
+def connect_client(endpoint: str, patience_s: float) -> zenoh.Session:
+    """Return a session with the run at an endpoint, waiting for it to come up.
+
+    Raises
+    ------
+    BusError
+        Nothing listens there in time.
+    """
+    config = configuration("client", "connect", endpoint)
+    deadline = time.monotonic() + patience_s
+    while True:
+        try:
+            return zenoh.open(config)
+        except zenoh.ZError:
+            if time.monotonic() > deadline:
+                raise BusError(
+                    f"nothing listens on {endpoint} after {patience_s:g} s; start the run first: "
+                    f"airhilt cosim --scenario NAME --listen {endpoint}"
+                ) from None
+            time.sleep(RETRY_S)
 
 
 class Bus:

@@ -57,8 +57,7 @@ def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple
 
 def _near(fraction: float, zone: float, reference: float) -> float:
     """Return the value of a fraction of a zone that lies nearest to a reference."""
-    index = math.floor(reference / zone) + math.floor(0.5 + (reference % zone) / zone - fraction)
-    return zone * (index + fraction)
+    return zone * (math.floor(0.5 + reference / zone - fraction) + fraction)
 
 
 def decode_global(

@@ -10,7 +10,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.frames import pack, unpack
-from airhilt.bus.session import ROOT, configuration
+from airhilt.bus.session import ROOT, connect_client
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply
 from airhilt.sim.worker import Input
@@ -34,27 +34,12 @@ def serve(worker: Worker, connect: str, run: str | None = None, patience_s: floa
     BusError
         No run was found there.
     """
-    session = _open(connect, patience_s)
+    session = connect_client(connect, patience_s)
     try:
         prefix = f"{ROOT}/{run}" if run else _find_run(session, connect, patience_s)
         _serve(session, worker, prefix)
     finally:
         session.close()  # type: ignore[no-untyped-call]
-
-
-def _open(connect: str, patience_s: float) -> zenoh.Session:
-    config = configuration("client", "connect", connect)
-    deadline = time.monotonic() + patience_s
-    while True:
-        try:
-            return zenoh.open(config)
-        except zenoh.ZError:
-            if time.monotonic() > deadline:
-                raise BusError(
-                    f"nothing listens on {connect} after {patience_s:g} s; start the run first: "
-                    f"airhilt cosim --scenario NAME --listen {connect} --attach WORKER"
-                ) from None
-            time.sleep(0.2)
 
 
 def _find_run(session: zenoh.Session, connect: str, patience_s: float) -> str:

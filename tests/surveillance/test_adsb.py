@@ -1,0 +1,237 @@
+"""ADS-B as DO-260B has it: what transponders say, and what receivers make of it."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.scenario.geometry import Site
+from airhilt.surveillance.adsb import (
+    NACP_95_PERCENT_M,
+    IdentificationSquitter,
+    Receiver,
+    Reception,
+    Transponder,
+    quantise,
+)
+from airhilt.surveillance.kinematics import relative
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
+
+EVERYWHERE = 500.0 * NAUTICAL_MILE
+
+
+@dataclass(frozen=True)
+class Flying(Site):
+    velocity_down_m_s: float = 0.0
+
+
+HERE = Flying(47.0 * DEGREE, 8.0 * DEGREE, 10_000.0, 150.0, -200.0, velocity_down_m_s=-5.0)
+
+
+def transponder(nacp=9, nacv=2, seed=1):
+    return Transponder("a1b2c3", "AAL123", nacp, nacv, np.random.default_rng(seed))
+
+
+def receiver(name="site", range_m=EVERYWHERE, height_m=1_000.0):
+    return Receiver(name, Site(47.0 * DEGREE, 8.0 * DEGREE, height_m), range_m)
+
+
+@settings(deadline=None)
+@given(
+    st.floats(-300.0, 15_000.0),
+    st.floats(-300.0, 300.0),
+    st.floats(-300.0, 300.0),
+    st.floats(-30.0, 30.0),
+)
+def test_altitude_comes_in_steps_of_25_ft_and_velocity_in_knots_and_64_fpm(
+    altitude_m, north, east, down
+):
+    state = Flying(47.0 * DEGREE, 8.0 * DEGREE, altitude_m, north, east, down)
+    sender = transponder(nacv=4)
+    altitude_ft = sender.position(state, 0).altitude_ft
+    assert altitude_ft % 25.0 == 0.0
+    assert abs(altitude_ft - altitude_m / FOOT) <= 12.5 + 1e-9
+    speed, track, rate = sender.velocity(state)
+    for component in (speed * math.cos(track * DEGREE), speed * math.sin(track * DEGREE)):
+        assert component == pytest.approx(round(component), abs=1e-6)
+    assert 0.0 <= track < 360.0
+    assert rate % 64.0 == 0.0
+    assert abs(rate + down / FOOT_PER_MINUTE) <= 32.0 + 1e-9
+
+
+@settings(deadline=None)
+@given(st.floats(-1e6, 1e6), st.sampled_from([1.0, 25.0, 64.0]))
+def test_quantised_is_the_nearest_multiple(value, step):
+    assert quantise(value, step) % step == 0.0
+    assert abs(quantise(value, step) - value) <= step / 2.0
+
+
+def test_even_and_odd_positions_take_turns():
+    sender = transponder()
+    assert [sender.position(HERE, n).position.odd for n in range(4)] == [False, True, False, True]
+
+
+def position_errors_m(nacp, flights=400):
+    """How far the first decoded position of some flights is off."""
+    errors = []
+    for seed in range(flights):
+        sender, station = transponder(nacp, nacv=4, seed=seed), receiver()
+        station.decode(sender, sender.velocity(HERE), 0)
+        station.decode(sender, sender.position(HERE, 0), 0)
+        decoded = station.decode(sender, sender.position(HERE, 1), 1)
+        if decoded is not None:
+            place = Site(decoded.position_deg[0] * DEGREE, decoded.position_deg[1] * DEGREE, 1e4)
+            errors.append(relative(replace(HERE, altitude_m=1e4), place).distance_m)
+    return np.array(errors)
+
+
+@pytest.mark.parametrize("nacp", [6, 7, 8, 9])
+def test_95_percent_of_positions_lie_within_what_the_accuracy_category_says(nacp):
+    errors = position_errors_m(nacp)
+    share = np.mean(errors <= NACP_95_PERCENT_M[nacp])
+    assert 0.90 <= share <= 0.99
+    assert np.median(errors) > 0.2 * NACP_95_PERCENT_M[nacp]
+
+
+def test_a_better_accuracy_category_has_a_smaller_error():
+    medians = [np.median(position_errors_m(nacp, 100)) for nacp in (5, 7, 9, 11)]
+    assert medians == sorted(medians, reverse=True)
+
+
+def test_the_position_error_drifts_and_does_not_jump():
+    sender = transponder(nacp=8)
+    errors = [sender._position_error(n * SECOND_NS // 2)[0] for n in range(4000)]
+    steps = np.diff(errors)
+    assert np.std(steps) < 0.25 * np.std(errors)
+
+
+def test_velocities_spread_as_the_accuracy_category_says():
+    sender = transponder(nacv=1)
+    velocities = [sender.velocity(HERE) for _ in range(2000)]
+    off = [
+        math.hypot(
+            speed * math.cos(track * DEGREE) * KNOT - HERE.velocity_north_m_s,
+            speed * math.sin(track * DEGREE) * KNOT - HERE.velocity_east_m_s,
+        )
+        for speed, track, _ in velocities
+    ]
+    assert 0.92 <= np.mean(np.array(off) <= 10.0) <= 0.98
+
+
+# --- reception ------------------------------------------------------------------------------
+
+
+def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity():
+    sender, station = transponder(), receiver()
+    assert station.decode(sender, sender.position(HERE, 0), 0) is None
+    assert station.decode(sender, sender.position(HERE, 1), 1) is None
+    assert station.decode(sender, sender.velocity(HERE), 2) is None
+    report = station.decode(sender, sender.position(HERE, 3), 3).report(9)
+    assert report.callsign is None
+    assert (report.t_adsb_in_ns, report.t_adsb_out_ns, report.t_ns) == (3, 9, 9)
+    assert report.latitude_deg == pytest.approx(47.0, abs=1e-3)
+    assert report.longitude_deg == pytest.approx(8.0, abs=1e-3)
+
+
+def test_a_velocity_and_positions_of_one_format_are_not_enough():
+    sender, station = transponder(), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    for n in range(6):
+        squitter = sender.position(HERE, n)
+        if not squitter.position.odd:
+            assert station.decode(sender, squitter, n) is None
+
+
+def test_positions_more_than_ten_seconds_apart_are_not_decoded_together():
+    sender, station = transponder(), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    station.decode(sender, sender.position(HERE, 0), 0)
+    late = 10 * SECOND_NS + 1
+    assert station.decode(sender, sender.position(HERE, late), late) is None
+    assert station.decode(sender, sender.position(HERE, late + 1), late + 1) is not None
+
+
+def test_the_callsign_is_known_once_an_identification_came_through():
+    sender, station = transponder(), receiver()
+    station.decode(sender, IdentificationSquitter("AAL123"), 0)
+    station.decode(sender, sender.velocity(HERE), 0)
+    station.decode(sender, sender.position(HERE, 0), 0)
+    assert station.decode(sender, sender.position(HERE, 1), 1).callsign == "AAL123"
+
+
+def test_a_receiver_hears_within_its_range_and_not_beyond():
+    station = receiver(range_m=100_000.0)
+    north = 47.0 * DEGREE + np.array([99_000.0, 101_000.0]) / 6.37e6
+    near, far = (replace(HERE, latitude_rad=float(lat)) for lat in north)
+    assert station.in_view(near)
+    assert not station.in_view(far)
+
+
+@pytest.mark.parametrize(("altitude_ft", "horizon_nm"), [(1_000, 39), (10_000, 123), (35_000, 230)])
+def test_a_receiver_hears_what_is_above_the_radio_horizon(altitude_ft, horizon_nm):
+    """1.23 times the root of the height in feet, in NM: the rule of thumb."""
+    station = receiver(height_m=0.0)
+    for nautical_miles, heard in ((0.97 * horizon_nm, True), (1.03 * horizon_nm, False)):
+        away = nautical_miles * NAUTICAL_MILE / 6.37e6
+        state = replace(HERE, latitude_rad=HERE.latitude_rad + away, altitude_m=altitude_ft * FOOT)
+        assert station.in_view(state) == heard
+
+
+def heard_of(reception, squitters, t_ns=0):
+    sender = transponder()
+    return [
+        reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
+        or reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
+        for _ in range(squitters)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("probability", "least", "most"), [(0.0, 1, 1), (0.3, 0.63, 0.77), (1.0, 0, 0)]
+)
+def test_squitters_are_lost_with_the_given_probability(probability, least, most):
+    sender = transponder()
+    reception = Reception([receiver()], probability, [])
+    for _ in range(20):
+        reception.receive(sender, sender.velocity(HERE), HERE, 0)
+    for _ in range(20):
+        reception.receive(sender, sender.position(HERE, 0), HERE, 0)
+    heard = [
+        reception.receive(sender, sender.position(HERE, 0), HERE, 0) is not None
+        for _ in range(1000)
+    ]
+    assert least <= np.mean(heard) <= most
+
+
+def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_been():
+    begin, end = 10 * SECOND_NS, 12 * SECOND_NS
+    without, with_outage = (
+        (transponder(), Reception([receiver()], 0.2, outages)) for outages in ([], [(begin, end)])
+    )
+    heard = {}
+    for name, (sender, reception) in (("without", without), ("with", with_outage)):
+        reports = []
+        for n in range(60):
+            t_ns = n * SECOND_NS // 2
+            reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
+            decoded = reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
+            reports.append(decoded and (decoded.position_deg, decoded.altitude_ft, t_ns))
+        heard[name] = reports
+    assert heard["with"][20:24] == [None] * 4
+    assert any(heard["without"][20:24])
+    assert [r and r[0] for r in heard["with"][24:]] == [r and r[0] for r in heard["without"][24:]]
+    assert heard["with"][:20] == heard["without"][:20]
+
+
+def test_the_first_receiver_that_is_in_view_gives_the_report():
+    deaf, near = receiver("deaf", range_m=0.001, height_m=0.0), receiver("near")
+    deaf.site = Site(10.0 * DEGREE, 8.0 * DEGREE)
+    decoded = [d for d in heard_of(Reception([deaf, near], 0.0, []), 3) if d is not None]
+    assert {d.receiver for d in decoded} == {"near"}
+
+
+def test_where_no_receiver_hears_there_is_no_report():
+    assert heard_of(Reception([], 0.0, []), 3) == [None] * 3

@@ -1,0 +1,165 @@
+"""ADS-B in a run: when squitters go out, and how late their reports are."""
+
+from dataclasses import dataclass, replace
+
+import pytest
+
+from airhilt import load
+from airhilt.actors import Flight
+from airhilt.flight import AircraftState
+from airhilt.scenario.models import Scenario
+from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.surveillance.sensor import AdsbSensor, carried_on
+from airhilt.units import DEGREE, SECOND_NS
+
+STATE = AircraftState(
+    latitude_rad=38.9 * DEGREE, longitude_rad=-77.0 * DEGREE, altitude_m=10_668.0,
+    height_agl_m=10_668.0, velocity_north_m_s=0.0, velocity_east_m_s=230.0,
+    velocity_down_m_s=0.0, roll_rad=0.0, pitch_rad=0.0, heading_rad=1.57,
+    true_airspeed_m_s=230.0, calibrated_airspeed_m_s=140.0, mach=0.78,
+    ecef_x_m=0.0, ecef_y_m=0.0, ecef_z_m=0.0,
+)  # fmt: skip
+
+
+@dataclass
+class Gliding:
+    """All that the sensor reads of an aircraft."""
+
+    state: AircraftState = STATE
+    ended: str | None = None
+
+
+class Run:
+    def __init__(self, seconds=120.0, latency="fixed:0.05", seed=1, equipped=True, **adsb):
+        document = load("s02a_headon").model_dump()
+        document["adsb"] |= {"loss_probability": 0.0} | adsb
+        for actor in document["actors"]:
+            actor["transponder"]["equipped"] = equipped
+        scenario = Scenario.model_validate(document)
+        self.director = Director(Virtual())
+        self.reports, self.steps = [], []
+        self.aircraft = {actor.callsign: Gliding() for actor in scenario.actors}
+        flights = {
+            actor.callsign: Flight(actor, self.aircraft[actor.callsign], None)
+            for actor in scenario.actors
+        }
+        self.sensor = AdsbSensor(
+            self.director, scenario, flights, parse_latency(latency), seed,
+            state_at_ns=lambda: self.director.now_ns,
+            publish=self.reports.append, done=self.steps.append,
+        )  # fmt: skip
+        self.end_ns = round(seconds * SECOND_NS)
+        self.director.at(self.end_ns, self.director.stop, Priority.OBSERVE)
+
+    def go(self):
+        self.director.run()
+        return self
+
+    def of(self, icao24):
+        return [report for report in self.reports if report.icao24 == icao24]
+
+
+@pytest.fixture(scope="module")
+def run():
+    return Run().go()
+
+
+def test_position_squitters_come_at_random_intervals_of_400_to_600_ms(run):
+    for icao24 in {report.icao24 for report in run.reports}:
+        times = [report.t_adsb_in_ns for report in run.of(icao24)]
+        intervals = [b - a for a, b in zip(times, times[1:], strict=False)]
+        assert len(intervals) > 190
+        assert min(intervals) >= 0.4 * SECOND_NS
+        assert max(intervals) <= 0.6 * SECOND_NS
+        assert len(set(intervals)) > 100
+
+
+def test_every_equipped_aircraft_is_reported_with_its_callsign_within_six_seconds(run):
+    named = {r.callsign for r in run.reports if r.t_adsb_in_ns < 6 * SECOND_NS}
+    assert set(run.aircraft) <= named
+
+
+def test_a_report_leaves_the_receiver_one_latency_after_the_squitter(run):
+    for report in run.reports:
+        assert report.t_adsb_out_ns - report.t_adsb_in_ns == 50_000_000
+        assert report.t_ns == report.t_adsb_out_ns
+    assert [step.seq for step in run.steps] == list(range(len(run.steps)))
+    assert all(step.worker == "adsb" and step.finished for step in run.steps)
+
+
+def test_a_report_that_the_end_of_the_run_cuts_off_is_unfinished():
+    run = Run(seconds=30.0, latency="fixed:10").go()
+    cut = run.sensor.unfinished()
+    assert cut
+    assert all(not step.finished and step.outputs == 0 for step in cut)
+    assert len(cut) + len(run.steps) == 1 + max(step.seq for step in cut)
+
+
+def test_the_same_seed_gives_the_same_reports_and_another_seed_others():
+    once, again, other = (Run(seconds=20.0, seed=seed).go().reports for seed in (1, 1, 2))
+    assert once == again
+    assert once != other
+
+
+def test_an_aircraft_without_a_transponder_is_not_heard():
+    assert Run(seconds=10.0, equipped=False).go().reports == []
+
+
+def test_an_aircraft_that_has_ended_squitters_no_more():
+    run = Run(seconds=20.0)
+    gone = next(iter(run.aircraft.values()))
+    run.director.at(
+        10 * SECOND_NS, lambda: setattr(gone, "ended", "ground_contact"), Priority.PHYSICS
+    )
+    run.go()
+    first, second = {report.icao24 for report in run.reports}
+    last = sorted(run.of(icao24)[-1].t_adsb_in_ns for icao24 in (first, second))
+    assert last[0] < 10 * SECOND_NS
+    assert last[1] > 19 * SECOND_NS
+
+
+def test_one_aircraft_more_does_not_change_what_the_others_squitter():
+    document = load("s02a_headon").model_dump()
+    seen = []
+    for keep in (1, 2):
+        part = replace_actors(document, keep)
+        director, reports = Director(Virtual()), []
+        flights = {a.callsign: Flight(a, Gliding(), None) for a in part.actors}
+        AdsbSensor(
+            director, part, flights, parse_latency("fixed:0.05"), 1, lambda d=director: d.now_ns,
+            reports.append, lambda _: None,
+        )  # fmt: skip
+        director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)
+        director.run()
+        seen.append([r for r in reports if r.icao24 == part.actors[0].icao24])
+    assert seen[0]
+    assert seen[0] == seen[1]
+
+
+def replace_actors(document, keep):
+    part = document | {
+        "actors": document["actors"][:keep], "conflict": None, "end_when": [],
+        "perturbations": [], "radio": {},
+    }  # fmt: skip
+    return Scenario.model_validate(part)
+
+
+def test_between_two_ticks_a_state_is_carried_straight_on():
+    moved = carried_on(STATE._replace(velocity_down_m_s=-10.0), 0.04)
+    assert moved.altitude_m == pytest.approx(STATE.altitude_m + 0.4)
+    east_m = (moved.longitude_rad - STATE.longitude_rad) * 6.39e6 * 0.778
+    assert east_m == pytest.approx(230.0 * 0.04, rel=0.01)
+    assert carried_on(STATE, 0.0) is STATE
+
+
+def test_a_receiver_far_away_hears_nothing():
+    position = {"type": "geodetic", "lat_deg": -38.9, "lon_deg": 77.0}
+    far = [{"name": "far", "position": position}]
+    assert Run(seconds=5.0, receivers=far).go().reports == []
+
+
+def test_a_gliding_aircraft_is_reported_where_it_is(run):
+    for report in run.reports:
+        assert report.latitude_deg == pytest.approx(38.9, abs=2e-3)
+        assert report.altitude_ft == 35_000.0
+    assert replace(run.steps[0], seq=0) == run.steps[0]

@@ -1,0 +1,127 @@
+"""TCAS II speaks at the published thresholds (FAA, Introduction to TCAS II 7.1, table 2)."""
+
+import pytest
+
+from airhilt.surveillance import tcas
+from airhilt.surveillance.kinematics import Relative
+from airhilt.units import FOOT, NAUTICAL_MILE
+
+HIGH = 35_000 * FOOT
+ALOFT = tcas.Own(HIGH, HIGH, HIGH)
+
+
+@pytest.mark.parametrize(
+    ("altitude_ft", "height_ft", "level", "traffic", "resolution"),
+    [
+        (900, 900, 2, (20, 0.30, 850), None),
+        (6_000, 900, 2, (20, 0.30, 850), None),
+        (2_000, 1_000, 3, (25, 0.33, 850), (15, 0.20, 600)),
+        (2_000, 2_349, 3, (25, 0.33, 850), (15, 0.20, 600)),
+        (3_000, 2_350, 4, (30, 0.48, 850), (20, 0.35, 600)),
+        (4_999, 4_999, 4, (30, 0.48, 850), (20, 0.35, 600)),
+        (5_000, 5_000, 5, (40, 0.75, 850), (25, 0.55, 600)),
+        (9_999, 9_000, 5, (40, 0.75, 850), (25, 0.55, 600)),
+        (10_000, 9_000, 6, (45, 1.00, 850), (30, 0.80, 600)),
+        (19_999, 9_000, 6, (45, 1.00, 850), (30, 0.80, 600)),
+        (20_000, 20_000, 7, (48, 1.30, 850), (35, 1.10, 700)),
+        (41_999, 41_000, 7, (48, 1.30, 850), (35, 1.10, 700)),
+        (42_001, 42_001, 7, (48, 1.30, 1200), (35, 1.10, 800)),
+    ],
+)
+def test_sensitivity_levels_are_those_of_the_table(
+    altitude_ft, height_ft, level, traffic, resolution
+):
+    row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
+
+    def published(thresholds):
+        return thresholds and pytest.approx(
+            (thresholds[0], thresholds[1] * NAUTICAL_MILE, thresholds[2] * FOOT)
+        )
+
+    assert row.level == level
+    assert row.traffic == published(traffic)
+    assert row.resolution == published(resolution)
+
+
+def head_on(seconds, closing_m_s=500.0):
+    """Two that meet in some seconds."""
+    return Relative(closing_m_s * seconds, 0.0, -closing_m_s, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"),
+    [(60.0, None), (49.0, None), (47.9, "tcas_ta"), (36.0, "tcas_ta"), (34.9, "tcas_ra")],
+)
+def test_head_on_at_fl350_the_traffic_advisory_comes_48_s_before_and_the_resolution_35_s(
+    seconds, said
+):
+    assert tcas.alert(head_on(seconds), 0.0, 0.0, ALOFT) == said
+
+
+def test_two_that_close_slowly_are_told_earlier_because_of_the_modified_tau():
+    """With DMOD of 1.30 NM, 55 s at 100 m/s are a modified tau of 44.5 s, at 500 m/s of 54.6 s."""
+    assert tcas.alert(head_on(55.0, closing_m_s=100.0), 0.0, 0.0, ALOFT) == "tcas_ta"
+    assert tcas.alert(head_on(55.0, closing_m_s=500.0), 0.0, 0.0, ALOFT) is None
+
+
+@pytest.mark.parametrize(("range_nm", "said"), [(1.31, None), (1.29, "tcas_ta"), (1.09, "tcas_ra")])
+def test_within_dmod_it_speaks_even_if_the_two_draw_apart(range_nm, said):
+    apart = Relative(range_nm * NAUTICAL_MILE, 0.0, 10.0, 0.0)
+    assert tcas.alert(apart, 0.0, 0.0, ALOFT) == said
+
+
+@pytest.mark.parametrize(
+    ("gap_ft", "said"),
+    [(0, "tcas_ra"), (700, "tcas_ra"), (701, "tcas_ta"), (850, "tcas_ta"), (851, None)],
+)
+def test_level_traffic_counts_within_the_altitude_threshold(gap_ft, said):
+    for gap in (gap_ft, -gap_ft):
+        assert tcas.alert(head_on(30.0), gap * FOOT, 0.0, ALOFT) == said
+
+
+def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_does_not():
+    gap = 2_000 * FOOT
+    assert tcas.alert(head_on(30.0), gap, -gap / 34.0, ALOFT) == "tcas_ra"
+    assert tcas.alert(head_on(30.0), gap, -gap / 40.0, ALOFT) == "tcas_ta"
+    assert tcas.alert(head_on(30.0), gap, -gap / 50.0, ALOFT) is None
+    assert tcas.alert(head_on(30.0), gap, gap / 34.0, ALOFT) is None
+    assert tcas.alert(head_on(30.0), -gap, gap / 34.0, ALOFT) == "tcas_ra"
+
+
+@pytest.mark.parametrize(
+    ("height_ft", "said"),
+    [(499, None), (501, "tcas_ta"), (999, "tcas_ta"), (1_001, "tcas_ra")],
+)
+def test_near_the_ground_advisories_are_inhibited(height_ft, said):
+    height = height_ft * FOOT
+    own = tcas.Own(height, height, intruder_height_m=height)
+    assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
+
+
+@pytest.mark.parametrize(
+    ("own_ft", "intruder_ft", "said"),
+    [(1_600, 300, None), (1_600, 400, "tcas_ra"), (1_800, 300, "tcas_ra")],
+)
+def test_an_intruder_on_the_ground_is_none(own_ft, intruder_ft, said):
+    own = tcas.Own(own_ft * FOOT, own_ft * FOOT, intruder_ft * FOOT)
+    assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
+
+
+def level(altitude_m):
+    return lambda _: altitude_m
+
+
+def test_a_projection_tells_when_it_would_speak_if_nobody_did_anything():
+    projection = tcas.project(head_on(100.0), level(HIGH), level(HIGH), ground_m=0.0)
+    assert projection.traffic_s == pytest.approx(52.0, abs=1.0)
+    assert projection.resolution_s == pytest.approx(65.0, abs=1.0)
+
+
+def test_a_projection_of_two_that_stay_apart_is_silent():
+    above = HIGH + 1_000 * FOOT
+    assert tcas.project(head_on(100.0), level(HIGH), level(above), 0.0) == (None, None)
+
+
+def test_a_resolution_without_a_traffic_advisory_before_counts_as_both():
+    projection = tcas.project(head_on(20.0), level(HIGH), level(HIGH), ground_m=0.0)
+    assert projection == (0.0, 0.0)

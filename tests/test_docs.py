@@ -1,0 +1,53 @@
+"""The documentation says what is so."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from airhilt.cli import cli
+from airhilt.messages import json_schemas
+from airhilt.scenario import Scenario, parse
+from airhilt.scenario.models import Perturbation, RadioLine
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def json_blocks(page: str) -> list[str]:
+    text = (ROOT / "docs" / page).read_text()
+    return re.findall(r"```json\n(.*?)```", text, flags=re.DOTALL)
+
+
+def test_the_examples_of_the_scenario_guide_are_valid() -> None:
+    scenario, line, perturbation = json_blocks("scenarios.md")
+    assert parse(scenario, "guide").name == "crossing"
+    RadioLine.model_validate_json(line)
+    Perturbation.model_validate_json(perturbation)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", page.read_text()):
+        assert (page.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_commands_and_options_exist(page: Path) -> None:
+    for command, rest in re.findall(r"\bairhilt ([a-z]+)\b([^\n]*)", page.read_text()):
+        if command not in cli.commands:
+            continue
+        options = {
+            option for parameter in cli.commands[command].params for option in parameter.opts
+        }
+        for option in re.findall(r"(?<!\S)--[a-z-]+", rest.split("   ")[0]):
+            assert option in options, f"airhilt {command} {option}"
+
+
+def test_published_schemas_are_those_of_the_code() -> None:
+    published = ROOT / "docs" / "schemas"
+    assert json.loads((published / "messages.json").read_text()) == json_schemas()
+    assert json.loads((published / "scenario.json").read_text()) == Scenario.model_json_schema()
