@@ -45,6 +45,7 @@ from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.conditions import ConditionCompiler
 from airhilt.metrics.monitor import ConflictMonitor, Pair
 from airhilt.metrics.plans import Plans
+from airhilt.metrics.report import write_report
 from airhilt.metrics.summary import Summary
 from airhilt.radio.script import RadioScript, Spoken
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
@@ -74,7 +75,9 @@ TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 TRUTH_PERIOD_NS = SECOND_NS // 5
 CONDITION_PERIOD_NS = SECOND_NS // 10
-"""How often the scenario's conditions on the true state are looked at."""
+"""How often the conflict window is looked at."""
+END_PERIOD_NS = SECOND_NS // 2
+"""How often the conditions that end the run are."""
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 FOREIGN = "unregistered"
 """Publisher, in the log, of what an unregistered program put on the bus."""
@@ -194,7 +197,10 @@ def run(
             realised, options, bus, folder, flights, participants, latency, pace, observer
         )
         simulation.schedule(recorded)
-        return simulation.run(info)
+        try:
+            return simulation.run(info)
+        finally:
+            write_report(folder.path)
 
 
 def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
@@ -439,7 +445,7 @@ class Simulation:
         every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
         every(TRUTH_PERIOD_NS, self._publish_truth, Priority.SENSOR)
         every(CONDITION_PERIOD_NS, self._watch_window, Priority.OBSERVE)
-        every(CONDITION_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
+        every(END_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
         every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
         every(SECOND_NS, self._log.flush, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)

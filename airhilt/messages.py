@@ -124,7 +124,7 @@ class Transcript(Message):
 class Climb(BaseModel):
     """Climb or descend to a level and stay there."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["altitude"] = "altitude"
     sense: Literal["climb", "descend"]
     altitude_ft: float
@@ -134,7 +134,7 @@ class Climb(BaseModel):
 class Turn(BaseModel):
     """Turn by an angle from the present track."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["turn"] = "turn"
     degrees: float = Field(ge=-180.0, le=180.0, description="positive to the right")
 
@@ -142,7 +142,7 @@ class Turn(BaseModel):
 class MaintainLevel(BaseModel):
     """Stay at, or level off at, a level."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["maintain"] = "maintain"
     altitude_ft: float
 

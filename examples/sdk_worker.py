@@ -3,15 +3,16 @@
     airhilt cosim --scenario s02a_headon --listen tcp/127.0.0.1:7447 --attach simple
     python examples/sdk_worker.py tcp/127.0.0.1:7447
 
-It warns the controller once when two aircraft at one level come within 0.45 degrees (some 40 km) of each other.
+It warns the controller once when two aircraft at one level come within 0.45 degrees (some 40 km)
+of each other.
 """
 
 import sys
 from itertools import combinations
 
 from airhilt.messages import AdsbReport, Advisory, Evidence, InputSpec, Severity, WorkerDescription
-from airhilt.workers import Step, serve
 from airhilt.sim import Input, Output
+from airhilt.workers import Step, serve
 
 
 class SimpleWorker:

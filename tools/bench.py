@@ -62,7 +62,7 @@ def headon() -> dict[str, float]:
         factors.append(summary.real_time_factor)
         whole.append(summary.cpu_s / summary.duration_s)
         fleet = build_fleet(realise(scenario, 0)[0], 0, TICK_S)
-        steppers = [flight.aircraft._airframe.step for flight in fleet.values()]  # noqa: SLF001
+        steppers = [flight.aircraft._airframe.step for flight in fleet.values()]
         begun = time.process_time()
         for _ in range(60 * round(6 / TICK_S)):
             for step in steppers:

@@ -64,6 +64,8 @@ class Crew:
         self._initial_track_rad = aircraft.state.track_rad
         self._has_route = False
         self._followed: dict[str, int] = {}
+        self._over: set[str] = set()
+        self._deferred: list[Command] = []
         self._left_lateral = False
 
     def fly_route(self, waypoints: list[tuple[float, float]]) -> None:
@@ -80,7 +82,9 @@ class Crew:
                 self._assigned_lateral = command
             case SpeedCommand():
                 pass
-        if not self._followed:
+        if self._followed:
+            self._deferred.append(command)
+        else:
             self._carry_out(command)
 
     def _carry_out(self, command: Command) -> None:
@@ -101,9 +105,11 @@ class Crew:
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return how the crew will react to an advisory, None if it will not."""
         if not advisory.active:
+            self._over.add(advisory.id)
             if advisory.id not in self._followed:
                 return None
             return Reaction(self._delay_s(advisory), lambda: self._resume(advisory.id), "resumes")
+        self._over.discard(advisory.id)
         recommendation = advisory.recommendation
         if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
             return None
@@ -126,7 +132,7 @@ class Crew:
         return first * (REPEAT_FACTOR if advisory.id in self._followed else 1.0)
 
     def _follow(self, advisory: Advisory, recommendation: Recommendation) -> None:
-        if self._followed.get(advisory.id, -1) > advisory.revision:
+        if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return
         self._followed[advisory.id] = advisory.revision
         match recommendation:
@@ -140,16 +146,20 @@ class Crew:
 
     def _resume(self, advisory_id: str) -> None:
         """Go back to what was assigned, unless another advisory still holds."""
-        del self._followed[advisory_id]
-        if self._followed:
+        if self._followed.pop(advisory_id, None) is None or self._followed:
             return
         if self._assigned_altitude is not None:
             self._carry_out(self._assigned_altitude)
         else:
             self.aircraft.hold_altitude(self._initial_altitude_m)
-        if not self._left_lateral:
-            return
-        self._left_lateral = False
+        if self._left_lateral:
+            self._left_lateral = False
+            self._resume_lateral()
+        deferred, self._deferred = self._deferred, []
+        for command in deferred:
+            self._carry_out(command)
+
+    def _resume_lateral(self) -> None:
         if isinstance(self._assigned_lateral, TrackCommand):
             self._carry_out(self._assigned_lateral)
         elif self._has_route:

@@ -12,6 +12,7 @@ from airhilt.flight import Aircraft, AircraftState
 from airhilt.messages import ConflictPhase
 from airhilt.surveillance import tcas
 from airhilt.surveillance.kinematics import (
+    LEAST_CURVATURE_RADIUS_M,
     Minima,
     Relative,
     VerticalProfile,
@@ -28,6 +29,7 @@ LEVEL_WITHIN_M = 100 * FOOT
 TCAS_RANGE_M = 40_000.0
 TCAS_HEIGHT_M = 3_000.0
 """Beyond these no pair of aircraft is within any TCAS threshold."""
+
 
 Pair = tuple[str, str]
 Motion = tuple[Relative, VerticalProfile, VerticalProfile]
@@ -107,12 +109,12 @@ class ConflictMonitor:
         self._became_true = became_true
         self._motions: dict[Pair, tuple[AircraftState, AircraftState, Motion]] = {}
         self._near: list[Pair] = []
-        self._sorted_ns = -1
+        self._sorted_ns = -SECOND_NS
 
     def tick(self, now_ns: int) -> None:
         """Look at all pairs that can matter before the next second."""
         if now_ns >= self._sorted_ns + SECOND_NS:
-            self._sorted_ns = now_ns
+            self._sorted_ns = now_ns - now_ns % SECOND_NS
             self._sort_out(now_ns)
         for pair in self._near:
             self._watch(now_ns, pair, self._tick_s)
@@ -140,15 +142,15 @@ class ConflictMonitor:
         """Choose the pairs to watch closely for a second; on the way, ask what TCAS would say."""
         reach_m = self._minima.horizontal_m + 2_000.0
         height_m = self._minima.vertical_m + 300.0
-        flying = [name for name, craft in self._aircraft.items() if craft.ended is None]
+        flying = [
+            (name, craft.state) for name, craft in self._aircraft.items() if craft.ended is None
+        ]
         self._near = []
-        for pair in itertools.combinations(flying, 2):
-            first, second = (self._aircraft[name].state for name in pair)
+        for (name, first), (other, second) in itertools.combinations(flying, 2):
             gap = abs(first.altitude_m - second.altitude_m)
-            if pair not in self._always and (
-                gap > TCAS_HEIGHT_M
-                or abs(first.latitude_rad - second.latitude_rad) * 6.3e6 > TCAS_RANGE_M
-            ):
+            apart = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
+            pair = (name, other)
+            if (gap > TCAS_HEIGHT_M or apart > TCAS_RANGE_M) and pair not in self._always:
                 continue
             motion = relative(first, second)
             distance = motion.distance_m
@@ -157,7 +159,7 @@ class ConflictMonitor:
             if distance < reach_m and gap < height_m:
                 self._near.append(pair)
             elif pair in self._always:
-                self._watch(now_ns, pair, 1.0)
+                self._watch(now_ns, pair, min(1.0, now_ns / SECOND_NS))
 
     def _ask_tcas(self, now_ns: int, pair: Pair, motion: Relative) -> None:
         states = [self._aircraft[name].state for name in pair]

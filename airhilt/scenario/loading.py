@@ -88,6 +88,10 @@ def parse(text: str, origin: str) -> Scenario:
         raise ScenarioError(
             f"{origin}:{error.lineno}:{error.colno}: not valid JSON: {error.msg}"
         ) from None
+    except ValueError:
+        raise ScenarioError(
+            f"{origin}: an integer of thousands of digits, no scenario has"
+        ) from None
     except RecursionError:
         raise ScenarioError(f"{origin}: nested too deeply") from None
     try:

@@ -71,7 +71,7 @@ def _index(entries: list[Json], chunk: str) -> int:
     }
     if chunk in named:
         return named[chunk]
-    if chunk.isdigit() and int(chunk) < len(entries):
+    if chunk.isdecimal() and int(chunk) < len(entries):
         return int(chunk)
     raise PathError(chunk, sorted(named) or [str(index) for index in range(len(entries))])
 

@@ -39,8 +39,9 @@ def _zone_sizes(latitude_deg: float, odd: bool) -> tuple[float, float]:
 def encode(latitude_deg: float, longitude_deg: float, odd: bool) -> CprPosition:
     """Encode a position (A.1.7.3)."""
     d_lat, _ = _zone_sizes(latitude_deg, odd)
-    yz = math.floor(BITS * (latitude_deg % d_lat) / d_lat + 0.5)
-    rounded_lat = d_lat * (yz / BITS + math.floor(latitude_deg / d_lat))
+    zone = math.floor(latitude_deg / d_lat)
+    yz = math.floor(BITS * (latitude_deg / d_lat - zone) + 0.5)
+    rounded_lat = d_lat * (yz / BITS + zone)
     _, d_lon = _zone_sizes(rounded_lat, odd)
     xz = math.floor(BITS * (longitude_deg % d_lon) / d_lon + 0.5)
     return CprPosition(yz % BITS, xz % BITS, odd)

@@ -14,6 +14,9 @@ WGS84_SEMI_MAJOR_M = 6_378_137.0
 WGS84_FIRST_ECCENTRICITY_SQUARED = 6.694_379_990_14e-3
 """NIMA TR8350.2, table 3.3."""
 
+LEAST_CURVATURE_RADIUS_M = WGS84_SEMI_MAJOR_M * (1.0 - WGS84_FIRST_ECCENTRICITY_SQUARED)
+"""Of the meridians, at the equator: a bound for quick tests."""
+
 
 class Kinematics(Protocol):
     """A position and a velocity over ground, SI and radians."""

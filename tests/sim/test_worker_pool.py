@@ -111,7 +111,7 @@ def test_a_worker_may_not_publish_truth_or_what_sensors_give(key):
 
 @pytest.mark.parametrize("payload", [b"", b"\xff", b"[]", b"{}", b'{"id": 5}'])
 def test_a_worker_that_publishes_nonsense_is_told_what_is_wrong(payload):
-    with pytest.raises(WorkerError, match="no Transcript.*airhilt schema"):
+    with pytest.raises(WorkerError, match=r"no Transcript.*airhilt schema"):
         parse_output("w", "asr/134325", payload)
 
 

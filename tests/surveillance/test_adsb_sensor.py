@@ -1,5 +1,6 @@
 """ADS-B in a run: when squitters go out, and how late their reports are."""
 
+import itertools
 from dataclasses import dataclass, replace
 
 import pytest
@@ -67,7 +68,7 @@ def run():
 def test_position_squitters_come_at_random_intervals_of_400_to_600_ms(run):
     for icao24 in {report.icao24 for report in run.reports}:
         times = [report.t_adsb_in_ns for report in run.of(icao24)]
-        intervals = [b - a for a, b in zip(times, times[1:], strict=False)]
+        intervals = [b - a for a, b in itertools.pairwise(times)]
         assert len(intervals) > 190
         assert min(intervals) >= 0.4 * SECOND_NS
         assert max(intervals) <= 0.6 * SECOND_NS

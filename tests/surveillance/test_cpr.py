@@ -41,6 +41,18 @@ def test_a_position_decoded_near_itself_is_where_it_was(latitude, longitude, odd
     assert -180.0 <= decoded[1] <= 180.0
 
 
+@pytest.mark.parametrize("odd", [False, True])
+def test_on_the_edge_of_a_zone_rounding_does_not_move_a_position_to_the_next(odd):
+    zone_deg = 360.0 / (60 - int(odd))
+    for index in range(-14, 15):
+        edge = index * zone_deg
+        for latitude in (math.nextafter(edge, -91.0), edge, math.nextafter(edge, 91.0)):
+            for longitude in (edge, 180.0, -180.0):
+                encoded = cpr.encode(latitude, longitude, odd)
+                decoded = cpr.decode_local(encoded, (latitude, longitude))
+                assert off_m(decoded, (latitude, longitude)) < resolution_m(latitude)
+
+
 @thoroughly
 @given(st.floats(-70.0, 70.0), longitudes, st.booleans(), bearings, st.floats(0.0, 270_000.0))
 def test_a_reference_within_145_nm_is_near_enough(latitude, longitude, odd, bearing, distance_m):

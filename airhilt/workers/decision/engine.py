@@ -26,15 +26,19 @@ from airhilt.messages import (
 )
 from airhilt.radio.phraseology import Call, parse_call
 from airhilt.sim.worker import Input, Output
-from airhilt.surveillance.kinematics import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.surveillance.kinematics import (
+    LEAST_CURVATURE_RADIUS_M,
+    Minima,
+    VerticalProfile,
+    relative,
+    time_to_loss_s,
+)
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.workers.decision.resolution import resolve
 from airhilt.workers.decision.tracks import Track
 from airhilt.workers.protocol import Step
 
 CONTROLLER = "ATC"
-LEAST_CURVATURE_RADIUS_M = 6.335e6
-"""Of the ellipsoid's meridians, at the equator."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +154,7 @@ class DecisionWorker:
         self._carried.clear()
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         self._drop_stale(t_ns)
-        for pair in self._pairs_of(updated):
+        for pair in list(self._pairs_of(updated)):
             advisories += self._judge(t_ns, t_ready_ns, pair)
         return Step(
             tuple(
@@ -175,11 +179,30 @@ class DecisionWorker:
             del self._tracks[icao24]
 
     def _pairs_of(self, updated: dict[str, None]) -> Iterator[tuple[str, str]]:
+        """Yield the pairs that have news and are in conflict or could come into one.
+
+        Most pairs of a busy sky are too far apart in level or latitude to meet within the
+        look-ahead; they are left out here, where it is cheap.
+        """
+        config, conflicts = self.config, self._conflicts
+        reach_s = config.advisory_s + config.stale_s
         seen = set()
         for icao24 in updated:
-            for other in self._tracks:
-                pair = (icao24, other) if icao24 < other else (other, icao24)
-                if icao24 != other and pair not in seen and icao24 in self._tracks:
+            own = self._tracks.get(icao24)
+            if own is None:
+                continue
+            level_m = config.vertical_m + abs(own.vertical_rate_m_s) * reach_s
+            north_m = config.horizontal_m + abs(own.velocity_north_m_s) * reach_s
+            for name, other in self._tracks.items():
+                pair = (icao24, name) if icao24 < name else (name, icao24)
+                if name == icao24 or pair in seen:
+                    continue
+                gap_m = abs(own.altitude_m - other.altitude_m)
+                apart_m = abs(own.latitude_rad - other.latitude_rad) * LEAST_CURVATURE_RADIUS_M
+                if pair in conflicts or (
+                    gap_m <= level_m + abs(other.vertical_rate_m_s) * reach_s
+                    and apart_m <= north_m + abs(other.velocity_north_m_s) * reach_s
+                ):
                     seen.add(pair)
                     yield pair
 
@@ -214,11 +237,12 @@ class DecisionWorker:
         if threatened is None:
             return []
         self._told += 1
+        track.cleared_m = cleared_ft * FOOT
         recommendation = MaintainLevel(altitude_ft=cleared_ft)
         traffic = (track.callsign, threatened.callsign)
         text = (
-            f"read back flight level {call.altitude_ft or 0.0:.0f} ft, cleared "
-            f"{cleared_ft:.0f} ft, traffic {threatened.callsign}"
+            f"read back {call.altitude_ft or 0.0:.0f} ft, cleared {cleared_ft:.0f} ft, "
+            f"traffic {threatened.callsign}"
         )
         return [
             Advisory(
@@ -258,8 +282,6 @@ class DecisionWorker:
     def _judge(self, t_ns: int, t_ready_ns: int, pair: tuple[str, str]) -> list[Advisory]:
         """Predict one pair, and tell it if that changes what is known of its conflict."""
         conflict = self._conflicts.get(pair)
-        if conflict is None and self._cannot_meet(*(self._tracks[icao24] for icao24 in pair)):
-            return []
         first, second = (self._present(icao24, t_ns) for icao24 in pair)
         prediction = self._predict(first, second)
         level = self._grade(prediction.time_to_loss_s)
@@ -281,20 +303,6 @@ class DecisionWorker:
             return []
         conflict.severity, conflict.rising = level, None
         return self._tell(t_ready_ns, conflict, prediction, first, second)
-
-    def _cannot_meet(self, first: Track, second: Track) -> bool:
-        """Return whether two are too far apart for any conflict within the look-ahead.
-
-        Cheap, because most pairs of a busy sky are: by level and by latitude only.
-        """
-        reach_s = self.config.advisory_s + self.config.stale_s
-        gap_m = abs(first.altitude_m - second.altitude_m)
-        closing_m_s = abs(first.vertical_rate_m_s) + abs(second.vertical_rate_m_s)
-        if gap_m > self.config.vertical_m + closing_m_s * reach_s:
-            return True
-        north_m = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
-        closing_m_s = abs(first.velocity_north_m_s) + abs(second.velocity_north_m_s)
-        return north_m > self.config.horizontal_m + closing_m_s * reach_s
 
     def _present(self, icao24: str, t_ns: int) -> Track:
         """Return a track carried on to now, computed once a step."""

@@ -1,0 +1,237 @@
+"""Crews follow advisories after a while, and do what they were told before when it is over."""
+
+import statistics
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.actors.crew import Crew, ReactionTime
+from airhilt.commands import AltitudeCommand, SpeedCommand, TrackCommand
+from airhilt.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
+from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+
+CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
+
+
+@pytest.fixture(scope="module")
+def aircraft():
+    initial = InitialCondition(
+        latitude_rad=47.0 * DEGREE,
+        longitude_rad=8.0 * DEGREE,
+        altitude_m=5_000 * FOOT,
+        track_rad=60.0 * DEGREE,
+        calibrated_airspeed_m_s=95 * KNOT,
+    )
+    return Aircraft(load_aircraft_type("c172p"), initial, seed=1, atmosphere=Atmosphere())
+
+
+@pytest.fixture(autouse=True)
+def as_it_began(aircraft):
+    aircraft.hold_altitude(5_000 * FOOT)
+    aircraft.hold_speed(95 * KNOT)
+    aircraft.hold_track(60.0 * DEGREE)
+
+
+def crew_of(aircraft, compliance=1.0, median_s=5.0, sigma=0.0, seed=1):
+    return Crew("AAL123", aircraft, ReactionTime(median_s, sigma, compliance), seed)
+
+
+def advisory(recommendation=CLIMB, severity="CAUTION", active=True, revision=0, name="s-1"):
+    return Advisory(
+        id=name, revision=revision, recipient="AAL123", recipients=("AAL123",),
+        kind="loss_of_separation", severity=Severity(severity), active=active,
+        traffic=("AAL123", "DAL456"), message="", recommendation=recommendation,
+        evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
+    )  # fmt: skip
+
+
+def over(name="s-1", revision=9):
+    return advisory(None, "INFO", active=False, revision=revision, name=name)
+
+
+def level_ft(aircraft):
+    return aircraft.target_altitude_m / FOOT
+
+
+def test_a_crew_follows_after_its_reaction_time_and_not_before(aircraft):
+    reaction = crew_of(aircraft).hear(advisory())
+    assert reaction.delay_s == 5.0
+    assert level_ft(aircraft) == pytest.approx(5_000)
+    reaction.act()
+    assert level_ft(aircraft) == pytest.approx(5_600)
+    assert aircraft.target_vertical_rate_m_s == pytest.approx(500 * FOOT_PER_MINUTE, rel=0.01)
+
+
+def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    crew.hear(over()).act()
+    assert level_ft(aircraft) == pytest.approx(5_000)
+
+
+def test_a_level_to_maintain_is_maintained(aircraft):
+    crew_of(aircraft).hear(advisory(MaintainLevel(altitude_ft=5_200))).act()
+    assert level_ft(aircraft) == pytest.approx(5_200)
+
+
+@pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
+def test_a_crew_does_not_act_on_less_than_a_caution(aircraft, severity):
+    assert crew_of(aircraft).hear(advisory(severity=severity)) is None
+
+
+def test_without_a_recommendation_there_is_nothing_to_do(aircraft):
+    assert crew_of(aircraft).hear(advisory(None)) is None
+
+
+def test_the_end_of_a_conflict_that_it_did_not_follow_is_nothing_to_it(aircraft):
+    assert crew_of(aircraft).hear(over()) is None
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 2**40), st.integers(0, 5))
+def test_reaction_times_are_the_same_for_the_same_seed_and_advisory(aircraft, seed, revision):
+    def delay_s(crew_seed, name="s-1"):
+        crew = crew_of(aircraft, sigma=0.3, seed=crew_seed)
+        return crew.hear(advisory(revision=revision, name=name)).delay_s
+
+    assert delay_s(seed) == delay_s(seed)
+    assert len({delay_s(seed), delay_s(seed + 1), delay_s(seed, "s-2")}) == 3
+
+
+def test_reaction_times_lie_about_their_median(aircraft):
+    delays = [
+        crew_of(aircraft, sigma=0.3, seed=seed).hear(advisory()).delay_s for seed in range(400)
+    ]
+    assert statistics.median(delays) == pytest.approx(5.0, rel=0.06)
+    assert min(delays) > 0.0
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 2**40))
+def test_compliance_0_never_follows_and_1_always_does(aircraft, seed):
+    assert crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()) is None
+    assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()) is not None
+
+
+def test_compliance_is_how_many_crews_follow(aircraft):
+    follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()) is not None for seed in range(400)]
+    assert 0.22 <= statistics.mean(follow) <= 0.38
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.integers(0, 2**40))
+def test_whether_a_crew_follows_does_not_change_with_the_revision(aircraft, seed):
+    crew = crew_of(aircraft, compliance=0.5, seed=seed)
+    heard = [crew.hear(advisory(revision=revision)) is not None for revision in range(4)]
+    assert len(set(heard)) == 1
+
+
+def test_a_changed_advisory_is_followed_in_half_the_time(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    again = crew.hear(
+        advisory(CLIMB.model_copy(update={"altitude_ft": 6_000}), "WARNING", revision=1)
+    )
+    assert again.delay_s == 2.5
+    again.act()
+    assert level_ft(aircraft) == pytest.approx(6_000)
+    assert crew.hear(over()).delay_s == 2.5
+
+
+def test_an_older_advisory_does_not_overtake_a_newer_one(aircraft):
+    crew = crew_of(aircraft)
+    old = crew.hear(advisory())
+    new = crew.hear(advisory(CLIMB.model_copy(update={"altitude_ft": 6_000}), revision=1))
+    new.act()
+    old.act()
+    assert level_ft(aircraft) == pytest.approx(6_000)
+
+
+def test_a_command_is_carried_out_at_once_where_there_is_no_advisory(aircraft):
+    crew_of(aircraft).command(AltitudeCommand(action="altitude", altitude_ft=7_000))
+    assert level_ft(aircraft) == pytest.approx(7_000)
+
+
+def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=7_000))
+    assert level_ft(aircraft) == pytest.approx(5_600)
+    crew.hear(over()).act()
+    assert level_ft(aircraft) == pytest.approx(7_000)
+
+
+def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    crew.command(SpeedCommand(action="speed", cas_kt=80))
+    assert aircraft.target_speed_m_s == pytest.approx(95 * KNOT)
+    crew.hear(over()).act()
+    assert aircraft.target_speed_m_s == pytest.approx(80 * KNOT)
+
+
+def fly(aircraft, seconds):
+    for _ in range(round(seconds * 20)):
+        aircraft.advance()
+    return aircraft.state.track_rad / DEGREE % 360.0
+
+
+def test_a_track_commanded_during_a_climb_is_flown_afterwards(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    crew.command(TrackCommand(action="track", track_deg=100.0))
+    assert fly(aircraft, 10) == pytest.approx(60.0, abs=2.0)
+    crew.hear(over()).act()
+    assert fly(aircraft, 60) == pytest.approx(100.0, abs=2.0)
+
+
+def test_after_a_turn_it_goes_back_to_its_track(aircraft):
+    fly(aircraft, 60)
+    crew = crew_of(aircraft)
+    before = aircraft.state.track_rad / DEGREE
+    crew.hear(advisory(Turn(degrees=30))).act()
+    assert fly(aircraft, 40) == pytest.approx(before + 30.0, abs=2.0)
+    crew.hear(over()).act()
+    assert fly(aircraft, 60) == pytest.approx(before, abs=2.0)
+
+
+def test_of_two_advisories_both_must_be_over(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory(name="s-1")).act()
+    crew.hear(advisory(MaintainLevel(altitude_ft=5_300), name="s-2")).act()
+    crew.hear(over("s-1")).act()
+    assert level_ft(aircraft) == pytest.approx(5_300)
+    crew.hear(over("s-2")).act()
+    assert level_ft(aircraft) == pytest.approx(5_000)
+
+
+def test_a_conflict_that_is_over_before_the_crew_reacts_is_not_followed(aircraft):
+    crew = crew_of(aircraft)
+    late = crew.hear(advisory())
+    end = crew.hear(over())
+    assert end is None
+    late.act()
+    assert level_ft(aircraft) == pytest.approx(5_000)
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=5_400))
+    assert level_ft(aircraft) == pytest.approx(5_400)
+
+
+def test_a_revision_that_comes_too_late_is_not_followed_after_the_end(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    late = crew.hear(advisory(CLIMB.model_copy(update={"altitude_ft": 6_000}), revision=1))
+    crew.hear(over()).act()
+    late.act()
+    assert level_ft(aircraft) == pytest.approx(5_000)
+
+
+def test_an_end_that_is_told_twice_is_no_harm(aircraft):
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    ends = [crew.hear(over()), crew.hear(over())]
+    for end in ends:
+        if end is not None:
+            end.act()
+    assert level_ft(aircraft) == pytest.approx(5_000)

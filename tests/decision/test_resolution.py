@@ -1,0 +1,124 @@
+"""Recommendations are coordinated, and keep separation where that can be done."""
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from airhilt.messages import Climb, MaintainLevel, Turn
+from airhilt.surveillance.kinematics import Minima, relative, time_to_loss_s
+from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.workers.decision.resolution import resolve
+from airhilt.workers.decision.tracks import Track
+
+STANDARD = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
+INFRINGED = Minima(5 * NAUTICAL_MILE, 850 * FOOT)
+
+
+def track(icao24, north_m, east_m, altitude_ft, velocity=(0.0, 0.0), rate_fpm=0.0):
+    return Track(
+        icao24, icao24.upper(), 0, 0.8 + north_m / 6.37e6, east_m / 4.44e6, altitude_ft * FOOT,
+        *velocity, rate_fpm * FOOT / 60.0,
+    )  # fmt: skip
+
+
+speeds = st.floats(-250.0, 250.0)
+anywhere = st.floats(-1_000.0, 1_000.0)
+clearly_apart = st.floats(525.0, 800.0) | st.floats(-800.0, -525.0)
+
+
+@st.composite
+def pairs_in_conflict(draw, gaps_ft=anywhere):
+    first = track(
+        "a00001", 0.0, 0.0, 35_000, (draw(speeds), draw(speeds)),
+        draw(st.sampled_from([0.0, 0.0, 1500.0, -1500.0])),
+    )  # fmt: skip
+    # Where the second has to be now to come near the first some time from now.
+    velocity, meets_s = (draw(speeds), draw(speeds)), draw(st.floats(0.0, 200.0))
+    north, east = (
+        draw(st.floats(-5_000.0, 5_000.0)) + (own - other) * meets_s
+        for own, other in zip(
+            (first.velocity_north_m_s, first.velocity_east_m_s), velocity, strict=True
+        )
+    )
+    second = track(
+        "a00002", north, east, 35_000 + draw(gaps_ft), velocity,
+        draw(st.sampled_from([0.0, 0.0, 1500.0, -1500.0])),
+    )  # fmt: skip
+    loss = time_to_loss_s(relative(first, second), first.profile(), second.profile(), INFRINGED)
+    assume(loss is not None and loss < 200.0)
+    return (first, second) if draw(st.booleans()) else (second, first)
+
+
+def sense(recommendation):
+    return recommendation.sense if isinstance(recommendation, Climb) else None
+
+
+@settings(deadline=None, max_examples=150)
+@given(pairs_in_conflict(), st.booleans())
+def test_two_are_never_told_the_same_sense(pair, strong):
+    resolution = resolve(*pair, [], STANDARD, INFRINGED, strong)
+    senses = [sense(resolution.first), sense(resolution.second)]
+    assert senses not in (["climb", "climb"], ["descend", "descend"])
+    assert resolution.first is not None or resolution.second is not None
+
+
+@settings(deadline=None, max_examples=100)
+@given(pairs_in_conflict(clearly_apart), st.booleans())
+def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(pair, strong):
+    first, second = pair
+    resolution = resolve(first, second, [], STANDARD, INFRINGED, strong)
+    first_is_higher = first.altitude_m > second.altitude_m
+    higher = resolution.first if first_is_higher else resolution.second
+    lower = resolution.second if first_is_higher else resolution.first
+    assert sense(higher) != "descend"
+    assert sense(lower) != "climb"
+
+
+@settings(deadline=None, max_examples=100)
+@given(pairs_in_conflict())
+def test_it_does_not_matter_who_is_named_first(pair):
+    one = resolve(*pair, [], STANDARD, INFRINGED, strong=False)
+    other = resolve(*pair[::-1], [], STANDARD, INFRINGED, strong=False)
+    assert (one.first, one.second) == (other.second, other.first)
+
+
+def head_on_pair(gap_ft=0.0, rate_fpm=0.0):
+    first = track("a00001", 0.0, 0.0, 35_000, (240.0, 0.0), rate_fpm)
+    return first, track("a00002", 70_000.0, 0.0, 35_000 + gap_ft, (-240.0, 0.0))
+
+
+def test_head_on_both_share_what_is_missing_and_it_is_enough():
+    resolution = resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong=False)
+    assert sorted([sense(resolution.first), sense(resolution.second)]) == ["climb", "descend"]
+    levels = [resolution.first.altitude_ft, resolution.second.altitude_ft]
+    assert abs(levels[0] - levels[1]) >= 1_000
+    assert all(level % 100 == 0 for level in levels)
+    assert resolution.margin >= 1.0
+
+
+def test_who_climbs_towards_the_other_need_only_stop_short():
+    resolution = resolve(*head_on_pair(2_000, 1_500), [], STANDARD, INFRINGED, strong=False)
+    assert resolution.first == MaintainLevel(altitude_ft=36_000)
+    assert resolution.second is None
+
+
+def test_in_a_warning_the_rate_is_stronger():
+    rates = [
+        resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong).first.vertical_rate_fpm
+        for strong in (False, True)
+    ]
+    assert rates[1] > rates[0]
+
+
+def test_between_two_others_above_and_below_nobody_climbs_or_descends():
+    first, second = head_on_pair()
+    others = [
+        track("a00003", 2_000.0, 0.0, 36_000, (240.0, 0.0)),
+        track("a00004", 2_000.0, 0.0, 34_000, (240.0, 0.0)),
+        track("a00005", 68_000.0, 0.0, 36_000, (-240.0, 0.0)),
+        track("a00006", 68_000.0, 0.0, 34_000, (-240.0, 0.0)),
+    ]
+    resolution = resolve(first, second, others, STANDARD, INFRINGED, strong=False)
+    recommended = [r for r in (resolution.first, resolution.second) if r is not None]
+    assert recommended
+    assert all(isinstance(r, Turn) for r in recommended)
+    assert all(r.degrees > 0 for r in recommended)

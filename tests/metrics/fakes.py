@@ -1,0 +1,112 @@
+"""Aircraft that fly straight, with all that the monitor reads of a real one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from airhilt.flight import AircraftState, AircraftType, load_aircraft_type
+from airhilt.metrics.monitor import ConflictMonitor
+from airhilt.surveillance.kinematics import Minima
+from airhilt.surveillance.sensor import carried_on
+from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
+
+MINIMA = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
+EARTH_RADIUS_M = 6_378_137.0
+B737 = load_aircraft_type("737")
+
+
+@dataclass
+class Straight:
+    """Begins some metres east of 0 N 0 E, and flies straight on at a steady rate of climb."""
+
+    east_m: float = 0.0
+    north_m: float = 0.0
+    altitude_ft: float = 35_000.0
+    east_m_s: float = 0.0
+    north_m_s: float = 0.0
+    rate_fpm: float = 0.0
+    target_ft: float | None = None
+    kind: AircraftType = B737
+    ended: str | None = None
+
+    def __post_init__(self) -> None:
+        altitude_m = self.altitude_ft * FOOT
+        radius = EARTH_RADIUS_M + altitude_m
+        self.state = AircraftState(
+            latitude_rad=self.north_m / (6_335_439.0 + altitude_m),
+            longitude_rad=self.east_m / radius,
+            altitude_m=altitude_m,
+            height_agl_m=altitude_m,
+            velocity_north_m_s=self.north_m_s,
+            velocity_east_m_s=self.east_m_s,
+            velocity_down_m_s=-self.rate_fpm * FOOT_PER_MINUTE,
+            roll_rad=0.0,
+            pitch_rad=0.0,
+            heading_rad=math.atan2(self.east_m_s, self.north_m_s) % (2 * math.pi),
+            true_airspeed_m_s=math.hypot(self.east_m_s, self.north_m_s),
+            calibrated_airspeed_m_s=140.0,
+            mach=0.78,
+            ecef_x_m=0.0,
+            ecef_y_m=0.0,
+            ecef_z_m=0.0,
+        )
+
+    @property
+    def target_altitude_m(self) -> float:
+        return self.state.altitude_m if self.target_ft is None else self.target_ft * FOOT
+
+    @property
+    def target_vertical_rate_m_s(self) -> float:
+        return self.rate_fpm * FOOT_PER_MINUTE
+
+    def advance(self, step_s: float) -> None:
+        self.state = carried_on(self.state, step_s)
+
+
+class Watch:
+    """A monitor over some aircraft, and what it has told."""
+
+    def __init__(
+        self, *aircraft: Straight, tick_s: float = 0.05, minima: Minima = MINIMA,
+        always: bool = True, ground_m: float = 0.0,
+    ) -> None:  # fmt: skip
+        self.aircraft = dict(zip("ABCDEF", aircraft, strict=False))
+        self.tick_s = tick_s
+        self.told: dict[str, float] = {}
+        self.distances: dict[str, tuple[float, float]] = {}
+        self.now_ns = 0
+        self.monitor = ConflictMonitor(
+            self.aircraft,
+            minima,
+            ground_m,
+            tick_s,
+            frozenset({("A", "B")} if always else ()),
+            self._became_true,
+        )
+
+    def _became_true(self, phase: str, pair: tuple[str, str], horizontal: float, vertical: float):
+        assert phase not in self.told or pair != ("A", "B")
+        self.told[phase] = self.now_ns / SECOND_NS
+        self.distances[phase] = (horizontal, vertical)
+
+    def ticks(self, seconds: float) -> Iterator[float]:
+        """Fly on, and yield the time after every tick."""
+        step_ns = round(self.tick_s * SECOND_NS)
+        for _ in range(round(seconds / self.tick_s)):
+            self.now_ns += step_ns
+            for craft in self.aircraft.values():
+                if craft.ended is None:
+                    craft.advance(self.tick_s)
+            self.monitor.tick(self.now_ns)
+            yield self.now_ns / SECOND_NS
+
+    def fly(self, seconds: float) -> Watch:
+        for _ in self.ticks(seconds):
+            pass
+        return self
+
+    @property
+    def truth(self):
+        return self.monitor.pairs[("A", "B")]

@@ -1,0 +1,208 @@
+"""The numbers of a run, and what they mean."""
+
+import pytest
+from fakes import Straight, Watch
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.commands import AltitudeCommand
+from airhilt.messages import Advisory, Evidence, Severity, Transcript
+from airhilt.metrics.collector import Collector, pair_of
+from airhilt.metrics.plans import Plans
+from airhilt.metrics.summary import LatencyStatistics, severest
+from airhilt.radio.script import RadioScript
+from airhilt.scenario import load
+from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.sim import Director, StepRecord, Virtual
+from airhilt.surveillance.kinematics import VerticalProfile
+from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+
+SCENARIO = load("s02a_headon")
+FIRST, SECOND = (actor.callsign for actor in SCENARIO.actors[:2])
+RUN = {"seed": 1, "assistant": "reference", "outcome": "finished", "inputs_dropped": {},
+       "real_time_factor": 1.0, "cpu_s": 1.0}  # fmt: skip
+
+
+def test_the_statistics_of_no_samples_are_none():
+    assert LatencyStatistics.of([]) == LatencyStatistics(n=0, p50_s=None, p95_s=None, max_s=None)
+
+
+def test_the_statistics_of_samples_are_interpolated_between_them():
+    found = LatencyStatistics.of([4.0, 1.0, 3.0, 2.0])
+    assert (found.n, found.p50_s, found.max_s) == (4, 2.5, 4.0)
+    assert found.p95_s == pytest.approx(3.85)
+
+
+@settings(deadline=None)
+@given(st.lists(st.floats(0.0, 100.0), min_size=1, max_size=50))
+def test_half_the_samples_are_below_the_median_and_none_above_the_greatest(samples):
+    found = LatencyStatistics.of(samples)
+    assert found.n == len(samples)
+    assert min(samples) <= found.p50_s <= found.p95_s <= found.max_s + 1e-9
+    assert found.max_s == max(samples)
+
+
+def test_the_severest_is_the_highest_in_rank_and_not_in_the_alphabet():
+    assert severest([Severity.ADVISORY, Severity.CAUTION, Severity.INFO]) is Severity.CAUTION
+    assert severest([Severity.WARNING, Severity.INFO]) is Severity.WARNING
+
+
+def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name="a", active=True):
+    return Advisory(
+        t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient="ATC",
+        recipients=("ATC",), kind="loss_of_separation", severity=Severity(severity),
+        active=active, traffic=traffic, message="", evidence=Evidence(sources=("adsb",)),
+        t_ready_ns=round((t_s - 0.5) * SECOND_NS),
+    )  # fmt: skip
+
+
+class Told:
+    """A collector over a head-on encounter that meets after 60 s."""
+
+    def __init__(self, scenario=SCENARIO):
+        self.watch = Watch(
+            Straight(-15_000.0, east_m_s=250.0), Straight(15_000.0, east_m_s=-250.0), always=False
+        )
+        aircraft = self.watch.aircraft
+        for new, old in ((FIRST, "A"), (SECOND, "B")):
+            aircraft[new] = aircraft.pop(old)
+        plans = Plans([], RadioScript(Director(Virtual()), [], 160.0, lambda _: None))
+        self.collector = Collector(scenario, self.watch.monitor, plans)
+
+    def take(self, message):
+        self.collector.take("", message, b"")
+        return self
+
+    def summary(self, now_s=70.0):
+        return self.collector.summary(RUN, round(now_s * SECOND_NS))
+
+
+def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken():
+    told = Told()
+    told.collector.window.opened_ns = 3 * SECOND_NS
+    told.take(advisory(5.0, "ADVISORY")).take(advisory(9.0, "CAUTION", revision=1))
+    told.take(advisory(20.0, "WARNING", revision=2))
+    summary = told.summary()
+    assert summary.t_first_warning_s == 9.0
+    assert summary.time_to_first_warning_s == 6.0
+    (one,) = summary.advisories
+    assert (one.severity, one.revisions, one.t_first_s) == ("WARNING", 3, 5.0)
+
+
+def test_a_warning_before_the_conflict_opens_has_a_negative_time():
+    told = Told().take(advisory(9.0))
+    told.collector.window.opened_ns = 10 * SECOND_NS
+    assert told.summary().time_to_first_warning_s == -1.0
+
+
+def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic():
+    assert Told().summary().t_first_warning_s is None
+    other = Told().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
+    assert other.t_first_warning_s is None
+    assert other.nuisance_alerts == 1
+
+
+def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic():
+    address = SCENARIO.actors[1].icao24
+    summary = Told().take(advisory(9.0, traffic=(FIRST, address))).summary()
+    assert summary.t_first_warning_s == 9.0
+    assert summary.nuisance_alerts == 0
+    assert summary.advisories[0].traffic == (FIRST, SECOND)
+
+
+@pytest.mark.parametrize(("severity", "alerts"), [("ADVISORY", 0), ("CAUTION", 1), ("WARNING", 1)])
+def test_only_what_is_spoken_can_be_a_nuisance(severity, alerts):
+    quiet = SCENARIO.model_copy(update={"conflict": None})
+    assert Told(quiet).take(advisory(9.0, severity)).summary().nuisance_alerts == alerts
+
+
+def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warning():
+    summary = Told().take(advisory(1.0)).summary()
+    assert summary.margin_over_tcas_ta_s == pytest.approx(60.0 - 48.0, abs=1.5)
+    assert summary.margin_over_tcas_ra_s == pytest.approx(60.0 - 35.0, abs=1.5)
+
+
+def test_a_conflict_is_avoided_if_it_opened_and_separation_was_kept():
+    told = Told()
+    assert told.summary().avoided is None
+    told.collector.window.opened_ns = 0
+    assert told.summary().avoided is True
+    told.watch.fly(70.0)
+    summary = told.summary()
+    assert summary.avoided is False
+    assert (summary.loss_of_separation, summary.nmac, summary.collision) == (True, True, True)
+    assert summary.closest_approach.t_s == pytest.approx(60.0, abs=0.1)
+    assert summary.closest_approach.horizontal_m < 1.0
+
+
+def test_latencies_are_told_by_stage():
+    told = Told().take(advisory(9.0)).take(advisory(9.0))
+    told.collector.step(StepRecord("decision", 0, 0, SECOND_NS, 2 * SECOND_NS, 0.0, 1))
+    for engine, t_ns in (("text", 9), ("whisper", 3 * SECOND_NS)):
+        told.take(
+            Transcript(t_ns=t_ns, id="a", frequency_khz=134325, t_tx_ns=0, t_end_ns=1, text="x",
+                       confidence=1.0, engine=engine)
+        )  # fmt: skip
+    latencies = told.summary().latencies
+    assert (latencies["decision"].n, latencies["decision"].p50_s) == (1, 0.5)
+    assert latencies["decision_step"].p50_s == 3.0
+    assert (latencies["asr"].n, latencies["asr"].max_s) == (1, 3.0)
+    assert latencies["adsb"].n == 0
+
+
+def test_the_pair_is_named_in_the_order_of_the_actors():
+    assert pair_of(SCENARIO) == (FIRST, SECOND)
+    turned = SCENARIO.conflict.model_copy(update={"actors": (SECOND, FIRST)})
+    assert pair_of(SCENARIO.model_copy(update={"conflict": turned})) == (FIRST, SECOND)
+    assert pair_of(SCENARIO.model_copy(update={"conflict": None})) is None
+
+
+# --- what the script still has in store -----------------------------------------------------
+
+
+def plans(*climbs):
+    """Plans of a script in which AA is told levels (ft) at times (s)."""
+    lines = [
+        RadioLine(
+            id=f"line{number}", at_s=at_s, speaker="Centre", frequency_khz=134325 + number,
+            text="one two three four five six seven eight",
+            commands=(
+                ScriptedCommand(
+                    actor="AA", delay_s=2.0,
+                    command=AltitudeCommand(
+                        action="altitude", altitude_ft=level_ft, vertical_rate_fpm=1_500
+                    ),
+                ),
+            ),
+        )
+        for number, (at_s, level_ft) in enumerate(climbs)
+    ]  # fmt: skip
+    return Plans(lines, RadioScript(Director(Virtual()), lines, 160.0, lambda _: None))
+
+
+LEVEL = VerticalProfile(31_000 * FOOT, 0.0)
+
+
+def feet(altitude_at, *times_s):
+    return [round(altitude_at(time_s) / FOOT) for time_s in times_s]
+
+
+def test_a_climb_that_is_planned_begins_after_its_line_and_its_delay():
+    """A line of eight words at 20 s ends at 23 s; two seconds later it is carried out."""
+    at = plans((20.0, 33_000)).altitude_at("AA", 0, LEVEL)
+    assert feet(at, 0, 25, 65, 105, 500) == [31_000, 31_000, 32_000, 33_000, 33_000]
+
+
+def test_what_was_carried_out_already_is_in_the_profile_and_not_planned_again():
+    climbing = VerticalProfile(32_000 * FOOT, 1_500 * FOOT_PER_MINUTE, 33_000 * FOOT)
+    at = plans((20.0, 33_000)).altitude_at("AA", 65 * SECOND_NS, climbing)
+    assert feet(at, 0, 20, 40, 400) == [32_000, 32_500, 33_000, 33_000]
+
+
+def test_one_climb_follows_another_from_where_it_then_is():
+    at = plans((20.0, 33_000), (60.0, 31_000)).altitude_at("AA", 0, LEVEL)
+    assert feet(at, 65, 105, 300) == [32_000, 31_000, 31_000]
+
+
+def test_nothing_is_planned_for_others():
+    assert feet(plans((20.0, 33_000)).altitude_at("BB", 0, LEVEL), 500) == [31_000]

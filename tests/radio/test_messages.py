@@ -1,0 +1,204 @@
+"""Every message on the bus is JSON with a schema, and says nothing that its schema does not."""
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
+
+from airhilt.messages import (
+    BUS_MESSAGES,
+    WORKER_MESSAGES,
+    WORKER_OUTPUTS,
+    AdsbReport,
+    Advisory,
+    AircraftTruth,
+    Climb,
+    Event,
+    MaintainLevel,
+    Recommendation,
+    Severity,
+    Transcript,
+    Turn,
+    WorkerDescription,
+    json_schemas,
+)
+
+MODELS = {**BUS_MESSAGES, **WORKER_MESSAGES}
+
+EXAMPLES = {
+    "Clock": {"run": "r1", "phase": "running", "pace": "virtual"},
+    "Status": {"modality": "adsb", "state": "lost", "cause": "outage"},
+    "Transmission": {"id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "snr_db": 9.5},
+    "AdsbReport": {
+        "icao24": "a1b2c3", "callsign": None, "latitude_deg": 1.5, "longitude_deg": -2.5,
+        "altitude_ft": 35000.0, "ground_speed_kt": 450.0, "track_deg": 359.5,
+        "vertical_rate_fpm": -64.0, "nacp": 9, "nacv": 2, "receiver": "r",
+        "t_adsb_in_ns": 1, "t_adsb_out_ns": 2,
+    },
+    "Transcript": {
+        "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "text": "climb",
+        "confidence": 0.9, "engine": "text",
+    },
+    "Advisory": {
+        "id": "s-1", "revision": 2, "recipient": "AAL1", "recipients": ["AAL1", "ATC"],
+        "kind": "loss_of_separation", "severity": "CAUTION", "traffic": ["AAL1", "DAL2"],
+        "message": "traffic", "t_ready_ns": 5,
+        "recommendation": {
+            "action": "altitude", "sense": "climb", "altitude_ft": 36000.0,
+            "vertical_rate_fpm": 1500.0,
+        },
+        "evidence": {"sources": ["adsb"], "time_to_loss_s": 61.5},
+    },
+    "ActorCommand": {"command": {"action": "turn", "degrees": -30.0}},
+    "AircraftTruth": {
+        "actor": "AAL1", "icao24": "a1b2c3", "latitude_deg": 1.0, "longitude_deg": 2.0,
+        "altitude_m": 3.0, "height_agl_m": 3.0, "velocity_north_m_s": 4.0,
+        "velocity_east_m_s": 5.0, "velocity_down_m_s": 6.0, "roll_deg": 7.0, "pitch_deg": 8.0,
+        "heading_deg": 9.0, "true_airspeed_m_s": 10.0, "calibrated_airspeed_m_s": 11.0,
+        "target_altitude_m": 12.0,
+    },
+    "SpokenTruth": {
+        "id": "a", "speaker": "AAL1", "addressed": None, "frequency_khz": 134325, "text": "roger",
+        "t_tx_ns": 1, "t_end_ns": 2,
+    },
+    "ConflictTruth": {"phase": "nmac", "actors": ["AAL1", "DAL2"], "horizontal_m": 100.5},
+    "Event": {"kind": "command", "subject": "AAL1", "text": "climb"},
+    "WorkerDescription": {
+        "name": "asr", "modality": "speech", "inputs": [{"key": "radio/*/tx", "policy": "latest"}],
+        "latency": {"median_s": 0.5, "sigma": 0.1},
+    },
+    "Grant": {
+        "t_ns": 5, "seq": 0,
+        "inputs": [{"key": "k", "t_in_ns": 4, "size": 9, "attachment": {"a": [1]}}],
+    },
+    "StepReply": {
+        "seq": 0, "compute_s": 0.1, "outputs": [{"key": "asr/1", "size": 3, "t_out_ns": 9}],
+        "wake_ns": 10,
+    },
+}  # fmt: skip
+
+
+def made(model, **changes):
+    return model.model_validate(EXAMPLES[model.__name__] | changes)
+
+
+@pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
+def test_a_message_survives_json(model):
+    message = made(model)
+    assert model.model_validate_json(message.model_dump_json()) == message
+    assert model.model_validate(json.loads(message.model_dump_json())) == message
+
+
+@pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
+def test_unknown_fields_are_refused(model):
+    with pytest.raises(ValidationError, match="Extra inputs are not permitted"):
+        made(model, colour="red")
+
+
+@pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
+def test_a_message_cannot_be_changed(model):
+    message = made(model)
+    with pytest.raises(ValidationError, match="frozen"):
+        setattr(message, next(iter(model.model_fields)), 1)
+
+
+@pytest.mark.parametrize("model", BUS_MESSAGES.values(), ids=lambda model: model.__name__)
+def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(model):
+    assert made(model, t_ns=5).t_ns == 5
+    assert made(model).t_ns == 0
+    with pytest.raises(ValidationError, match="greater than or equal to 0"):
+        made(model, t_ns=-1)
+
+
+@pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])
+@pytest.mark.parametrize(
+    ("model", "field"),
+    [(AdsbReport, "latitude_deg"), (AdsbReport, "altitude_ft"), (AircraftTruth, "altitude_m"),
+     (Transcript, "confidence")],
+)  # fmt: skip
+def test_a_number_that_is_none_is_refused(model, field, value):
+    text = json.dumps(EXAMPLES[model.__name__] | {field: "HERE"}).replace('"HERE"', value)
+    with pytest.raises(ValidationError):
+        model.model_validate_json(text)
+
+
+@pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])
+@pytest.mark.parametrize(
+    ("action", "field"),
+    [("altitude", "altitude_ft"), ("altitude", "vertical_rate_fpm"), ("maintain", "altitude_ft"),
+     ("turn", "degrees")],
+)  # fmt: skip
+def test_nobody_is_recommended_a_number_that_is_none(action, field, value):
+    parts = {
+        "altitude": {"sense": "climb", "altitude_ft": 1.0, "vertical_rate_fpm": 1.0},
+        "maintain": {"altitude_ft": 1.0},
+        "turn": {"degrees": 1.0},
+    }[action]
+    text = json.dumps({"action": action, **parts, field: "HERE"}).replace('"HERE"', value)
+    with pytest.raises(ValidationError):
+        TypeAdapter(Recommendation).validate_json(text)
+
+
+def test_a_recommendation_is_told_by_its_action():
+    adapter = TypeAdapter(Recommendation)
+    for recommendation in (
+        Climb(sense="descend", altitude_ft=33_000.0, vertical_rate_fpm=1_500.0),
+        MaintainLevel(altitude_ft=33_000.0),
+        Turn(degrees=30.0),
+    ):
+        assert adapter.validate_json(recommendation.model_dump_json()) == recommendation
+    with pytest.raises(ValidationError, match="does not match any of the expected tags"):
+        adapter.validate_python({"action": "hover"})
+
+
+def test_severities_rise_from_info_to_warning():
+    order = [Severity.INFO, Severity.ADVISORY, Severity.CAUTION, Severity.WARNING]
+    assert [severity.rank for severity in order] == [0, 1, 2, 3]
+    assert list(Severity) == order
+    assert made(Advisory, severity="WARNING").severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(
+    ("model", "field", "value"),
+    [
+        (AdsbReport, "icao24", "A1B2C3"),
+        (AdsbReport, "icao24", "a1b2c"),
+        (AdsbReport, "track_deg", 360.0),
+        (AdsbReport, "nacp", 12),
+        (AdsbReport, "latitude_deg", 90.5),
+        (Transcript, "confidence", 1.1),
+        (Advisory, "severity", "PANIC"),
+        (Advisory, "revision", -1),
+        (Event, "kind", "party"),
+        (WorkerDescription, "name", "My Worker"),
+        (WorkerDescription, "inputs", []),
+    ],
+)
+def test_what_cannot_be_is_refused(model, field, value):
+    with pytest.raises(ValidationError):
+        made(model, **{field: value})
+
+
+def test_there_is_a_schema_for_every_key():
+    schemas = json_schemas()
+    assert set(schemas) == set(MODELS)
+    assert json.loads(json.dumps(schemas)) == schemas
+    for key, model in MODELS.items():
+        assert schemas[key]["title"] == model.__name__
+        assert set(schemas[key]["properties"]) == set(model.model_fields)
+        assert schemas[key]["additionalProperties"] is False
+
+
+def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth():
+    for first, model in WORKER_OUTPUTS.items():
+        assert model in BUS_MESSAGES.values()
+        assert first != "truth"
+
+
+@settings(deadline=None)
+@given(st.text(max_size=60), st.floats(0.0, 1.0))
+def test_any_words_survive_json(text, confidence):
+    message = made(Transcript, text=text, confidence=confidence)
+    assert Transcript.model_validate_json(message.model_dump_json()) == message

@@ -1,0 +1,294 @@
+"""A scenario file loads, or the message says where it is wrong, what was found and expected."""
+
+import copy
+import json
+
+import pytest
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+from airhilt.scenario import Scenario, load, parse
+
+HEAD_ON = load("s02a_headon").model_dump(mode="json")
+VERTICAL = load("s02a_vertical").model_dump(mode="json")
+FIRST, SECOND = (actor["callsign"] for actor in HEAD_ON["actors"][:2])
+
+
+def changed(document, path, value):
+    """Return a copy of a document with the value at a path set; ``...`` removes it."""
+    document = copy.deepcopy(document)
+    *parents, last = path.split("/")
+    container = document
+    for part in parents:
+        container = container[int(part) if isinstance(container, list) else part]
+    key = int(last) if isinstance(container, list) else last
+    if value is ...:
+        del container[key]
+    else:
+        container[key] = value
+    return document
+
+
+def complaint(document):
+    with pytest.raises(ScenarioError) as caught:
+        parse(json.dumps(document), "test.json")
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("name", library.names("scenarios"))
+def test_each_shipped_scenario_loads_and_is_called_what_its_file_is(name):
+    assert load(name).name == name
+
+
+def test_there_are_shipped_scenarios_of_the_family_s02a():
+    assert {load(name).family for name in library.names("scenarios")} >= {"S02A"}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "where", "what"),
+    [
+        ("durations", 5, "durations", "unknown field; did you mean 'duration_s'?"),
+        ("actors/0/calsign", "X1", "actors/0/calsign", "unknown field; did you mean 'callsign'?"),
+        ("actors/0/initial/altitude", 1, "actors/0/initial/altitude", "did you mean 'altitude_ft'"),
+        ("weather/wind/speed", 1, "weather/wind/speed", "did you mean 'speed_kt'?"),
+        ("conflict/opens_when/withn_s", 1, "conflict/opens_when/withn_s", "unknown field"),
+        ("family", "S09", "family", "found \"S09\", expected 'S01A'"),
+        ("duration_s", ..., "duration_s", "missing; it is required"),
+        ("actors/1/initial/cas_kt", ..., "actors/1/initial/cas_kt", "missing; it is required"),
+        ("duration_s", -5, "duration_s", "found -5: input should be greater than 0"),
+        ("duration_s", "long", "duration_s", 'found "long": input should be a valid number'),
+        ("actors", [], "actors", "at least 1 item"),
+        ("actors/0/icao24", "XYZ", "actors/0/icao24", 'found "XYZ"'),
+        ("scene/centre/lat_deg", 91, "scene/centre/lat_deg", "found 91"),
+        ("separation/level_tolerance_ft", 500, "separation/level_tolerance_ft", "found 500"),
+    ],
+)
+def test_what_is_wrong_with_a_field_is_told_with_its_path(path, value, where, what):
+    message = complaint(changed(HEAD_ON, path, value))
+    assert f"test.json: {where}: " in message
+    assert what in message
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "where", "what"),
+    [
+        (
+            "actors/0/initial/position/type",
+            "geodetik",
+            "actors/0/initial/position/type",
+            "found 'geodetik', expected geodetic, from_centre; did you mean 'geodetic'?",
+        ),
+        ("end_when/0/type", "tim", "end_when/0/type", "did you mean 'time'?"),
+        ("conflict/opens_when/type", ..., "conflict/opens_when", "'type' is missing"),
+    ],
+)
+def test_a_wrong_discriminator_is_told_with_what_there_is(path, value, where, what):
+    message = complaint(changed(HEAD_ON, path, value))
+    assert f"test.json: {where}: " in message
+    assert what in message
+
+
+def test_a_wrong_action_of_a_command_is_told():
+    path = "radio/lines/1/commands/0/command/action"
+    message = complaint(changed(VERTICAL, path, "altitud"))
+    assert f"test.json: {path}: found 'altitud'" in message
+    assert "did you mean 'altitude'?" in message
+
+
+@pytest.mark.parametrize("field", ["callsign", "icao24"])
+def test_two_actors_share_neither_callsign_nor_address(field):
+    message = complaint(changed(HEAD_ON, f"actors/1/{field}", HEAD_ON["actors"][0][field]))
+    assert f"actors/1/{field}: found {HEAD_ON['actors'][0][field]!r}" in message
+    assert "which actors/0 has already" in message
+
+
+def test_two_radio_lines_do_not_share_an_id():
+    message = complaint(changed(VERTICAL, "radio/lines/1/id", VERTICAL["radio"]["lines"][0]["id"]))
+    assert "radio/lines/1/id: found 'clearance', which radio/lines/0 has already" in message
+
+
+def test_an_unknown_aircraft_is_told_with_the_nearest():
+    message = complaint(changed(HEAD_ON, "actors/0/aircraft", "B748"))
+    assert "actors/0/aircraft: " in message
+    assert "'B748'" in message
+    assert "did you mean 'B747'?" in message
+
+
+@pytest.mark.parametrize("altitude_ft", [-500, 0, 1_000])
+def test_an_aircraft_begins_above_the_ground(altitude_ft):
+    document = changed(HEAD_ON, "scene/terrain_elevation_ft", 1_000)
+    message = complaint(changed(document, "actors/0/initial/altitude_ft", altitude_ft))
+    assert f"actors/0/initial/altitude_ft: found {altitude_ft}, which is not above" in message
+    assert "scene/terrain_elevation_ft, 1000" in message
+
+
+@pytest.mark.parametrize("cas_kt", [100, 400])
+def test_an_aircraft_begins_at_a_speed_that_it_can_fly(cas_kt):
+    message = complaint(changed(HEAD_ON, "actors/0/initial/cas_kt", cas_kt))
+    assert f"actors/0/initial/cas_kt: found {cas_kt}; expected 200 to 340" in message
+
+
+def test_an_aircraft_begins_below_its_ceiling():
+    message = complaint(changed(HEAD_ON, "actors/0/initial/altitude_ft", 45_000))
+    assert "actors/0/initial/altitude_ft: found 45000; expected at most" in message
+
+
+def test_without_a_route_an_aircraft_needs_a_track():
+    document = changed(HEAD_ON, "actors/0/route", [])
+    document = changed(document, "actors/0/initial/track_deg", None)
+    assert "actors/0/initial/track_deg: missing" in complaint(document)
+
+
+MISSPELT = FIRST[:-1] + "9"
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("conflict/actors/0", MISSPELT),
+        ("conflict/opens_when", {"type": "separation_below", "actors": [MISSPELT, SECOND],
+                                 "horizontal_nm": 5, "vertical_ft": 1000}),
+        ("conflict/opens_when", {"type": "any_of", "conditions": [
+            {"type": "all_of", "conditions": [
+                {"type": "bound_for_altitude", "actor": MISSPELT, "altitude_ft": 1000}]}]}),
+        ("end_when", [{"type": "closest_approach_passed", "actors": [MISSPELT, SECOND]}]),
+        ("radio", {"lines": [{"id": "a", "at_s": 1, "speaker": "x", "frequency_khz": 134325,
+                              "text": "go", "commands": [{"actor": MISSPELT, "command":
+                              {"action": "resume_route"}}]}]}),
+        ("cameras", [{"name": "nose", "mount": {"type": "actor", "actor": MISSPELT}}]),
+    ],
+)  # fmt: skip
+def test_an_unknown_actor_is_told_with_the_nearest(path, value):
+    message = complaint(changed(HEAD_ON, path, value))
+    assert f"no actor {MISSPELT!r}; did you mean {FIRST!r}?" in message
+    assert f"test.json: {path.split('/')[0]}/" in message
+
+
+def test_an_unknown_actor_deep_in_a_condition_is_told_with_its_whole_path():
+    inner = {"type": "bound_for_altitude", "actor": MISSPELT, "altitude_ft": 1000}
+    value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
+    message = complaint(changed(HEAD_ON, "conflict/opens_when", value))
+    assert "test.json: conflict/opens_when/conditions/1/actor: no actor" in message
+
+
+def test_an_unknown_field_deep_in_a_condition_is_told_with_its_whole_path():
+    inner = {"type": "time", "at_s": 1, "ats": 1}
+    value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
+    message = complaint(changed(HEAD_ON, "conflict/opens_when", value))
+    assert "test.json: conflict/opens_when/conditions/1/ats: unknown field" in message
+    assert "did you mean 'at_s'?" in message
+
+
+def test_an_unknown_radio_line_is_told_with_the_nearest():
+    value = {"type": "line_ended", "line": "readbak"}
+    message = complaint(changed(VERTICAL, "conflict/opens_when", value))
+    assert "conflict/opens_when/line: no radio line 'readbak'; did you mean 'readback'?" in message
+
+
+def test_a_pair_is_of_two():
+    message = complaint(changed(HEAD_ON, "conflict/actors", [FIRST, FIRST]))
+    assert "conflict/actors: found one actor twice" in message
+    message = complaint(changed(HEAD_ON, "end_when/0/actors", [FIRST, FIRST]))
+    assert f"end_when/0/actors: found {FIRST!r} twice" in message
+
+
+UNIFORM = {"type": "uniform", "limit": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("path", "what"),
+    [
+        (f"actors/{FIRST}/initial/cas_kts", "no 'cas_kts' there; did you mean 'cas_kt'?"),
+        (f"actors/{MISSPELT}/initial/cas_kt", f"did you mean {FIRST!r}?"),
+        ("actors/7/initial/cas_kt", "no '7' there"),
+        ("actors/²/initial/cas_kt", "no '²' there"),
+        ("duration_s/more", "no 'more' there"),
+        ("nowhere", "no 'nowhere' there"),
+        ("title", "expected the path of a number"),
+        (f"actors/{FIRST}/initial", "expected the path of a number"),
+        (f"actors/{FIRST}/transponder/equipped", "expected the path of a number"),
+    ],
+)
+def test_a_perturbation_leads_to_a_number(path, what):
+    message = complaint(
+        changed(HEAD_ON, "perturbations", [{"path": path, "distribution": UNIFORM}])
+    )
+    assert "test.json: perturbations/0/path: " in message
+    assert what in message
+
+
+def test_a_number_is_perturbed_once():
+    twice = [{"path": "duration_s", "distribution": UNIFORM}] * 2
+    assert "perturbations/1/path: found 'duration_s'" in complaint(
+        changed(HEAD_ON, "perturbations", twice)
+    )
+
+
+def test_many_problems_are_told_at_once_but_not_all():
+    actors = [dict(HEAD_ON["actors"][0], colour="red") for _ in range(12)]
+    message = complaint(changed(HEAD_ON, "actors", HEAD_ON["actors"] + actors))
+    assert message.count("unknown field") == 8
+    assert "and 4 more" in message
+
+
+@pytest.mark.parametrize(
+    ("text", "where"),
+    [("{", "1:2"), ('{\n  "name": "a",\n  "x" 5\n}', "3:7"), ("", "1:1"), ("\ufeff{}", "1:1")],
+)
+def test_what_is_not_json_is_told_with_line_and_column(text, where):
+    with pytest.raises(ScenarioError, match=rf"^test\.json:{where}: not valid JSON"):
+        parse(text, "test.json")
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, "5", "null", '"text"', "[]"])
+def test_json_that_is_no_scenario_is_refused(text):
+    with pytest.raises(ScenarioError, match=r"^test\.json: "):
+        parse(text, "test.json")
+
+
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999"])
+def test_numbers_are_finite(number):
+    text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', number)
+    with pytest.raises(ScenarioError, match=r"test\.json: duration_s: found"):
+        parse(text, "test.json")
+
+
+def test_a_number_of_five_thousand_digits_is_refused():
+    text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', "1" * 5_000)
+    with pytest.raises(ScenarioError, match=r"test\.json"):
+        parse(text, "test.json")
+
+
+def test_a_file_that_is_not_utf_8_is_told(tmp_path):
+    path = tmp_path / "latin.json"
+    path.write_bytes(b'{"name": "caf\xe9"}')
+    with pytest.raises(ScenarioError, match=r"latin\.json: not UTF-8 text \(byte 13\)"):
+        load(path)
+
+
+def test_a_file_loads_from_its_path(tmp_path):
+    path = tmp_path / "mine.json"
+    path.write_text(json.dumps(HEAD_ON), encoding="utf-8")
+    assert load(path) == load(str(path)) == load("s02a_headon")
+
+
+def test_a_file_that_is_not_there_is_told_with_the_names_that_are(tmp_path):
+    with pytest.raises(ScenarioError, match=r"none\.json: no such file.*s02a_headon"):
+        load(tmp_path / "none.json")
+
+
+def test_a_folder_is_no_scenario(tmp_path):
+    with pytest.raises(ScenarioError, match="no such file"):
+        load(tmp_path)
+
+
+def test_an_unknown_name_is_told_with_the_nearest():
+    with pytest.raises(ScenarioError, match=r"named 's02a_headone'; did you mean 's02a_headon'\?"):
+        load("s02a_headone")
+
+
+@pytest.mark.parametrize("name", library.names("scenarios"))
+def test_a_scenario_written_as_json_reads_back_the_same(name):
+    scenario = load(name)
+    assert Scenario.model_validate_json(scenario.model_dump_json()) == scenario
+    assert parse(scenario.model_dump_json(), "again") == scenario

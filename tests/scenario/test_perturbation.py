@@ -1,0 +1,108 @@
+"""The same scenario and seed give the same realised scenario."""
+
+import statistics
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt import library
+from airhilt.scenario import Scenario, load, realise
+from airhilt.scenario.models import Normal, Perturbation, Uniform
+from airhilt.scenario.perturbation import locate
+
+HEAD_ON = load("s02a_headon")
+CALLSIGN = HEAD_ON.actors[0].callsign
+DISTANCE = f"actors/{CALLSIGN}/initial/position/distance_nm"
+SPEED = f"actors/{CALLSIGN}/initial/cas_kt"
+
+seeds = st.integers(0, 2**62)
+distributions = st.builds(
+    Normal, type=st.just("normal"), sigma=st.floats(0.01, 10.0), limit=st.floats(0.01, 5.0)
+) | st.builds(Uniform, type=st.just("uniform"), limit=st.floats(0.01, 5.0))
+
+
+def varied(**perturbations):
+    """The head-on scenario with a perturbation of each path."""
+    return HEAD_ON.model_copy(
+        update={
+            "perturbations": tuple(
+                Perturbation(path=path, distribution=distribution)
+                for path, distribution in perturbations.items()
+            )
+        }
+    )
+
+
+UNIFORM = Uniform(type="uniform", limit=1.0)
+BOTH = varied(**{DISTANCE: UNIFORM, SPEED: UNIFORM})
+
+
+@settings(deadline=None, max_examples=25)
+@given(seeds)
+def test_the_same_seed_draws_the_same_and_the_next_draws_something_else(seed):
+    assert realise(BOTH, seed) == realise(BOTH, seed)
+    draws, others = (realise(BOTH, s)[1] for s in (seed, seed + 1))
+    assert all(a.realised != b.realised for a, b in zip(draws, others, strict=True))
+
+
+@settings(deadline=None, max_examples=25)
+@given(seeds)
+def test_what_one_path_draws_does_not_depend_on_the_other_perturbations(seed):
+    alone = realise(varied(**{SPEED: UNIFORM}), seed)[1]
+    together = realise(BOTH, seed)[1]
+    backwards = realise(varied(**{SPEED: UNIFORM, DISTANCE: UNIFORM}), seed)[1]
+    assert alone[0] == together[1] == backwards[0]
+    assert together[0] == backwards[1]
+    assert together[0].realised - together[0].nominal != together[1].realised - together[1].nominal
+
+
+@settings(deadline=None, max_examples=100)
+@given(seeds, distributions)
+def test_a_draw_stays_within_its_limits_and_is_what_the_scenario_gets(seed, distribution):
+    realised, (draw,) = realise(varied(**{SPEED: distribution}), seed)
+    assert abs(draw.realised - draw.nominal) <= distribution.limit + 1e-9
+    assert draw.nominal == HEAD_ON.actors[0].initial.cas_kt
+    assert realised.actors[0].initial.cas_kt == draw.realised
+    assert draw.path == SPEED
+
+
+def test_a_normal_draw_has_the_spread_that_it_says():
+    scenario = varied(**{SPEED: Normal(type="normal", sigma=2.0, limit=100.0)})
+    draws = [realise(scenario, seed)[1][0] for seed in range(300)]
+    assert statistics.stdev(d.realised for d in draws) == pytest.approx(2.0, rel=0.15)
+    assert statistics.mean(d.realised - d.nominal for d in draws) == pytest.approx(0.0, abs=0.4)
+
+
+@pytest.mark.parametrize("name", library.names("scenarios"))
+def test_a_realised_scenario_has_nothing_left_to_draw(name):
+    realised, draws = realise(load(name), 7)
+    assert len(draws) == len(load(name).perturbations)
+    assert realised.perturbations == ()
+    assert realise(realised, 8) == (realised, [])
+
+
+@pytest.mark.parametrize("name", library.names("scenarios"))
+def test_nothing_but_what_is_declared_is_changed(name):
+    scenario = load(name)
+    realised, draws = realise(scenario, 7)
+    document = realised.model_dump(mode="json")
+    for draw in draws:
+        container, key = locate(document, draw.path)
+        assert container[key] == draw.realised
+        container[key] = draw.nominal
+    document["perturbations"] = scenario.model_dump(mode="json")["perturbations"]
+    assert Scenario.model_validate(document) == scenario
+
+
+def test_a_list_entry_is_named_by_callsign_id_or_name_or_by_its_index():
+    document = {"a": [{"callsign": "X1", "v": 1}, {"id": "line", "v": 2}, {"name": "c", "v": 3}]}
+    for path, value in (("a/X1/v", 1), ("a/line/v", 2), ("a/c/v", 3), ("a/1/v", 2), ("/a/0/v/", 1)):
+        container, key = locate(document, path)
+        assert container[key] == value
+
+
+def test_the_original_is_left_as_it_was():
+    before = BOTH.model_dump_json()
+    realise(BOTH, 3)
+    assert BOTH.model_dump_json() == before
