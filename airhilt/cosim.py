@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
@@ -20,7 +21,7 @@ from airhilt.actors import Flight, build_fleet
 from airhilt.bus.attach import attach
 from airhilt.bus.exchange import Exchange
 from airhilt.bus.session import Bus
-from airhilt.errors import AirhiltError, RunStopped, ScenarioError, WorkerError
+from airhilt.errors import AirhiltError, RunStopped, ScenarioError, WorkerError, first_problem
 from airhilt.messages import (
     ActorCommand,
     AdsbReport,
@@ -185,7 +186,7 @@ def run(
     folder = RunFolder(options.out or _default_folder(name))
     folder.require_free(options.overwrite)
     flights = build_fleet(realised, options.seed, TICK_S)
-    with Bus(name, options.listen) as bus:
+    with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
         participants, takes_no_grants = _participants(realised, options, bus, observer, recorded)
         if takes_no_grants and options.pace is None:
@@ -209,11 +210,9 @@ def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
     try:
         return realise(scenario, seed)
     except ValidationError as error:
-        first = error.errors()[0]
-        where = "/".join(str(part) for part in first["loc"])
         raise ScenarioError(
-            f"{scenario.name}: with seed {seed} a perturbation takes {where} to {first['input']}: "
-            f"{first['msg']}; narrow its distribution"
+            f"{scenario.name}: with seed {seed} a perturbation goes too far: "
+            f"{first_problem(error)}; narrow its distribution"
         ) from None
 
 
@@ -750,5 +749,5 @@ def _parse_foreign(key: str, data: bytes) -> Message:
         return ActorCommand.model_validate_json(data)
     except ValidationError as error:
         raise WorkerError(
-            f"{key}: not a command: {error.errors()[0]['msg']}; see `airhilt schema`"
+            f"{key}: not a command: {first_problem(error)}; see `airhilt schema`"
         ) from None

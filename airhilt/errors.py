@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+
 
 class AirhiltError(Exception):
     """A mistake in what AIRHILT was given; the command line prints it and exits with 2."""
@@ -29,3 +34,10 @@ class RunFolderError(AirhiltError):
 
 class WorkerError(AirhiltError):
     """A worker broke its contract: it answered garbage, or with a time in the past."""
+
+
+def first_problem(error: ValidationError) -> str:
+    """Return the first thing that pydantic found wrong, in one line, after its place."""
+    first = error.errors()[0]
+    where = "/".join(str(part) for part in first["loc"])
+    return f"{where}: {first['msg']}" if where else str(first["msg"])

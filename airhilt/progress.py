@@ -89,7 +89,9 @@ class ProgressLine(Observer):
             )
         if snapshot.advisory is not None:
             parts.append(_advisory_text(snapshot.advisory))
-        return Text("  |  ").join(parts)
+        line = Text("  |  ").join(parts)
+        line.no_wrap, line.overflow = True, "ellipsis"
+        return line
 
 
 def _advisory_text(advisory: Advisory) -> Text:

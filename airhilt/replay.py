@@ -14,7 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from airhilt.cosim import FOREIGN, Foreign, Observer, Options, Recorded, run
-from airhilt.errors import RunFolderError
+from airhilt.errors import RunFolderError, first_problem
 from airhilt.messages import Event
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.folder import versions
@@ -67,7 +67,7 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
         scenario = Scenario.model_validate(info.scenario)
     except ValidationError as error:
         raise RunFolderError(
-            f"{folder.info_path}: its scenario is not valid here: {error.errors()[0]['msg']}; "
+            f"{folder.info_path}: its scenario is not valid here: {first_problem(error)}; "
             f"expected AIRHILT {info.versions.get('airhilt')}"
         ) from None
     with tempfile.TemporaryDirectory(prefix="airhilt-replay-") as scratch:

@@ -34,10 +34,10 @@ for i, lon in enumerate((-77.4, -76.6)):
 bs.sim.op()
 best = 0.0
 for _ in range(3):
-    begun = time.perf_counter()
+    begun, from_s = time.perf_counter(), bs.sim.simt
     for _ in range(4000):
         bs.sim.step()
-    best = max(best, 200.0 / (time.perf_counter() - begun))
+    best = max(best, (bs.sim.simt - from_s) / (time.perf_counter() - begun))
 print(best)
 """
 

@@ -6,7 +6,6 @@ import json
 import socket
 import time
 from collections.abc import Callable
-from types import TracebackType
 from typing import Any
 
 import zenoh
@@ -161,17 +160,6 @@ class Bus:
     def close(self) -> None:
         """Close the session; workers notice."""
         self.session.close()  # type: ignore[no-untyped-call]
-
-    def __enter__(self) -> Bus:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def _reason(error: zenoh.ZError) -> str:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from airhilt.bus.frames import pack, unpack
 from airhilt.bus.session import Bus
-from airhilt.errors import WorkerError
+from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
@@ -127,12 +127,7 @@ class RemoteWorker:
         return Reply(outputs, header.compute_s, header.wake_ns)
 
     def _broken(self, what: str, error: ValueError) -> WorkerError:
-        if isinstance(error, ValidationError):
-            first = error.errors()[0]
-            where = "/".join(str(part) for part in first["loc"])
-            text = f"{where}: {first['msg']}" if where else str(first["msg"])
-        else:
-            text = str(error)
+        text = first_problem(error) if isinstance(error, ValidationError) else str(error)
         return WorkerError(
             f"worker {self.name!r} {what} something else than the schema says: {text}; see "
             "`airhilt schema`"

@@ -14,7 +14,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from airhilt._version import __version__
-from airhilt.errors import RunFolderError
+from airhilt.errors import RunFolderError, first_problem
 from airhilt.messages import WorkerDescription
 
 FORMAT = 1
@@ -190,10 +190,8 @@ class RunFolder:
         except OSError as error:
             raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
-            first = error.errors()[0]
-            where = "/".join(str(part) for part in first["loc"])
             raise RunFolderError(
-                f"{self.info_path}: {where}: {first['msg']}; expected a run.json of format {FORMAT}"
+                f"{self.info_path}: {first_problem(error)}; expected a run.json of format {FORMAT}"
             ) from None
 
     def summary(self) -> dict[str, Any] | None:

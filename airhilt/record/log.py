@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
-from types import TracebackType
 from typing import NamedTuple
 
 from mcap.exceptions import McapError
@@ -89,17 +88,6 @@ class LogWriter:
         if not self._stream.closed:
             self._writer.finish()  # type: ignore[no-untyped-call]
             self._stream.close()
-
-    def __enter__(self) -> LogWriter:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def read_log(path: Path) -> Iterator[Logged]:

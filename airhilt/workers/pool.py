@@ -8,7 +8,7 @@ from functools import partial
 
 from pydantic import ValidationError
 
-from airhilt.errors import WorkerError
+from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import WORKER_OUTPUTS, Advisory, Message, WorkerDescription
 from airhilt.sim import (
     Director,
@@ -150,11 +150,9 @@ def parse_output(worker: str, key: str, payload: bytes) -> Message:
     try:
         message = model.model_validate_json(payload)
     except ValidationError as error:
-        first = error.errors()[0]
-        where = "/".join(str(part) for part in first["loc"])
         raise WorkerError(
             f"worker {worker!r} published on {key!r} something that is no {model.__name__}: "
-            f"{where or 'payload'}: {first['msg']}; see `airhilt schema`"
+            f"{first_problem(error)}; see `airhilt schema`"
         ) from None
     if isinstance(message, Advisory) and key != f"advisory/{message.recipient}":
         raise WorkerError(

@@ -9,7 +9,7 @@ import sys
 import textwrap
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
@@ -235,7 +235,7 @@ def test_a_worker_that_breaks_the_contract_ends_the_run_with_its_name(
 
 
 def test_two_runs_side_by_side_do_not_meet() -> None:
-    with Bus("one") as first, Bus("two") as second:
+    with closing(Bus("one")) as first, closing(Bus("two")) as second:
         assert first.endpoint != second.endpoint
         assert first.endpoint.startswith("tcp/127.0.0.1:")
         with pytest.raises(BusError, match="--listen"):

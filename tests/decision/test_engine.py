@@ -1,9 +1,11 @@
 """The reference engine warns of what will happen, once, and of nothing else."""
 
+from dataclasses import replace
+
 import pytest
 from encounters import Encounter, Flight, head_on
 
-from airhilt.messages import Climb, MaintainLevel, Severity, Turn
+from airhilt.messages import AdsbReport, Climb, MaintainLevel, Severity, Turn
 from airhilt.workers.decision import DecisionWorker
 
 CREWS = ("AAL123", "DAL456")
@@ -110,6 +112,23 @@ def test_nobody_is_warned_of_traffic_1000_ft_or_8_nm_away(second, seed):
     encounter = head_on(300.0, seed, **second).fly()
     assert min(encounter.least.values()) > 0.95
     assert encounter.told == []
+
+
+@pytest.mark.parametrize(("reports", "told"), [(1, False), (8, True)])
+def test_one_report_that_is_out_of_line_is_not_a_conflict_and_some_in_a_row_are(reports, told):
+    encounter = head_on(80.0, altitude_ft=36_000.0)
+    hear = encounter._reports
+
+    def corrupted(station, t_ns, step):
+        inputs = hear(station, t_ns, step)
+        if 120 <= step < 120 + reports:
+            report = AdsbReport.model_validate_json(inputs[-1].payload)
+            wrong = report.model_copy(update={"altitude_ft": 35_300.0})
+            inputs[-1] = replace(inputs[-1], payload=wrong.model_dump_json().encode())
+        return inputs
+
+    encounter._reports = corrupted
+    assert bool(encounter.fly().told) == told
 
 
 def test_without_traffic_there_is_nothing_to_say():

@@ -30,7 +30,7 @@ MODELS = {**BUS_MESSAGES, **WORKER_MESSAGES}
 EXAMPLES = {
     "Clock": {"run": "r1", "phase": "running", "pace": "virtual"},
     "Status": {"modality": "adsb", "state": "lost", "cause": "outage"},
-    "Transmission": {"id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "snr_db": 9.5},
+    "Transmission": {"id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "samples": 9},
     "AdsbReport": {
         "icao24": "a1b2c3", "callsign": None, "latitude_deg": 1.5, "longitude_deg": -2.5,
         "altitude_ft": 35000.0, "ground_speed_kt": 450.0, "track_deg": 359.5,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -72,7 +73,7 @@ def test_hostile_text_stays_text(folder: Path) -> None:
         severity=Severity.CAUTION, traffic=("A",), message=hostile,
         evidence=Evidence(sources=()), t_ready_ns=0,
     )  # fmt: skip
-    with LogWriter(folder / "log.mcap") as log:
+    with closing(LogWriter(folder / "log.mcap")) as log:
         log.write("advisory/ATC", "evil", Advisory, 0, advisory.model_dump_json().encode())
     page = write_report(folder)
     assert hostile not in page.read_text()
@@ -87,7 +88,7 @@ def test_a_long_run_of_many_aircraft_stays_small(folder: Path) -> None:
         for second in range(1200)
         for index in range(50)
     ]  # fmt: skip
-    with LogWriter(folder / "log.mcap") as log:
+    with closing(LogWriter(folder / "log.mcap")) as log:
         for state in states:
             key = f"truth/state/{state['actor']}"
             log.write(key, "run", Advisory, state["t_ns"], json.dumps(state).encode())

@@ -193,4 +193,5 @@ def test_an_interrupted_run_leaves_a_complete_folder(
     assert folder.info().phase == "stopped"
     assert folder.info().cause == "interrupted"
     assert (folder.summary() or {})["outcome"] == "stopped: interrupted"
+    assert folder.report_path.is_file()
     assert "breaks off" in airhilt_command("replay", out).stdout

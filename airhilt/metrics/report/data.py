@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from airhilt.errors import RunFolderError
-from airhilt.record import RunFolder, RunInfo, read_log
+from airhilt.record import RunFolder, RunInfo, read_latencies, read_log
 from airhilt.surveillance.kinematics import curvature_radii_m
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 
@@ -227,7 +226,7 @@ def _actors(info: RunInfo, log: _Log) -> list[Json]:
 def _thin(values: Sequence[float], stride: int) -> list[float]:
     """Return every so-manieth value, and the last."""
     kept = list(values[::stride])
-    if (len(values) - 1) % stride:
+    if values and (len(values) - 1) % stride:
         kept.append(values[-1])
     return kept
 
@@ -248,20 +247,15 @@ def _north_nm(latitudes_deg: list[float], latitude: float) -> list[float]:
 
 
 def _latencies(folder: RunFolder) -> dict[str, list[float]]:
-    """Return the simulated latencies of each worker's steps, in seconds, thinned out."""
-    found: dict[str, list[float]] = {}
-    try:
-        lines = folder.latency_path.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise RunFolderError(f"{folder.latency_path}: cannot be read: {error.strerror}") from None
-    for line in lines:
-        try:
-            row = json.loads(line)
-        except json.JSONDecodeError:
-            break
-        if row.get("finished"):
-            found.setdefault(row["worker"], []).append(row["latency_ns"] / SECOND_NS)
-    return {
-        worker: _thin(values, max(1, math.ceil(len(values) / POINTS_A_WORKER)))
-        for worker, values in found.items()
-    }
+    """Return the simulated latencies of each worker's finished steps, in seconds, thinned out."""
+    recorded = read_latencies(folder.latency_path)
+    found = {}
+    for worker, steps in recorded.latencies_ns.items():
+        unfinished = recorded.unfinished.get(worker)
+        values = [
+            latency_ns / SECOND_NS
+            for seq, latency_ns in steps.items()
+            if unfinished is None or seq != unfinished.seq
+        ]
+        found[worker] = _thin(values, max(1, math.ceil(len(values) / POINTS_A_WORKER)))
+    return {worker: values for worker, values in found.items() if values}

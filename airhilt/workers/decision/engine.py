@@ -100,8 +100,10 @@ class _Clearance:
 
 
 class _Prediction(NamedTuple):
-    """What lies ahead of a pair."""
+    """What lies ahead of a pair, as it is now."""
 
+    first: Track
+    second: Track
     time_to_loss_s: float | None
     time_to_closest_approach_s: float
     horizontal_m: float
@@ -292,7 +294,7 @@ class DecisionWorker:
             conflict = _Conflict(f"separation-{self._told}", pair)
             self._conflicts[pair] = conflict
         if level is None:
-            return self._calm(t_ns, t_ready_ns, conflict, prediction, first, second)
+            return self._calm(t_ns, t_ready_ns, conflict, prediction)
         conflict.quiet_since_ns = None
         if conflict.severity is not None and level.rank <= conflict.severity.rank:
             conflict.rising = None
@@ -302,7 +304,7 @@ class DecisionWorker:
         if t_ns - conflict.rising_since_ns < self.config.persistence_s * SECOND_NS:
             return []
         conflict.severity, conflict.rising = level, None
-        return self._tell(t_ready_ns, conflict, prediction, first, second)
+        return self._tell(t_ready_ns, conflict, prediction)
 
     def _present(self, icao24: str, t_ns: int) -> Track:
         """Return a track carried on to now, computed once a step."""
@@ -318,6 +320,8 @@ class DecisionWorker:
         is_past = interval is None or interval[1] <= 0.0 or interval[0] > self.config.advisory_s
         approach = max(motion.time_to_closest_approach_s(), 0.0)
         return _Prediction(
+            first,
+            second,
             None if is_past else time_to_loss_s(motion, *profiles, self._infringed),
             approach,
             motion.at(approach).distance_m,
@@ -334,13 +338,7 @@ class DecisionWorker:
         return Severity.CAUTION if time_to_loss <= config.caution_s else Severity.ADVISORY
 
     def _calm(
-        self,
-        t_ns: int,
-        t_ready_ns: int,
-        conflict: _Conflict,
-        prediction: _Prediction,
-        first: Track,
-        second: Track,
+        self, t_ns: int, t_ready_ns: int, conflict: _Conflict, prediction: _Prediction
     ) -> list[Advisory]:
         """End a conflict once it is over for good.
 
@@ -359,25 +357,20 @@ class DecisionWorker:
         if t_ns - conflict.quiet_since_ns < self.config.release_s * SECOND_NS:
             return []
         del self._conflicts[conflict.pair]
-        return self._advisories(t_ready_ns, conflict, prediction, first, second, active=False)
+        return self._advisories(t_ready_ns, conflict, prediction, active=False)
 
     def _tell(
-        self,
-        t_ready_ns: int,
-        conflict: _Conflict,
-        prediction: _Prediction,
-        first: Track,
-        second: Track,
+        self, t_ready_ns: int, conflict: _Conflict, prediction: _Prediction
     ) -> list[Advisory]:
         if conflict.severity in (Severity.CAUTION, Severity.WARNING):
             others = [
-                track.at(first.t_ns)
+                track.at(prediction.first.t_ns)
                 for icao24, track in self._tracks.items()
                 if icao24 not in conflict.pair
             ]
             resolution = resolve(
-                first,
-                second,
+                prediction.first,
+                prediction.second,
                 others,
                 self.config.standard,
                 self._infringed,
@@ -387,21 +380,15 @@ class DecisionWorker:
             for icao24, recommended in zip(conflict.pair, conflict.recommendations, strict=True):
                 if isinstance(recommended, Climb | MaintainLevel):
                     self._tracks[icao24].cleared_m = recommended.altitude_ft * FOOT
-        return self._advisories(t_ready_ns, conflict, prediction, first, second, active=True)
+        return self._advisories(t_ready_ns, conflict, prediction, active=True)
 
     def _advisories(
-        self,
-        t_ready_ns: int,
-        conflict: _Conflict,
-        prediction: _Prediction,
-        first: Track,
-        second: Track,
-        active: bool,
+        self, t_ready_ns: int, conflict: _Conflict, prediction: _Prediction, active: bool
     ) -> list[Advisory]:
         """Return the advisory for each recipient; crews hear from CAUTION on."""
         severity = conflict.severity or Severity.INFO
         to_crews = severity.rank >= Severity.CAUTION.rank
-        callsigns = (first.callsign, second.callsign)
+        callsigns = (prediction.first.callsign, prediction.second.callsign)
         recipients = (*callsigns, CONTROLLER) if to_crews else (CONTROLLER,)
         recommended = dict(zip(callsigns, conflict.recommendations, strict=True))
         told = []
