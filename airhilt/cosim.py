@@ -51,7 +51,7 @@ from airhilt.metrics.summary import Summary
 from airhilt.radio.script import RadioScript, Spoken
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
-from airhilt.scenario import Scenario, realise
+from airhilt.scenario import Scenario, check, realise
 from airhilt.scenario.models import ScriptedCommand, Separation
 from airhilt.scenario.perturbation import Draw
 from airhilt.sim import (
@@ -126,6 +126,10 @@ class Foreign:
 class Recorded:
     """What a replay puts in the place of other processes."""
 
+    latency: LatencySpec | None = None
+    """Instead of that of the options."""
+    end_ns: int | None = None
+    """Where the earlier run broke off."""
     workers: tuple[Participant, ...] = ()
     losses: Mapping[str, Loss] = field(default_factory=dict)
     foreign: tuple[Foreign, ...] = ()
@@ -180,7 +184,7 @@ def run(
     observer = observer or Observer()
     recorded = recorded or Recorded()
     realised, draws = _realise(scenario, options.seed)
-    latency = _latency(options.latency)
+    latency = recorded.latency or _latency(options.latency)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{scenario.name}-{options.seed}"
     folder = RunFolder(options.out or _default_folder(name))
@@ -208,12 +212,14 @@ def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
     if not 0 <= seed < 2**63:
         raise AirhiltError(f"seed {seed}: expected 0 or more, below 2^63")
     try:
-        return realise(scenario, seed)
+        realised, draws = realise(scenario, seed)
     except ValidationError as error:
         raise ScenarioError(
             f"{scenario.name}: with seed {seed} a perturbation goes too far: "
             f"{first_problem(error)}; narrow its distribution"
         ) from None
+    check(realised, f"{scenario.name}, as drawn with seed {seed}")
+    return realised, draws
 
 
 def _latency(text: str) -> LatencySpec:
@@ -577,8 +583,7 @@ class Simulation:
             return
 
         def react() -> None:
-            if flight.aircraft.ended is None:
-                reaction.act()
+            if flight.aircraft.ended is None and reaction.act():
                 self._event("pilot_reacts", message.recipient, f"{reaction.text} ({message.id})")
 
         due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
@@ -622,6 +627,8 @@ class Simulation:
 
     def schedule(self, recorded: Recorded) -> None:
         """Let what came from other processes in an earlier run come at its time."""
+        if recorded.end_ns is not None:
+            self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
         for message in recorded.foreign:
             self._director.at(
                 message.t_ns,

@@ -20,7 +20,7 @@ from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.folder import versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
-from airhilt.sim import Input, Output, Reply, WorkerLost
+from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
 
@@ -75,17 +75,19 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             seed=info.options.seed,
             out=Path(scratch) / "run",
             assistant=info.options.assistant,
-            latency=f"replay:{path}",
             cameras=info.options.cameras,
             speech=info.options.speech,
             run_name=info.run,
         )
-        result = run(scenario, options, observer, _recorded(info, latencies, recorded_log))
+        result = run(scenario, options, observer, _recorded(path, info, latencies, recorded_log))
         repeated = list(read_log(RunFolder(result.folder).log_path))
     return _compare(recorded_log, repeated, info)
 
 
-def _recorded(info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]) -> Recorded:
+def _recorded(
+    path: Path, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
+) -> Recorded:
+    breaks_off = info.phase != "finished"
     attached = [worker.description for worker in info.workers if worker.where == "attached"]
     workers, losses = [], {}
     for description in attached:
@@ -100,6 +102,13 @@ def _recorded(info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
         worker = RecordedWorker(published, latencies.outputs.get(name, {}), failure)
         workers.append(Participant(description, worker, attached=True))
     return Recorded(
+        latency=LatencySpec(
+            "replay",
+            replay_of=str(path),
+            recorded=latencies.latencies_ns,
+            breaks_off=breaks_off,
+        ),
+        end_ns=log[-1].t_ns if breaks_off and log else None,
         workers=tuple(workers),
         losses=losses,
         foreign=tuple(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from airhilt.commands import (
     AltitudeCommand,
@@ -31,7 +32,8 @@ class Reaction:
     """What the crew will do, and after how long."""
 
     delay_s: float
-    act: Callable[[], None]
+    act: Callable[[], bool]
+    """Does it; tells whether there still was anything to do."""
     text: str
 
 
@@ -58,30 +60,24 @@ class Crew:
         self.aircraft = aircraft
         self._reaction = reaction
         self._seed = seed
-        self._assigned_altitude: AltitudeCommand | None = None
-        self._assigned_lateral: TrackCommand | TurnCommand | ResumeRouteCommand | None = None
-        self._initial_altitude_m = aircraft.target_altitude_m
-        self._initial_track_rad = aircraft.state.track_rad
-        self._has_route = False
+        self._return_lateral: Callable[[], None] = partial(
+            aircraft.hold_track, aircraft.state.track_rad
+        )
+        self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
         self._over: set[str] = set()
         self._deferred: list[Command] = []
-        self._left_lateral = False
+        self._has_turned = False
+        self._has_route = False
 
     def fly_route(self, waypoints: list[tuple[float, float]]) -> None:
         """Take a route (latitude, longitude in radians) and fly it."""
         self.aircraft.fly_route(waypoints)
+        self._return_lateral = self.aircraft.resume_route
         self._has_route = True
 
     def command(self, command: Command) -> None:
         """Carry a command out, now or after the advisory in hand."""
-        match command:
-            case AltitudeCommand():
-                self._assigned_altitude = command
-            case TrackCommand() | TurnCommand() | ResumeRouteCommand():
-                self._assigned_lateral = command
-            case SpeedCommand():
-                pass
         if self._followed:
             self._deferred.append(command)
         else:
@@ -95,12 +91,16 @@ class Crew:
                 )
             case TrackCommand(track_deg=track):
                 self.aircraft.hold_track(track * DEGREE)
+                self._return_lateral = partial(self.aircraft.hold_track, track * DEGREE)
             case TurnCommand(degrees=degrees):
+                track = self.aircraft.state.track_rad + degrees * DEGREE
                 self.aircraft.turn_by(degrees * DEGREE)
+                self._return_lateral = partial(self.aircraft.hold_track, track)
             case SpeedCommand(cas_kt=speed):
                 self.aircraft.hold_speed(speed * KNOT)
             case ResumeRouteCommand() if self._has_route:
                 self.aircraft.resume_route()
+                self._return_lateral = self.aircraft.resume_route
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return how the crew will react to an advisory, None if it will not."""
@@ -131,9 +131,11 @@ class Crew:
         first = self._reaction.median_s * math.exp(self._reaction.sigma * draw)
         return first * (REPEAT_FACTOR if advisory.id in self._followed else 1.0)
 
-    def _follow(self, advisory: Advisory, recommendation: Recommendation) -> None:
+    def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
-            return
+            return False
+        if not self._followed:
+            self._altitude_before_m = self.aircraft.target_altitude_m
         self._followed[advisory.id] = advisory.revision
         match recommendation:
             case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
@@ -141,28 +143,19 @@ class Crew:
             case MaintainLevel(altitude_ft=altitude):
                 self.aircraft.hold_altitude(altitude * FOOT)
             case Turn(degrees=degrees):
-                self._left_lateral = True
+                self._has_turned = True
                 self.aircraft.turn_by(degrees * DEGREE)
+        return True
 
-    def _resume(self, advisory_id: str) -> None:
-        """Go back to what was assigned, unless another advisory still holds."""
+    def _resume(self, advisory_id: str) -> bool:
+        """Go back to what was flown before, unless another advisory still holds."""
         if self._followed.pop(advisory_id, None) is None or self._followed:
-            return
-        if self._assigned_altitude is not None:
-            self._carry_out(self._assigned_altitude)
-        else:
-            self.aircraft.hold_altitude(self._initial_altitude_m)
-        if self._left_lateral:
-            self._left_lateral = False
-            self._resume_lateral()
+            return False
+        self.aircraft.hold_altitude(self._altitude_before_m)
+        if self._has_turned:
+            self._has_turned = False
+            self._return_lateral()
         deferred, self._deferred = self._deferred, []
         for command in deferred:
             self._carry_out(command)
-
-    def _resume_lateral(self) -> None:
-        if isinstance(self._assigned_lateral, TrackCommand):
-            self._carry_out(self._assigned_lateral)
-        elif self._has_route:
-            self.aircraft.resume_route()
-        else:
-            self.aircraft.hold_track(self._initial_track_rad)
+        return True

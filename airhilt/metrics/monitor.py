@@ -37,7 +37,7 @@ Motion = tuple[Relative, VerticalProfile, VerticalProfile]
 
 
 class Approach(NamedTuple):
-    """The closest that a pair came."""
+    """The closest that a pair came, at the horizontal closest approach within a tick."""
 
     t_ns: int
     horizontal_m: float
@@ -142,6 +142,7 @@ class ConflictMonitor:
         """Choose the pairs to watch closely for a second; on the way, ask what TCAS would say."""
         reach_m = self._minima.horizontal_m + 2_000.0
         height_m = self._minima.vertical_m + 300.0
+        far_m, far_up_m = max(reach_m, TCAS_RANGE_M), max(height_m, TCAS_HEIGHT_M)
         flying = [
             (name, craft.state) for name, craft in self._aircraft.items() if craft.ended is None
         ]
@@ -150,7 +151,7 @@ class ConflictMonitor:
             gap = abs(first.altitude_m - second.altitude_m)
             apart = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
             pair = (name, other)
-            if (gap > TCAS_HEIGHT_M or apart > TCAS_RANGE_M) and pair not in self._always:
+            if (gap > far_up_m or apart > far_m) and pair not in self._always:
                 continue
             motion = relative(first, second)
             distance = motion.distance_m

@@ -25,6 +25,9 @@ TELEPHONY = {
 }  # fmt: skip
 """Telephony designators (ICAO Doc 8585)."""
 
+THOUSANDS = re.compile(r"\b(\d{1,2}),(\d{3})\b")
+"""A number with a thousands separator, such as 5,000."""
+
 Sense = Literal["climb", "descend", "maintain"]
 
 _SENSES: dict[str, Sense] = {
@@ -54,7 +57,7 @@ def tokens(text: str) -> list[str]:
     """
     out: list[str] = []
     joining = False
-    for word in re.findall(r"[a-z]+|\d+|[,.;]", text.lower()):
+    for word in re.findall(r"[a-z]+|\d+|[,.;]", THOUSANDS.sub(r"\1\2", text.lower())):
         if word in ",.;":
             joining = False
             continue
@@ -99,7 +102,7 @@ def altitude_ft(words: list[str]) -> float | None:
             if after.isdigit() and len(after) == 1 and hundreds == "hundred":
                 value += float(after) * 100.0
             return value
-        if word in ("maintain", "to") and following.isdigit() and after == "feet":
+        if word in ("maintain", "to") and following.isdigit() and len(following) in (4, 5):
             return float(following)
     return None
 

@@ -1,7 +1,7 @@
 """Scenario JSON: what it may say, loading it, and its seeded perturbation."""
 
-from airhilt.scenario.loading import load, parse
+from airhilt.scenario.loading import check, load, parse
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.perturbation import realise
 
-__all__ = ["Scenario", "load", "parse", "realise"]
+__all__ = ["Scenario", "check", "load", "parse", "realise"]

@@ -97,13 +97,37 @@ def parse(text: str, origin: str) -> Scenario:
     try:
         scenario = Scenario.model_validate(document)
     except ValidationError as error:
-        raise ScenarioError(
-            _report(origin, [describe(problem, Scenario) for problem in error.errors()])
-        ) from None
+        problems = [describe(problem, Scenario) for problem in _causes(error)]
+        raise ScenarioError(_report(origin, problems)) from None
+    check(scenario, origin)
+    return scenario
+
+
+def check(scenario: Scenario, origin: str) -> None:
+    """Check what no field can know of another; ``origin`` names the scenario in errors.
+
+    Raises
+    ------
+    ScenarioError
+        Something refers to nothing, or is outside what an aircraft flies.
+    """
     problems = list(_cross_checks(scenario))
     if problems:
         raise ScenarioError(_report(origin, problems))
-    return scenario
+
+
+def _causes(error: ValidationError) -> list[Any]:
+    """Return the errors without those that only follow from others: a list with bad entries."""
+    errors = error.errors()
+    return [
+        one
+        for one in errors
+        if one["type"] != "too_short"
+        or not any(
+            len(other["loc"]) > len(one["loc"]) and other["loc"][: len(one["loc"])] == one["loc"]
+            for other in errors
+        )
+    ]
 
 
 def _report(origin: str, problems: Sequence[Problem]) -> str:
@@ -326,9 +350,11 @@ def _perturbations(scenario: Scenario) -> Iterator[Problem]:
             )
             continue
         value = container[key]
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        if not isinstance(value, float):
             yield Problem(
-                path, f"{perturbation.path!r} is {_short(value)}; expected the path of a number"
+                path,
+                f"{perturbation.path!r} is {_short(value)}; expected the path of a number that may "
+                "have a fraction",
             )
     yield from _duplicates(
         "perturbations", "path", [perturbation.path for perturbation in scenario.perturbations]

@@ -11,6 +11,9 @@ from airhilt.errors import AirhiltError
 from airhilt.sim.streams import stream
 from airhilt.units import seconds_to_ns
 
+NEVER_NS = seconds_to_ns(1e9)
+"""Longer than any run."""
+
 
 class LatencySource(Protocol):
     """Gives the latency of each step of one worker."""
@@ -60,21 +63,29 @@ class Lognormal:
 class Replay:
     """What an earlier run had.
 
+    Parameters
+    ----------
+    breaks_off
+        The earlier run was broken off: steps that it did not come to never end.
+
     Raises
     ------
     AirhiltError
         In `known_ns`: the earlier run had no such step, so the two have diverged.
     """
 
-    def __init__(self, worker: str, latencies_ns: Mapping[int, int]) -> None:
+    def __init__(self, worker: str, latencies_ns: Mapping[int, int], breaks_off: bool) -> None:
         self._worker = worker
         self._latencies_ns = latencies_ns
+        self._breaks_off = breaks_off
 
     def known_ns(self, seq: int) -> int | None:
         """Return the latency that step ``seq`` had then."""
         try:
             return self._latencies_ns[seq]
         except KeyError:
+            if self._breaks_off:
+                return NEVER_NS
             raise AirhiltError(
                 f"latency replay: the recorded run has {len(self._latencies_ns)} steps of "
                 f"{self._worker!r}, this run came to step {seq}: replay needs the same scenario, "
@@ -90,6 +101,7 @@ class LatencySpec:
     fixed_s: float | None = None
     replay_of: str | None = None
     recorded: Mapping[str, Mapping[int, int]] | None = None
+    breaks_off: bool = False
 
     @property
     def text(self) -> str:
@@ -108,7 +120,8 @@ class LatencySpec:
             case "lognormal":
                 return Lognormal(worker, seed, median_s, sigma)
             case "replay":
-                return Replay(worker, (self.recorded or {}).get(worker, {}))
+                recorded = (self.recorded or {}).get(worker, {})
+                return Replay(worker, recorded, self.breaks_off)
 
 
 def parse_latency(text: str) -> LatencySpec:

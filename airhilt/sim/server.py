@@ -94,8 +94,9 @@ class Server:
 
     def _drop_older(self, key: str) -> None:
         kept = [entry for entry in self._waiting if entry[1].key != key]
-        self.dropped[key] += len(self._waiting) - len(kept)
-        self._waiting = deque(kept)
+        if len(kept) < len(self._waiting):
+            self.dropped[key] += len(self._waiting) - len(kept)
+            self._waiting = deque(kept)
 
     def _take(self) -> tuple[Input, ...]:
         """Take the oldest input, and with a batched one all other batched ones."""

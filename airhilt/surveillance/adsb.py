@@ -30,6 +30,9 @@ SPEED_STEP_KT = 1.0
 VERTICAL_RATE_STEP_FPM = 64.0
 GLOBAL_PAIR_NS = 10 * SECOND_NS
 """An even and an odd position no further apart than this may be decoded together (A.1.7.7)."""
+REFERENCE_AGE_NS = 60 * SECOND_NS
+"""An older position is no reference for local decoding; a pair is needed again. No aircraft comes
+near the limit of 180 NM in it."""
 
 NACP_95_PERCENT_M = (
     37_040.0, 18_520.0, 7_408.0, 3_704.0, 1_852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0,
@@ -175,6 +178,7 @@ class _Heard:
     even: tuple[int, cpr.CprPosition] | None = None
     odd: tuple[int, cpr.CprPosition] | None = None
     position_deg: tuple[float, float] | None = None
+    position_ns: int = 0
 
 
 @dataclass
@@ -224,14 +228,18 @@ class Receiver:
             heard.odd = (t_in_ns, position)
         else:
             heard.even = (t_in_ns, position)
-        if heard.position_deg is not None:
+        if heard.position_deg is not None and t_in_ns - heard.position_ns <= REFERENCE_AGE_NS:
             heard.position_deg = cpr.decode_local(position, heard.position_deg)
-        elif (
+            heard.position_ns = t_in_ns
+            return
+        heard.position_deg = None
+        if (
             heard.even is not None
             and heard.odd is not None
             and abs(heard.even[0] - heard.odd[0]) <= GLOBAL_PAIR_NS
         ):
             heard.position_deg = cpr.decode_global(heard.even[1], heard.odd[1], position.odd)
+            heard.position_ns = t_in_ns
 
 
 class Reception:

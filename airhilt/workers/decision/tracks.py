@@ -11,6 +11,9 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 LEVEL_BELOW_M_S = 200 * FOOT_PER_MINUTE
 """A slower climb or descent counts as level flight: three quanta of the ADS-B vertical rate."""
+LEVEL_WITHIN_M = 200 * FOOT
+"""An aircraft this near to its cleared level is levelling off there, whatever the filtered rate
+still says (the tolerance of ICAO Doc 4444, 8.5.5.2.1, in RVSM airspace)."""
 VELOCITY_MEMORY = 0.6
 """Weight of the earlier velocity in the exponential mean; about 1 s at two reports a second."""
 
@@ -88,8 +91,14 @@ class Track:
         rate = self.vertical_rate_m_s
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)
-        ahead = self.cleared_m is not None and (self.cleared_m - self.altitude_m) * rate > 0.0
-        return VerticalProfile(self.altitude_m, rate, self.cleared_m if ahead else None)
+        if self.cleared_m is None:
+            return VerticalProfile(self.altitude_m, rate)
+        to_go_m = self.cleared_m - self.altitude_m
+        if to_go_m * rate > 0.0:
+            return VerticalProfile(self.altitude_m, rate, self.cleared_m)
+        if abs(to_go_m) <= LEVEL_WITHIN_M:
+            return VerticalProfile(self.altitude_m, 0.0)
+        return VerticalProfile(self.altitude_m, rate)
 
 
 def _velocity(report: AdsbReport) -> tuple[float, float]:

@@ -14,7 +14,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 sys.path.insert(0, {tests!r})
 from conftest import in_cruise, states
-from test_determinism import AIR, flight
+from test_flight_determinism import AIR, flight
 print(repr(flight(in_cruise, states)))
 """
 
