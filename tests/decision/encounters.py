@@ -105,6 +105,8 @@ class Encounter:
     """When each call begins and ends, and its words."""
     told: list[tuple[float, Advisory]] = field(default_factory=list)
     obey: Callable[[Advisory], bool] = lambda _: False
+    silent_after_s: float = math.inf
+    """From when on no report is received."""
     least: dict[tuple[str, str], float] = field(default_factory=dict)
     """Least distance of each pair in units of 5 NM and 1000 ft."""
 
@@ -114,7 +116,9 @@ class Encounter:
         assert not begun
         for step in range(round(2 * self.seconds)):
             t_ns = step * HALF_SECOND_NS
-            inputs = self._reports(station, t_ns, step) + self._transcripts(t_ns)
+            heard = t_ns < self.silent_after_s * SECOND_NS
+            inputs = self._reports(station, t_ns, step) if heard else []
+            inputs += self._transcripts(t_ns)
             for flight in self.flights:
                 flight.advance(0.5)
             self._measure(t_ns)

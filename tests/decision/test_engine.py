@@ -48,6 +48,13 @@ def test_it_ends_with_an_inactive_info_once_the_two_are_past(ignored):
     assert len(ignored.told) == 4 + 3 + 3
 
 
+def test_a_conflict_of_which_nothing_more_is_heard_is_carried_on_to_its_end():
+    encounter = replace(head_on(300.0), silent_after_s=160.0).fly()
+    assert encounter.severities("ATC") == ["ADVISORY", "CAUTION", "WARNING"]
+    assert not encounter.to("ATC")[-1].active
+    assert encounter.told[-1][0] == pytest.approx(230.0 + 18.75 + 8.0, abs=5.0)
+
+
 def test_a_mere_advisory_is_for_the_controller_alone(ignored):
     first = ignored.told[0][1]
     assert (first.recipient, first.recipients, first.severity) == ("ATC", ("ATC",), "ADVISORY")

@@ -39,6 +39,8 @@ from airhilt.workers.decision.tracks import Track
 from airhilt.workers.protocol import Step
 
 CONTROLLER = "ATC"
+COASTING_NS = SECOND_NS
+"""Without any report for so long, conflicts are judged again by the tracks carried on."""
 
 
 @dataclass(frozen=True)
@@ -156,13 +158,14 @@ class DecisionWorker:
         self._carried.clear()
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         self._drop_stale(t_ns)
-        for pair in list(self._pairs_of(updated)):
+        for pair in [*self._pairs_of(updated), *self._coasting(t_ns)]:
             advisories += self._judge(t_ns, t_ready_ns, pair)
         return Step(
             tuple(
                 Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
                 for advisory in advisories
-            )
+            ),
+            wake_ns=t_ns + COASTING_NS if self._conflicts else None,
         )
 
     # --- what is known ----------------------------------------------------------------------
@@ -176,9 +179,13 @@ class DecisionWorker:
         return report.icao24
 
     def _drop_stale(self, t_ns: int) -> None:
+        """Drop tracks without news, but coast those in conflict until it is over."""
         oldest = t_ns - round(self.config.stale_s * SECOND_NS)
-        for icao24 in [key for key, track in self._tracks.items() if track.t_ns < oldest]:
-            del self._tracks[icao24]
+        stale = [icao24 for icao24, track in self._tracks.items() if track.t_ns < oldest]
+        coasting = {icao24 for pair in self._conflicts for icao24 in pair} if stale else set()
+        for icao24 in stale:
+            if icao24 not in coasting:
+                del self._tracks[icao24]
 
     def _pairs_of(self, updated: dict[str, None]) -> Iterator[tuple[str, str]]:
         """Yield the pairs that have news and are in conflict or could come into one.
@@ -207,6 +214,14 @@ class DecisionWorker:
                 ):
                     seen.add(pair)
                     yield pair
+
+    def _coasting(self, t_ns: int) -> list[tuple[str, str]]:
+        """Return the pairs in conflict of which nothing was heard for a while."""
+        return [
+            pair
+            for pair in self._conflicts
+            if t_ns - max(self._tracks[icao24].t_ns for icao24 in pair) >= COASTING_NS
+        ]
 
     def _by_callsign(self, callsign: str) -> Track | None:
         return next((t for t in self._tracks.values() if t.callsign == callsign), None)
