@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import signal
 import sys
 from pathlib import Path
@@ -11,8 +12,20 @@ from typing import Any, NoReturn
 import click
 
 from airhilt._version import __version__
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, ScenarioError
 
+
+class _Seconds(click.FloatRange):
+    """A time that can be waited: NaN passes click's own check."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        seconds = super().convert(value, param, ctx)
+        if not math.isfinite(seconds):
+            self.fail(f"{value} is no time in seconds", param, ctx)
+        return seconds
+
+
+SECONDS = _Seconds(min=0.0, max=86_400.0, min_open=True)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 INTERRUPTED = 130
 
@@ -20,7 +33,7 @@ INTERRUPTED = 130
 @click.group(context_settings=CONTEXT)
 @click.version_option(__version__, prog_name="airhilt")
 def cli() -> None:
-    r"""Run, replay and report encounters for assistants that warn pilots and controllers.
+    """Run, replay and report encounters for assistants that warn pilots and controllers.
 
     \b
     airhilt list                              what scenarios there are
@@ -89,7 +102,7 @@ Examples:
 )
 @click.option(
     "--attach-timeout",
-    type=float,
+    type=SECONDS,
     default=60.0,
     show_default=True,
     metavar="SECONDS",
@@ -97,7 +110,7 @@ Examples:
 )
 @click.option(
     "--step-timeout",
-    type=float,
+    type=SECONDS,
     default=5.0,
     show_default=True,
     metavar="SECONDS",
@@ -228,7 +241,10 @@ def validate(file: str) -> None:
     from airhilt.cosim import TICK_S
     from airhilt.scenario import load, realise
 
-    scenario = load(file)
+    try:
+        scenario = load(file)
+    except ScenarioError as error:
+        raise AirhiltError("\n".join(error.problems)) from None
     realised, _ = realise(scenario, 0)
     build_fleet(realised, 0, TICK_S)
     click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
@@ -294,7 +310,7 @@ Examples:
 @click.option("--name", default=None, help="Name of the worker.  [default: its kind]")
 @click.option(
     "--patience",
-    type=float,
+    type=SECONDS,
     default=30.0,
     show_default=True,
     metavar="SECONDS",
@@ -313,6 +329,7 @@ def worker(
 def main() -> NoReturn:
     """Run the command line; a user's mistake ends with one line and exit code 2."""
     signal.signal(signal.SIGTERM, _interrupt)
+    signal.signal(signal.SIGINT, _interrupt)
     try:
         code = cli.main(standalone_mode=False)
     except AirhiltError as error:
@@ -323,10 +340,13 @@ def main() -> NoReturn:
         error.show()
         sys.exit(error.exit_code)
     except (KeyboardInterrupt, click.exceptions.Abort):
-        click.echo("airhilt: interrupted; the run folder is complete up to here", err=True)
+        click.echo("airhilt: interrupted", err=True)
         sys.exit(INTERRUPTED)
     sys.exit(code if isinstance(code, int) else 0)
 
 
 def _interrupt(*_: object) -> None:
+    """Interrupt once: what then finishes the run folder must not be interrupted again."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
     raise KeyboardInterrupt

@@ -6,9 +6,10 @@ what it needs as arguments. Data flows one way: aircraft, sensors, workers, advi
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Mapping, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
@@ -27,6 +28,7 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     AircraftTruth,
+    Briefing,
     Clock,
     ConflictPhase,
     ConflictTruth,
@@ -40,7 +42,6 @@ from airhilt.messages import (
     Status,
     Transcript,
     Transmission,
-    WorkerDescription,
 )
 from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.conditions import ConditionCompiler
@@ -69,7 +70,7 @@ from airhilt.surveillance.kinematics import Minima
 from airhilt.surveillance.sensor import AdsbSensor
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees, seconds_to_ns
 from airhilt.workers import LocalWorker
-from airhilt.workers.decision import DecisionConfig, DecisionWorker
+from airhilt.workers.decision import DecisionWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
 
 TICK_S = 0.05
@@ -131,6 +132,8 @@ class Recorded:
     end_ns: int | None = None
     """Where the earlier run broke off."""
     workers: tuple[Participant, ...] = ()
+    programs: tuple[str, ...] = ()
+    """Names of those that took no grants."""
     losses: Mapping[str, Loss] = field(default_factory=dict)
     foreign: tuple[Foreign, ...] = ()
 
@@ -184,7 +187,7 @@ def run(
     observer = observer or Observer()
     recorded = recorded or Recorded()
     realised, draws = _realise(scenario, options.seed)
-    latency = recorded.latency or _latency(options.latency)
+    latency = recorded.latency or _latency(options.latency, scenario, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{scenario.name}-{options.seed}"
     folder = RunFolder(options.out or _default_folder(name))
@@ -192,20 +195,33 @@ def run(
     flights = build_fleet(realised, options.seed, TICK_S)
     with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
-        participants, takes_no_grants = _participants(realised, options, bus, observer, recorded)
-        if takes_no_grants and options.pace is None:
+        participants, programs = _participants(options, bus, observer, recorded)
+        if programs and options.pace is None and not recorded.programs:
             pace = RealTime()
         folder.create(options.overwrite)
         info = _info(name, scenario, realised, draws, options, pace, latency, participants, bus)
         folder.write_info(info)
         simulation = Simulation(
-            realised, options, bus, folder, flights, participants, latency, pace, observer
+            realised,
+            options,
+            bus,
+            folder,
+            flights,
+            participants,
+            programs,
+            latency,
+            pace,
+            observer,
         )
         simulation.schedule(recorded)
         try:
-            return simulation.run(info)
-        finally:
-            write_report(folder.path)
+            result = simulation.run(info)
+        except BaseException:
+            with suppress(AirhiltError):  # What stopped the run is the news, not its report.
+                write_report(folder.path)
+            raise
+        write_report(folder.path)
+        return result
 
 
 def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
@@ -222,17 +238,24 @@ def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
     return realised, draws
 
 
-def _latency(text: str) -> LatencySpec:
+def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
     spec = parse_latency(text)
     if spec.replay_of is None:
         return spec
     earlier = RunFolder.open(Path(spec.replay_of))
+    info = earlier.info()
+    if info.scenario != scenario.model_dump(mode="json") or info.options.seed != seed:
+        raise AirhiltError(
+            f"latency {text}: that run is of {info.scenario.get('name')!r} with seed "
+            f"{info.options.seed}; expected the same scenario and seed as this one, "
+            f"{scenario.name!r} with {seed}"
+        )
     recorded = read_latencies(earlier.latency_path)
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
 
 
 def _default_folder(name: str) -> Path:
-    stamp = datetime.now(UTC).strftime("%Y%m%dT%H%M%S")
+    stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
     path, count = Path("runs") / f"{name}-{stamp}", 1
     while path.exists():
         count += 1
@@ -241,9 +264,9 @@ def _default_folder(name: str) -> Path:
 
 
 def _participants(
-    scenario: Scenario, options: Options, bus: Bus, observer: Observer, recorded: Recorded
-) -> tuple[list[Participant], bool]:
-    """Return the workers that take grants, and whether an attached program takes none."""
+    options: Options, bus: Bus, observer: Observer, recorded: Recorded
+) -> tuple[list[Participant], list[str]]:
+    """Return the workers that take grants, and the names of attached programs that take none."""
     participants = list(recorded.workers)
     names = [name for name in options.attach if not recorded.workers]
     attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice)
@@ -254,21 +277,15 @@ def _participants(
     ]
     taken = {participant.description.modality for participant in participants}
     if options.assistant_name == "reference" and "decision" not in taken:
-        worker = DecisionWorker(_decision_config(scenario.separation))
+        worker = DecisionWorker()
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
-    return participants, any(description is None for _, description in attached)
+    programs = [worker.name for worker, description in attached if description is None]
+    return participants, programs or list(recorded.programs)
 
 
 def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
     clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name)
     bus.keep("clock", clock.model_dump_json().encode())
-
-
-def _decision_config(separation: Separation) -> DecisionConfig:
-    return DecisionConfig(
-        horizontal_m=separation.horizontal_nm * NAUTICAL_MILE,
-        vertical_m=separation.vertical_ft * FOOT,
-    )
 
 
 def _info(
@@ -322,6 +339,7 @@ class Simulation:
         folder: RunFolder,
         flights: dict[str, Flight],
         participants: Sequence[Participant],
+        programs: Sequence[str],
         latency: LatencySpec,
         pace: Pace,
         observer: Observer,
@@ -341,6 +359,10 @@ class Simulation:
         self._phase: Phase = "running"
         self._ticked_ns = 0
         self._heard_unregistered = False
+        self._programs = set(programs)
+        self._has_decision = bool(programs) or any(
+            participant.description.modality == "decision" for participant in participants
+        )
         self._ended_lines: set[str] = set()
 
         aircraft = {callsign: flight.aircraft for callsign, flight in flights.items()}
@@ -368,7 +390,7 @@ class Simulation:
             options.seed,
             publish=self._exchange.publish,
             done=self._worker_done,
-            lost=self._worker_lost,
+            lost=lambda worker, cause: self._lose(worker.name, worker.modality, cause),
         )
         self._exchange.listen(self._collector.take)
         self._exchange.listen(self._pool.offer)
@@ -394,6 +416,7 @@ class Simulation:
         cause = ""
         try:
             self._set_modalities()
+            self._brief()
             self._director.run()
             self._phase = "finished"
         except AirhiltError as error:
@@ -401,6 +424,7 @@ class Simulation:
             raise
         except KeyboardInterrupt:
             self._phase, cause = "stopped", "interrupted"
+            self._observer.notice(f"interrupted; {self._folder.path} is complete up to here")
             raise
         except Exception as error:
             self._phase, cause = "stopped", f"{type(error).__name__}: {error}"
@@ -595,11 +619,11 @@ class Simulation:
         self._latency_log.step(record)
         self._collector.step(record)
 
-    def _worker_lost(self, worker: WorkerDescription, cause: str) -> None:
+    def _lose(self, name: str, modality: Modality, cause: str) -> None:
         now_ns = self._director.now_ns
-        self._latency_log.lost(worker.name, now_ns, cause)
-        self._set_modality(worker.modality, "lost", cause)
-        self._event("worker_lost", worker.name, cause)
+        self._latency_log.lost(name, now_ns, cause)
+        self._set_modality(modality, "lost", cause)
+        self._event("worker_lost", name, cause)
         self._observer.notice(f"lost at {now_ns / SECOND_NS:.1f} s: {cause}")
         if self._options.strict:
             raise RunStopped(
@@ -609,14 +633,11 @@ class Simulation:
 
     def _serve_bus(self, participants: Sequence[Participant]) -> None:
         """Notice workers that go, and hear what other programs publish by themselves."""
-        attached = {p.description.name for p in participants if p.attached}
+        attached = {p.description.name for p in participants if p.attached} | self._programs
 
         def changed(name: str, alive: bool) -> None:
-            if not alive and name in attached and name in self._pool.servers:
-                server = self._pool.servers[name]
-                self._director.post(
-                    lambda: server.lose(f"worker {name!r} is gone: its process ended")
-                )
+            if not alive and name in attached:
+                self._director.post(partial(self._gone, name))
 
         self._bus.watch_workers(changed)
         for pattern in ("advisory/*", "asr/*", "command/*"):
@@ -624,6 +645,15 @@ class Simulation:
                 pattern,
                 lambda key, data: self._director.post(lambda: self._hear_unregistered(key, data)),
             )
+
+    def _gone(self, name: str) -> None:
+        """Give up a worker or a program of another process that has ended."""
+        cause = f"worker {name!r} is gone: its process ended"
+        if name in self._programs:
+            self._programs.discard(name)
+            self._lose(name, "decision", cause)
+        else:
+            self._pool.servers[name].lose(cause)
 
     def schedule(self, recorded: Recorded) -> None:
         """Let what came from other processes in an earlier run come at its time."""
@@ -636,8 +666,7 @@ class Simulation:
                 Priority.SCRIPT,
             )
         for name, loss in recorded.losses.items():
-            server = self._pool.servers[name]
-            self._director.at(loss.t_ns, partial(server.lose, loss.cause), Priority.SETTLE)
+            self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
     def _hear_unregistered(self, key: str, data: bytes) -> None:
         """Take in a message that no grant asked for; such a program needs real time."""
@@ -654,7 +683,7 @@ class Simulation:
             self._heard_unregistered = True
             self._event("unregistered", key, "a program that takes no grants has published")
         try:
-            message = _parse_foreign(key, data)
+            message = _parse_foreign(key, data, self._director.now_ns)
         except WorkerError as error:
             self._event("refused", key, str(error))
             self._observer.notice(str(error))
@@ -662,6 +691,9 @@ class Simulation:
                 raise
             return
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
+        if isinstance(stamped, Advisory) and not self._has_decision:
+            self._has_decision = True
+            self._set_modality("decision", "on")
         self._exchange.heard(key, stamped, FOREIGN)
         if isinstance(stamped, ActorCommand):
             flight = self._flights.get(key.split("/")[1])
@@ -669,6 +701,16 @@ class Simulation:
                 flight.crew.command(stamped.command)
 
     # --- what is told -----------------------------------------------------------------------
+
+    def _brief(self) -> None:
+        separation = self._scenario.separation
+        briefing = Briefing(
+            controller=self._scenario.radio.controller,
+            horizontal_separation_nm=separation.horizontal_nm,
+            vertical_separation_ft=separation.vertical_ft,
+        )
+        self._exchange.publish("briefing", briefing)
+        self._bus.keep("briefing", briefing.model_dump_json().encode())
 
     def _set_modalities(self) -> None:
         scenario, options = self._scenario, self._options
@@ -678,7 +720,7 @@ class Simulation:
         self._set_modality("speech", "not evaluated" if options.speech else "off")
         has_vision = options.cameras and bool(scenario.cameras)
         self._set_modality("vision", "not evaluated" if has_vision else "off")
-        self._set_modality("decision", "off" if options.assistant_name == "none" else "on")
+        self._set_modality("decision", "on" if self._has_decision else "off")
 
     def _set_modality(self, modality: Modality, state: ModalityState, cause: str = "") -> None:
         self._collector.modalities[modality] = state
@@ -742,7 +784,7 @@ def _truth_of(flight: Flight, now_ns: int) -> AircraftTruth:
     )
 
 
-def _parse_foreign(key: str, data: bytes) -> Message:
+def _parse_foreign(key: str, data: bytes, now_ns: int) -> Message:
     """Return what an unregistered program put on a key.
 
     Raises
@@ -751,7 +793,7 @@ def _parse_foreign(key: str, data: bytes) -> Message:
         It is not what belongs there.
     """
     if not key.startswith("command/"):
-        return parse_output(FOREIGN, key, data)
+        return parse_output(FOREIGN, key, data, now_ns)
     try:
         return ActorCommand.model_validate_json(data)
     except ValidationError as error:

@@ -21,7 +21,17 @@ class RunStopped(AirhiltError):
 
 
 class ScenarioError(AirhiltError):
-    """A scenario, aircraft or airport file does not say what it must."""
+    """A scenario, aircraft or airport file does not say what it must.
+
+    Attributes
+    ----------
+    problems
+        All that is wrong with it, a line each; the message is about the first.
+    """
+
+    def __init__(self, message: str, problems: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.problems = problems or (message,)
 
 
 class BusError(AirhiltError):

@@ -69,6 +69,14 @@ class Status(Message):
     cause: str = ""
 
 
+class Briefing(Message):
+    """``briefing``: what everybody in the airspace knows before the run begins."""
+
+    controller: str
+    horizontal_separation_nm: float = Field(gt=0.0)
+    vertical_separation_ft: float = Field(gt=0.0)
+
+
 # --- what sensors give ----------------------------------------------------------------------
 
 
@@ -167,13 +175,17 @@ class Evidence(BaseModel):
 class Advisory(Message):
     """``advisory/<recipient>``: one conflict as told to one recipient; ``t_ns`` is t_dec.
 
-    The same ``id`` comes again with a higher ``revision`` when the severity or the
-    recommendation changes, and a last time with ``active`` false when the conflict is over.
+    ``id`` begins with the name of the worker, so that no two share one. It comes again with a
+    higher ``revision`` when the severity or the recommendation changes, and a last time with
+    ``active`` false when the conflict is over.
     """
 
     id: str
     revision: int = Field(ge=0)
-    recipient: str = Field(description="a callsign, or ATC")
+    recipient: str = Field(
+        pattern=r"^[A-Za-z0-9_-]{1,20}$",
+        description="ATC, a callsign, or an icao24 while there is no callsign",
+    )
     recipients: tuple[str, ...]
     kind: Literal["loss_of_separation", "readback_mismatch"]
     severity: Severity
@@ -343,6 +355,7 @@ class StepReply(BaseModel):
 
 BUS_MESSAGES: dict[str, type[Message]] = {
     "clock": Clock,
+    "briefing": Briefing,
     "status/{modality}": Status,
     "radio/{frequency_khz}/tx": Transmission,
     "adsb/{icao24}": AdsbReport,

@@ -171,7 +171,7 @@ def _latency_table(summary: Summary) -> Table:
 
 def _numbers(statistics: LatencyStatistics) -> list[str]:
     values = (statistics.p50_s, statistics.p95_s, statistics.max_s)
-    return ["-" if value is None else f"{value:.4f}" for value in values]
+    return ["-" if value is None else f"{value:.3g}" for value in values]
 
 
 def _assistant(summary: Summary) -> str:

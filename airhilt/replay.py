@@ -89,7 +89,9 @@ def _recorded(
 ) -> Recorded:
     breaks_off = info.phase != "finished"
     attached = [worker.description for worker in info.workers if worker.where == "attached"]
-    workers, losses = [], {}
+    programs = tuple(set(info.options.attached) - {described.name for described in attached})
+    losses = {name: loss for name, loss in latencies.losses.items() if name in programs}
+    workers = []
     for description in attached:
         name = description.name
         loss, unfinished = latencies.losses.get(name), latencies.unfinished.get(name)
@@ -110,6 +112,7 @@ def _recorded(
         ),
         end_ns=log[-1].t_ns if breaks_off and log else None,
         workers=tuple(workers),
+        programs=programs,
         losses=losses,
         foreign=tuple(
             Foreign(logged.key, logged.t_ns, logged.data)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 FOOT = 0.3048
-"""Metres in an international foot (exact; ICAO Annex 5, table 3-3)."""
+"""Metres in an international foot (exact; ICAO Annex 5)."""
 NAUTICAL_MILE = 1852.0
 """Metres in a nautical mile (exact; ICAO Annex 5)."""
 KNOT = NAUTICAL_MILE / 3600.0

@@ -23,8 +23,8 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 FOLLOWED_FROM = Severity.CAUTION
 """Least severity that a crew acts on."""
 REPEAT_FACTOR = 0.5
-"""Reaction time to a changed advisory, against the first one: TCAS II assumes 2.5 s after 5 s
-(ICAO Doc 9863, 5.2.1)."""
+"""Reaction time to a changed advisory, against the first one: the standard pilot model
+of ICAO Annex 10, volume IV, has 2.5 s after 5 s."""
 
 
 @dataclass(frozen=True, slots=True)

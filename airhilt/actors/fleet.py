@@ -13,6 +13,7 @@ from airhilt.flight.model import ModelError
 from airhilt.flight.state import Atmosphere, InitialCondition
 from airhilt.scenario.geometry import azimuth, resolve
 from airhilt.scenario.models import AircraftActor, Scenario, Weather
+from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, FOOT, KNOT
 
 
@@ -45,10 +46,7 @@ def build_fleet(scenario: Scenario, seed: int, tick_s: float) -> dict[str, Fligh
     ScenarioError
         JSBSim cannot fly an aircraft as it begins.
     """
-    return {
-        actor.callsign: _build(actor, scenario, seed + index, tick_s)
-        for index, actor in enumerate(scenario.actors)
-    }
+    return {actor.callsign: _build(actor, scenario, seed, tick_s) for actor in scenario.actors}
 
 
 def _build(actor: AircraftActor, scenario: Scenario, seed: int, tick_s: float) -> Flight:
@@ -63,22 +61,22 @@ def _build(actor: AircraftActor, scenario: Scenario, seed: int, tick_s: float) -
         track_rad=track,
         calibrated_airspeed_m_s=actor.initial.cas_kt * KNOT,
     )
+    pilot = actor.pilot
+    reaction = ReactionTime(pilot.reaction_median_s, pilot.reaction_sigma, pilot.compliance)
     try:
         aircraft = Aircraft(
             load_aircraft_type(actor.aircraft),
             initial,
-            seed=seed,
+            seed=int(stream(seed, f"turbulence/{actor.callsign}").integers(2**31)),
             atmosphere=atmosphere_of(scenario.weather),
             terrain_elevation_m=scenario.scene.terrain_elevation_ft * FOOT,
             tick_s=tick_s,
         )
+        crew = Crew(actor.callsign, aircraft, reaction, seed)
+        if route:
+            crew.fly_route(route)
     except (ValueError, ModelError) as error:
         raise ScenarioError(f"actors/{actor.callsign}: cannot begin like that: {error}") from None
-    pilot = actor.pilot
-    reaction = ReactionTime(pilot.reaction_median_s, pilot.reaction_sigma, pilot.compliance)
-    crew = Crew(actor.callsign, aircraft, reaction, seed)
-    if route:
-        crew.fly_route(route)
     for command in actor.commands:
         crew.command(command)
     return Flight(actor, aircraft, crew)

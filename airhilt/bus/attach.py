@@ -40,6 +40,8 @@ def attach(
                 f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
                 "'decision'"
             )
+    if len(set(names)) < len(names):
+        raise BusError(f"workers {', '.join(names)}: expected each name once")
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)

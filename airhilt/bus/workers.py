@@ -32,17 +32,20 @@ class RemoteWorker:
         self._key = f"{bus.prefix}/worker/{name}"
         self._timeout_s = timeout_s
 
-    def describe(self, timeout_s: float = 2.0) -> WorkerDescription | None:
+    def describe(self, timeout_s: float = 10.0) -> WorkerDescription | None:
         """Return what the worker says of itself, None if it does not answer such questions.
 
         Raises
         ------
         WorkerError
-            Its answer is not a description.
+            It does not answer in time, or its answer is not a description.
         """
         for reply in self._session.get(f"{self._key}/describe", timeout=timeout_s):
             if reply.ok is None:
-                continue
+                raise WorkerError(
+                    f"worker {self.name!r} is there, but did not describe itself within "
+                    f"{timeout_s:g} s; expected an answer to {self._key}/describe"
+                )
             try:
                 described = WorkerDescription.model_validate_json(reply.ok.payload.to_bytes())
             except ValidationError as error:

@@ -29,6 +29,8 @@ from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import FOOT, SECOND_NS
 
+CONTROLLER = "ATC"
+"""Recipient that is the controller."""
 SPEAK_MIN_LEVEL = Severity.CAUTION
 """Least severity that is spoken, and so the least that counts as a warning."""
 JUSTIFIED_WITHIN_S = 300.0
@@ -104,7 +106,7 @@ class Collector:
         if advisory.revision not in told.revisions:
             told.revisions.add(advisory.revision)
             told.severities.append(advisory.severity)
-            latency_ns = max(advisory.t_ns - advisory.t_ready_ns, 0)
+            latency_ns = advisory.t_ns - advisory.t_ready_ns
             self._latencies_s["decision"].append(latency_ns / SECOND_NS)
         if not advisory.active:
             return
@@ -112,6 +114,7 @@ class Collector:
         if (
             self._first_warning_ns is None
             and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank
+            and self._reaches_somebody(advisory)
             and self._concerns_conflict(advisory)
         ):
             self._first_warning_ns = advisory.t_ns
@@ -121,11 +124,20 @@ class Collector:
     def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
         """Return when TCAS II would speak, had nobody been warned: by what the script plans."""
         motion, first, second = self._monitor.motion(pair)
-        return tcas.project(
-            motion,
-            self._plans.altitude_at(pair[0], now_ns, first),
-            self._plans.altitude_at(pair[1], now_ns, second),
-            self._scenario.scene.terrain_elevation_ft * FOOT,
+        first_m = self._plans.altitude_at(pair[0], now_ns, first)
+        second_m = self._plans.altitude_at(pair[1], now_ns, second)
+        ground_m = self._scenario.scene.terrain_elevation_ft * FOOT
+        return tcas.earliest(
+            tcas.project(motion, first_m, second_m, ground_m),
+            tcas.project(motion, second_m, first_m, ground_m),
+        )
+
+    def _reaches_somebody(self, advisory: Advisory) -> bool:
+        recipient = advisory.recipient
+        return (
+            recipient == CONTROLLER
+            or recipient in self._callsigns
+            or recipient in self._callsigns.values()
         )
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
@@ -221,9 +233,11 @@ class Collector:
         return now_ns if self.window.closed_ns is None else self.window.closed_ns
 
     def _avoided(self, truth: PairTruth | None) -> bool | None:
-        if self.window.opened_ns is None:
+        if truth is not None and "loss_of_separation" in truth.first_ns:
+            return False
+        if self.window.opened_ns is None and self._first_warning_ns is None:
             return None
-        return truth is None or "loss_of_separation" not in truth.first_ns
+        return True
 
     def _margin(self, alert: tcas.Alert) -> float | None:
         """Return how long after the first warning TCAS II would have spoken.

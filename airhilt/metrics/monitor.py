@@ -23,7 +23,7 @@ from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
 
 NMAC = Minima(500 * FOOT, 100 * FOOT)
 """Near mid-air collision: closer than 500 ft horizontally and 100 ft vertically
-(RTCA DO-365, 1.7; FAA Order 8900.1)."""
+(RTCA DO-365)."""
 LEVEL_WITHIN_M = 100 * FOOT
 """An aircraft this near to its target altitude is taken to be level there."""
 TCAS_RANGE_M = 40_000.0

@@ -87,7 +87,8 @@ class Summary(BaseModel):
     nmac: bool
     collision: bool
     avoided: bool | None = Field(
-        description="the conflict window opened and separation was kept; null without a conflict"
+        description="the conflict window opened, or a warning came before it did, and the pair "
+        "kept separation; null if neither happened"
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

@@ -7,7 +7,7 @@ import importlib.metadata
 import json
 import os
 import platform
-import shutil
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -114,10 +114,12 @@ class RunFolder:
             )
         if not path.is_dir() or not any(path.iterdir()):
             return
-        if not self.info_path.is_file():
+        try:
+            self.info()
+        except RunFolderError:
             raise RunFolderError(
                 f"{path}: holds files that are no run; choose another folder with --out"
-            )
+            ) from None
         if not overwrite:
             raise RunFolderError(
                 f"{path}: holds a run already; choose another folder with --out, or replace it "
@@ -125,7 +127,7 @@ class RunFolder:
             )
 
     def create(self, overwrite: bool = False) -> None:
-        """Make the folder, empty.
+        """Make the folder, or empty it of an earlier run; other files in it stay.
 
         Raises
         ------
@@ -134,14 +136,25 @@ class RunFolder:
         """
         self.require_free(overwrite)
         try:
-            if self.path.is_dir():
-                shutil.rmtree(self.path)
-            self.path.mkdir(parents=True)
+            self.path.mkdir(parents=True, exist_ok=True)
+            for path in self.files:
+                path.unlink(missing_ok=True)
         except OSError as error:
             raise RunFolderError(
                 f"{self.path}: cannot be written: {error.strerror}; choose another folder with "
                 "--out"
             ) from None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All that a run writes."""
+        return (
+            self.info_path,
+            self.log_path,
+            self.latency_path,
+            self.summary_path,
+            self.report_path,
+        )
 
     @classmethod
     def open(cls, path: Path) -> RunFolder:
@@ -175,6 +188,8 @@ class RunFolder:
             partial.write_text(text + "\n", encoding="utf-8")
             partial.replace(path)
         except OSError as error:
+            with suppress(OSError):
+                partial.unlink()
             raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
 
     def info(self) -> RunInfo:

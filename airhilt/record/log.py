@@ -7,10 +7,12 @@ once a simulated second; a run that is killed leaves all but the last of them.
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import zstandard
 from mcap.exceptions import McapError
 from mcap.records import Channel, Message
 from mcap.stream_reader import StreamReader
@@ -19,6 +21,8 @@ from pydantic import BaseModel
 
 from airhilt.errors import RunFolderError
 
+BROKEN = (McapError, struct.error, zstandard.ZstdError, KeyError, UnicodeDecodeError)
+"""What reading a log raises where it breaks off or is damaged."""
 CHUNK_BYTES = 4_000_000
 """Larger than a second of any run: chunks end at the flushes."""
 
@@ -114,6 +118,6 @@ def read_log(path: Path) -> Iterator[Logged]:
                     )
     except OSError as error:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
-    except McapError as error:
+    except BROKEN as error:
         if not channels:
             raise RunFolderError(f"{path}: not an MCAP log: {error}") from None

@@ -27,8 +27,8 @@ from airhilt.scenario.models import (
 )
 from airhilt.scenario.perturbation import PathError, locate
 
+GREATEST_LATITUDE_DEG = 75.0
 MAXIMUM_BYTES = 20_000_000
-SHOWN_PROBLEMS = 8
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def parse(text: str, origin: str) -> Scenario:
         scenario = Scenario.model_validate(document)
     except ValidationError as error:
         problems = [describe(problem, Scenario) for problem in _causes(error)]
-        raise ScenarioError(_report(origin, problems)) from None
+        raise _report(origin, problems) from None
     check(scenario, origin)
     return scenario
 
@@ -113,7 +113,7 @@ def check(scenario: Scenario, origin: str) -> None:
     """
     problems = list(_cross_checks(scenario))
     if problems:
-        raise ScenarioError(_report(origin, problems))
+        raise _report(origin, problems)
 
 
 def _causes(error: ValidationError) -> list[Any]:
@@ -130,11 +130,11 @@ def _causes(error: ValidationError) -> list[Any]:
     ]
 
 
-def _report(origin: str, problems: Sequence[Problem]) -> str:
-    lines = [f"{origin}: {problem}" for problem in problems[:SHOWN_PROBLEMS]]
-    if len(problems) > SHOWN_PROBLEMS:
-        lines.append(f"{origin}: and {len(problems) - SHOWN_PROBLEMS} more")
-    return "\n".join(lines)
+def _report(origin: str, problems: Sequence[Problem]) -> ScenarioError:
+    """Return the error for some problems: one line, and all of them for who wants them."""
+    lines = tuple(f"{origin}: {problem}" for problem in problems)
+    more = f" (and {len(lines) - 1} more: see airhilt validate)" if len(lines) > 1 else ""
+    return ScenarioError(lines[0] + more, lines)
 
 
 # --- errors of the model, in words ---------------------------------------------------------
@@ -223,15 +223,20 @@ def _tag(annotation: Any) -> str | None:
 
 
 def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
+    """Yield what is wrong; while two things share a name, only that is."""
     callsigns = [actor.callsign for actor in scenario.actors]
-    known = list(dict.fromkeys(callsigns))
     line_ids = [line.id for line in scenario.radio.lines]
-    yield from _duplicates("actors", "callsign", callsigns)
-    yield from _duplicates("actors", "icao24", [actor.icao24 for actor in scenario.actors])
-    yield from _duplicates("radio/lines", "id", line_ids)
-    yield from _duplicates("cameras", "name", [camera.name for camera in scenario.cameras])
+    shared = [
+        *_duplicates("actors", "callsign", callsigns),
+        *_duplicates("actors", "icao24", [actor.icao24 for actor in scenario.actors]),
+        *_duplicates("radio/lines", "id", line_ids),
+        *_duplicates("cameras", "name", [camera.name for camera in scenario.cameras]),
+    ]
+    if shared:
+        yield from shared
+        return
     yield from _actors(scenario)
-    yield from _references(scenario, known, line_ids)
+    yield from _references(scenario, callsigns, line_ids)
     yield from _perturbations(scenario)
 
 
@@ -247,6 +252,12 @@ def _duplicates(path: str, field: str, values: Sequence[str]) -> Iterator[Proble
 
 def _actors(scenario: Scenario) -> Iterator[Problem]:
     ground_ft = scenario.scene.terrain_elevation_ft
+    if abs(scenario.scene.centre.lat_deg) > GREATEST_LATITUDE_DEG:
+        yield Problem(
+            "scene/centre/lat_deg",
+            f"found {scenario.scene.centre.lat_deg:g}; expected within +-"
+            f"{GREATEST_LATITUDE_DEG:g}, where relative motion is exact enough",
+        )
     for index, actor in enumerate(scenario.actors):
         path, initial = f"actors/{index}", actor.initial
         if initial.altitude_ft <= ground_ft:

@@ -73,8 +73,8 @@ class InitialState(_Model):
 class Pilot(_Model):
     """How the crew reacts to an advisory; times are drawn from a lognormal distribution.
 
-    The default median of 5 s is the time that TCAS II assumes for the response to a first
-    resolution advisory (ICAO Doc 9863, 5.2.1).
+    The default median of 5 s is the response to a first resolution advisory in the standard pilot
+    model of ICAO Annex 10, volume IV.
     """
 
     reaction_median_s: float = Field(default=5.0, ge=0.0, le=120.0)

@@ -20,11 +20,11 @@ from airhilt.surveillance.kinematics import (
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS, bearing_degrees
 
 POSITION_INTERVAL_S = (0.4, 0.6)
-"""Airborne position squitters come uniformly within this (DO-260B 2.2.3.3.2.2)."""
+"""Airborne position squitters come uniformly within this (DO-260B, 2.2.3.3)."""
 VELOCITY_INTERVAL_S = (0.4, 0.6)
-"""Airborne velocity squitters (DO-260B 2.2.3.3.2.5)."""
+"""Airborne velocity squitters (DO-260B, 2.2.3.3)."""
 IDENTIFICATION_INTERVAL_S = (4.8, 5.2)
-"""Aircraft identification squitters, airborne (DO-260B 2.2.3.3.2.4)."""
+"""Aircraft identification squitters, airborne (DO-260B, 2.2.3.3)."""
 ALTITUDE_STEP_FT = 25.0
 SPEED_STEP_KT = 1.0
 VERTICAL_RATE_STEP_FPM = 64.0
@@ -37,9 +37,9 @@ near the limit of 180 NM in it."""
 NACP_95_PERCENT_M = (
     37_040.0, 18_520.0, 7_408.0, 3_704.0, 1_852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0,
 )  # fmt: skip
-"""95 % horizontal position error by NACp (DO-260B table 2-14); 0, unknown, as twice that of 1."""
+"""95 % horizontal position error by NACp (DO-260B); 0, unknown, as twice that of 1."""
 NACV_95_PERCENT_M_S = (20.0, 10.0, 3.0, 1.0, 0.3)
-"""95 % horizontal velocity error by NACv (DO-260B table 2-25); 0, unknown, as twice that of 1."""
+"""95 % horizontal velocity error by NACv (DO-260B); 0, unknown, as twice that of 1."""
 SIGMA_PER_95_PERCENT = 1.0 / 2.4477
 """Standard deviation an axis for a 95 % radius, sqrt(-2 ln 0.05), of a circular normal error."""
 POSITION_CORRELATION_S = 60.0

@@ -48,7 +48,7 @@ def encode(latitude_deg: float, longitude_deg: float, odd: bool) -> CprPosition:
 
 
 def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple[float, float]:
-    """Decode with a reference position within 180 NM (A.1.7.5); latitude, longitude in degrees."""
+    """Decode with a reference position within 180 NM (A.1.7); latitude, longitude in degrees."""
     latitude = _near(position.latitude / BITS, _zone_sizes(0.0, position.odd)[0], reference[0])
     longitude = _near(
         position.longitude / BITS, _zone_sizes(latitude, position.odd)[1], reference[1]

@@ -140,7 +140,8 @@ def project(
 ) -> Projection:
     """Return when TCAS II would speak if nobody did anything.
 
-    Horizontally both fly straight on; their altitudes are functions of the time from now.
+    It is that of the aircraft whose altitude comes first; see `earliest` for both. Horizontally
+    both fly straight on; their altitudes are functions of the time from now.
     Steps by TCAS's own cycle of one second; a resolution advisory counts as a traffic advisory
     where none came before.
     """
@@ -162,3 +163,14 @@ def project(
         if "tcas_ra" in first:
             break
     return Projection(first.get("tcas_ta"), first.get("tcas_ra"))
+
+
+def earliest(one: Projection, other: Projection) -> Projection:
+    """Return the earlier of two projections, alert by alert."""
+
+    def first(a: float | None, b: float | None) -> float | None:
+        return min((time_s for time_s in (a, b) if time_s is not None), default=None)
+
+    return Projection(
+        first(one.traffic_s, other.traffic_s), first(one.resolution_s, other.resolution_s)
+    )

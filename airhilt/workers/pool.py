@@ -9,7 +9,13 @@ from functools import partial
 from pydantic import ValidationError
 
 from airhilt.errors import WorkerError, first_problem
-from airhilt.messages import WORKER_OUTPUTS, Advisory, Message, WorkerDescription
+from airhilt.messages import (
+    WORKER_OUTPUTS,
+    Advisory,
+    Message,
+    Transcript,
+    WorkerDescription,
+)
 from airhilt.sim import (
     Director,
     Endpoint,
@@ -81,7 +87,8 @@ class WorkerPool:
             )
             policies: dict[str, Policy] = {}
             for wanted in description.inputs:
-                if wanted.key.split("/")[0] in ("truth", "**", "*"):
+                first = wanted.key.split("/")[0]
+                if first == "truth" or not first.isalpha():
                     raise WorkerError(
                         f"worker {description.name!r} asks for {wanted.key!r}; truth never "
                         "reaches a worker, so the first part of a key must be named: adsb/*"
@@ -116,7 +123,7 @@ class WorkerPool:
         return [step for step in steps if step is not None]
 
     def _deliver(self, worker: str, output: Output) -> None:
-        message = parse_output(worker, output.key, output.payload)
+        message = parse_output(worker, output.key, output.payload, self._director.now_ns)
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         self._publish(output.key, stamped, worker)
 
@@ -133,7 +140,7 @@ def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
     return None
 
 
-def parse_output(worker: str, key: str, payload: bytes) -> Message:
+def parse_output(worker: str, key: str, payload: bytes, now_ns: int) -> Message:
     """Return the message that a worker put on a key.
 
     Raises
@@ -154,6 +161,16 @@ def parse_output(worker: str, key: str, payload: bytes) -> Message:
             f"worker {worker!r} published on {key!r} something that is no {model.__name__}: "
             f"{first_problem(error)}; see `airhilt schema`"
         ) from None
+    if isinstance(message, Advisory) and message.t_ready_ns > now_ns:
+        raise WorkerError(
+            f"worker {worker!r} published an advisory with t_ready_ns {message.t_ready_ns} at "
+            f"{now_ns} ns; expected a time that has come"
+        )
+    if isinstance(message, Transcript) and key != f"asr/{message.frequency_khz}":
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} a transcript of {message.frequency_khz} kHz; "
+            "expected the frequency in the key"
+        )
     if isinstance(message, Advisory) and key != f"advisory/{message.recipient}":
         raise WorkerError(
             f"worker {worker!r} published on {key!r} an advisory for {message.recipient!r}; "

@@ -73,6 +73,50 @@ def test_a_worker_in_another_process_gives_the_same_log(
     assert replay(outside).identical
 
 
+def test_an_attached_worker_knows_the_separation_of_the_scenario(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    narrow = encounter.separation.model_copy(update={"horizontal_nm": 3.0})
+    scenario = encounter.model_copy(update={"separation": narrow})
+    inside = run(scenario, out=tmp_path / "inside", latency="fixed").folder
+    endpoint = free_endpoint()
+    with decision_worker(endpoint):
+        outside = run(
+            scenario, out=tmp_path / "outside", latency="fixed", listen=endpoint,
+            attach=("decision",),
+        ).folder  # fmt: skip
+    assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
+
+
+@pytest.mark.parametrize("strict", [False, True])
+def test_a_program_without_grants_that_dies_is_noticed_too(
+    encounter: Scenario, tmp_path: Path, strict: bool
+) -> None:
+    class Kills(Observer):
+        def snapshot(self, snapshot: Snapshot) -> None:
+            if snapshot.t_s >= 2.0 and program.poll() is None:
+                program.kill()
+                program.wait()
+                time.sleep(0.3)
+
+    short = encounter.model_copy(update={"duration_s": 4.0})
+    endpoint = free_endpoint()
+    options = {"listen": endpoint, "attach": ("plain",), "strict": strict, "observer": Kills()}
+    with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
+        if strict:
+            with pytest.raises(RunStopped, match="plain"):
+                run(short, out=tmp_path / "run", **options)
+            return
+        result = run(short, out=tmp_path / "run", **options)
+    assert result.summary.modalities["decision"] == "lost"
+    assert replay(result.folder).identical
+
+
+def test_external_without_anybody_is_no_assistant(encounter: Scenario, tmp_path: Path) -> None:
+    summary = run(encounter, out=tmp_path / "run", assistant="external").summary
+    assert summary.modalities["decision"] == "off"
+
+
 @pytest.mark.parametrize("latency", ["measured", "fixed"])
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_worker_that_dies_or_freezes_is_noticed_and_the_run_goes_on(
@@ -197,6 +241,16 @@ def step(query):
         if answer == "no advisory":
             payload = b"{}"
             reply["outputs"] = [{"key": "advisory/ATC", "size": 2}]
+        if answer == "future":
+            payload = json.dumps({
+                "id": "bad-1", "revision": 0, "recipient": "ATC", "recipients": ["ATC"],
+                "kind": "loss_of_separation", "severity": "CAUTION", "traffic": [],
+                "message": "", "evidence": {"sources": []}, "t_ready_ns": 10**18,
+            }).encode()
+            reply["outputs"] = [{"key": "advisory/ATC", "size": len(payload)}]
+        if answer == "wild":
+            payload = b"{}"
+            reply["outputs"] = [{"key": "advisory/a#b", "size": 2}]
         if answer == "sizes":
             reply["outputs"] = [{"key": "advisory/ATC", "size": 99}]
         if answer == "seq":
@@ -216,6 +270,8 @@ time.sleep(60)
         ("past", "before its step began"),
         ("truth", "published on 'truth/conflict'"),
         ("no advisory", "no Advisory"),
+        ("future", "expected a time that has come"),
+        ("wild", "no Advisory"),
         ("sizes", "sizes"),
         ("seq", "expected the seq of the grant"),
     ],

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 from encounters import Encounter, Flight, head_on
 
-from airhilt.messages import AdsbReport, Climb, MaintainLevel, Severity, Turn
+from airhilt.messages import AdsbReport, Briefing, Climb, MaintainLevel, Severity, Turn
+from airhilt.sim import Input
 from airhilt.workers.decision import DecisionWorker
 
 CREWS = ("AAL123", "DAL456")
@@ -228,7 +229,7 @@ def with_third(altitude_ft):
 def test_nobody_is_sent_into_a_third_aircraft(altitude_ft):
     encounter = with_third(altitude_ft)
     assert min(encounter.least.values()) > 0.85
-    assert {advisory.id for _, advisory in encounter.told} == {"separation-1"}
+    assert {advisory.id for _, advisory in encounter.told} == {"decision-separation-1"}
     first = [a for _, a in encounter.told if a.active and a.severity is Severity.CAUTION]
     moves = senses(first)
     assert moves.get("AAL123") != ("climb" if altitude_ft > 35_000 else "descend")
@@ -242,5 +243,29 @@ def test_what_is_told_depends_on_nothing_but_what_was_heard():
 
 def test_the_engine_declares_what_it_listens_to_and_never_truth():
     description = DecisionWorker().description
-    assert {wanted.key for wanted in description.inputs} == {"adsb/*", "asr/*"}
+    assert {wanted.key for wanted in description.inputs} == {"briefing", "adsb/*", "asr/*"}
     assert description.modality == "decision"
+
+
+def test_a_spike_is_told_at_the_level_that_has_held():
+    """A glimpse of a WARNING in the second in which an ADVISORY becomes certain is not one yet."""
+    encounter = head_on(300.0)
+    worker = encounter.worker
+    levels = iter([Severity.ADVISORY, Severity.ADVISORY, Severity.WARNING, Severity.WARNING])
+    worker._grade = lambda time_to_loss: next(levels, Severity.ADVISORY)
+    encounter.fly()
+    assert encounter.severities("ATC") == ["ADVISORY"]
+
+
+def test_the_minima_are_those_of_the_briefing():
+    def least_distance_told(horizontal_nm):
+        encounter = head_on(230.0, offset_nm=4.0)
+        briefing = Briefing(
+            controller="Centre", horizontal_separation_nm=horizontal_nm, vertical_separation_ft=1000
+        )
+        payload = briefing.model_dump_json().encode()
+        encounter.worker.step(0, [Input("briefing", 0, payload)])
+        return encounter.fly().told
+
+    assert least_distance_told(5.0)
+    assert not least_distance_told(3.0)

@@ -29,6 +29,9 @@ MODELS = {**BUS_MESSAGES, **WORKER_MESSAGES}
 
 EXAMPLES = {
     "Clock": {"run": "r1", "phase": "running", "pace": "virtual"},
+    "Briefing": {
+        "controller": "Centre", "horizontal_separation_nm": 5.0, "vertical_separation_ft": 1000.0,
+    },
     "Status": {"modality": "adsb", "state": "lost", "cause": "outage"},
     "Transmission": {"id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "samples": 9},
     "AdsbReport": {

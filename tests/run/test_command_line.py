@@ -97,6 +97,8 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
             "did not attach",
         ),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
+        (("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"), "once"),
+        (("cosim", "--scenario", "s02a_headon", "--step-timeout", "nan"), "no time in seconds"),
         (("cosim",), "--scenario"),
         (("replay", "nowhere"), "no run here"),
         (("report", "nowhere"), "no run here"),
@@ -145,6 +147,37 @@ def test_a_folder_with_other_files_is_never_overwritten(
     done = airhilt_command("cosim", "--scenario", "s02a_headon", "--out", "mine", "--overwrite")
     assert_is_a_users_mistake(done, "no run")
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "years of work"
+
+
+def test_only_what_a_run_wrote_is_overwritten(airhilt_command: Any, encounter_file: Path) -> None:
+    command = ("cosim", "--scenario", encounter_file, "--assistant", "none", "--out", "run")
+    assert airhilt_command(*command).returncode == 0
+    kept = encounter_file.parent / "run" / "thesis.txt"
+    kept.write_text("years of work")
+    assert airhilt_command(*command, "--overwrite").returncode == 0
+    assert kept.read_text() == "years of work"
+    (encounter_file.parent / "run" / "run.json").write_text("{}")
+    assert_is_a_users_mistake(airhilt_command(*command, "--overwrite"), "no run")
+
+
+def test_latencies_of_another_scenario_are_refused(
+    airhilt_command: Any, encounter_file: Path
+) -> None:
+    command = ("cosim", "--scenario", encounter_file, "--assistant", "none")
+    assert airhilt_command(*command, "--out", "run").returncode == 0
+    done = airhilt_command(*command, "--seed", "1", "--latency", "replay:run", "--out", "other")
+    assert_is_a_users_mistake(done, "expected the same scenario and seed")
+    assert not (encounter_file.parent / "other").exists()
+
+
+def test_a_route_that_leads_nowhere_is_named(airhilt_command: Any, encounter_file: Path) -> None:
+    document = json.loads(encounter_file.read_text())
+    actor = document["actors"][0]
+    actor["initial"]["track_deg"] = 90.0
+    actor["route"] = [actor["initial"]["position"]]
+    encounter_file.write_text(json.dumps(document | {"perturbations": []}))
+    done = airhilt_command("cosim", "--scenario", encounter_file)
+    assert_is_a_users_mistake(done, "actors/AAL123", "route")
 
 
 def start_slow_run(scenario: Path, out: Path) -> subprocess.Popen[bytes]:

@@ -106,13 +106,13 @@ def test_nobody_may_ask_for_truth(key):
 @pytest.mark.parametrize("key", ["truth/state/AAL123", "adsb/a1b2c3", "clock", "worker/x/step"])
 def test_a_worker_may_not_publish_truth_or_what_sensors_give(key):
     with pytest.raises(WorkerError, match="expected a key under advisory, asr"):
-        parse_output("w", key, b"{}")
+        parse_output("w", key, b"{}", 0)
 
 
 @pytest.mark.parametrize("payload", [b"", b"\xff", b"[]", b"{}", b'{"id": 5}'])
 def test_a_worker_that_publishes_nonsense_is_told_what_is_wrong(payload):
     with pytest.raises(WorkerError, match=r"no Transcript.*airhilt schema"):
-        parse_output("w", "asr/134325", payload)
+        parse_output("w", "asr/134325", payload, 0)
 
 
 def test_a_worker_that_raises_is_lost_and_the_others_go_on():

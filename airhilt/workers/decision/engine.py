@@ -7,12 +7,13 @@ clearances, and tells the crews and the controller: one advisory a conflict, whi
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from airhilt.messages import (
     AdsbReport,
     Advisory,
+    Briefing,
     Climb,
     DeclaredLatency,
     Evidence,
@@ -39,6 +40,8 @@ from airhilt.workers.decision.tracks import Track
 from airhilt.workers.protocol import Step
 
 CONTROLLER = "ATC"
+ACTIVITY_S = 600.0
+"""Traffic that comes within the horizontal minimum in this time counts as activity."""
 COASTING_NS = SECOND_NS
 """Without any report for so long, conflicts are judged again by the tracks carried on."""
 
@@ -133,6 +136,7 @@ class DecisionWorker:
             name=name,
             modality="decision",
             inputs=(
+                InputSpec(key="briefing", policy="batch"),
                 InputSpec(key="adsb/*", policy="batch"),
                 InputSpec(key="asr/*", policy="batch"),
             ),
@@ -152,6 +156,8 @@ class DecisionWorker:
         for item in inputs:
             if item.key.startswith("adsb/"):
                 updated[self._take_report(AdsbReport.model_validate_json(item.payload))] = None
+            elif item.key == "briefing":
+                self._take_briefing(Briefing.model_validate_json(item.payload))
             else:
                 transcript = Transcript.model_validate_json(item.payload)
                 advisories += self._take_transcript(t_ns, item.t_in_ns, transcript)
@@ -169,6 +175,14 @@ class DecisionWorker:
         )
 
     # --- what is known ----------------------------------------------------------------------
+
+    def _take_briefing(self, briefing: Briefing) -> None:
+        self.config = replace(
+            self.config,
+            horizontal_m=briefing.horizontal_separation_nm * NAUTICAL_MILE,
+            vertical_m=briefing.vertical_separation_ft * FOOT,
+        )
+        self._infringed = self.config.infringed
 
     def _take_report(self, report: AdsbReport) -> str:
         track = self._tracks.get(report.icao24)
@@ -263,7 +277,7 @@ class DecisionWorker:
         )
         return [
             Advisory(
-                id=f"readback-{track.callsign}-{self._told}",
+                id=f"{self.description.name}-readback-{self._told}",
                 revision=0,
                 recipient=recipient,
                 recipients=(track.callsign, CONTROLLER),
@@ -288,7 +302,7 @@ class DecisionWorker:
                 continue
             ahead = other.at(t_ns)
             interval = relative(own, ahead).interval_within(self.config.horizontal_m)
-            near = interval is not None and interval[1] > 0.0
+            near = interval is not None and interval[1] > 0.0 and interval[0] < ACTIVITY_S
             level = ahead.profile().at(60.0)
             if near and low - self.config.vertical_m < level < high + self.config.vertical_m:
                 return ahead
@@ -306,7 +320,7 @@ class DecisionWorker:
             if level is None:
                 return []
             self._told += 1
-            conflict = _Conflict(f"separation-{self._told}", pair)
+            conflict = _Conflict(f"{self.description.name}-separation-{self._told}", pair)
             self._conflicts[pair] = conflict
         if level is None:
             return self._calm(t_ns, t_ready_ns, conflict, prediction)
@@ -318,7 +332,7 @@ class DecisionWorker:
             conflict.rising, conflict.rising_since_ns = level, t_ns
         if t_ns - conflict.rising_since_ns < self.config.persistence_s * SECOND_NS:
             return []
-        conflict.severity, conflict.rising = level, None
+        conflict.severity, conflict.rising = conflict.rising, None
         return self._tell(t_ready_ns, conflict, prediction)
 
     def _present(self, icao24: str, t_ns: int) -> Track:

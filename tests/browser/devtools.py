@@ -1,0 +1,128 @@
+"""Drives a headless Chromium by the DevTools protocol over a pipe, with the standard library."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import select
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+ARGUMENTS = (
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--hide-scrollbars", "--remote-debugging-pipe",
+)  # fmt: skip
+PATIENCE_S = 30.0
+
+
+class Page:
+    """One page of the browser, and what its console said."""
+
+    def __init__(self, commands: int, answers: int) -> None:
+        self.complaints: list[str] = []
+        self._commands = commands
+        self._answers = answers
+        self._received = b""
+        self._ids = itertools.count(1)
+        self._session: str | None = None
+        self._events: list[str] = []
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
+        self._session = attached["sessionId"]
+        for domain in ("Page", "Runtime", "Log"):
+            self.call(f"{domain}.enable")
+
+    def call(self, method: str, **parameters: Any) -> dict[str, Any]:
+        """Do one thing and return the answer."""
+        number = next(self._ids)
+        message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
+        if self._session is not None:
+            message["sessionId"] = self._session
+        os.write(self._commands, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._receive()
+            if answer.get("id") == number:
+                assert "error" not in answer, f"{method}: {answer['error']}"
+                return answer["result"]
+
+    def open(self, path: Path, width: int = 1280, height: int = 900, dark: bool = False) -> None:
+        """Open a file in a window of this size and wait until it is drawn."""
+        self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width, height=height, deviceScaleFactor=1, mobile=False,
+        )  # fmt: skip
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call("Emulation.setEmulatedMedia", features=[scheme])
+        self._events.clear()
+        self.call("Page.navigate", url=path.resolve().as_uri())
+        while "Page.loadEventFired" not in self._events:
+            self._receive()
+
+    def evaluate(self, expression: str) -> Any:
+        """Return the value of an expression in the page."""
+        answer = self.call(
+            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
+        )
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
+
+    def press(self, key: str, code: int) -> None:
+        """Press a key and let it go."""
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
+
+    def _receive(self) -> dict[str, Any]:
+        due = time.monotonic() + PATIENCE_S
+        while b"\0" not in self._received:
+            ready, _, _ = select.select([self._answers], [], [], max(due - time.monotonic(), 0.0))
+            assert ready, "the browser does not answer"
+            received = os.read(self._answers, 1 << 20)
+            assert received, "the browser has ended"
+            self._received += received
+        one, _, self._received = self._received.partition(b"\0")
+        message: dict[str, Any] = json.loads(one)
+        self._note(message)
+        return message
+
+    def _note(self, message: dict[str, Any]) -> None:
+        method, parameters = message.get("method", ""), message.get("params", {})
+        self._events.append(method)
+        if method == "Runtime.exceptionThrown":
+            self.complaints.append(json.dumps(parameters["exceptionDetails"]))
+        elif method == "Log.entryAdded" and parameters["entry"]["level"] in ("error", "warning"):
+            self.complaints.append(parameters["entry"]["text"])
+        elif method == "Runtime.consoleAPICalled" and parameters["type"] in ("error", "warning"):
+            self.complaints.append(json.dumps(parameters["args"]))
+
+
+@contextmanager
+def browser_page(executable: str) -> Iterator[Page]:
+    """Start a browser, yield its page, and end the browser."""
+    to_browser, commands = os.pipe()
+    answers, from_browser = os.pipe()
+    # The browser reads from descriptor 3 and writes to 4; a shell puts the pipes there.
+    shell = f'exec "$0" "$@" 3<&{to_browser} 4>&{from_browser}'
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        process = subprocess.Popen(
+            ["bash", "-c", shell, executable, *ARGUMENTS, f"--user-data-dir={profile}"],
+            pass_fds=(to_browser, from_browser),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(to_browser)
+        os.close(from_browser)
+        try:
+            yield Page(commands, answers)
+        finally:
+            os.close(commands)
+            os.close(answers)
+            process.terminate()
+            process.wait(timeout=PATIENCE_S)
