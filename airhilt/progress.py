@@ -161,7 +161,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
 
 
 def _latency_table(summary: Summary) -> Table:
-    table = Table("latency", "n", "p50 s", "p95 s", "max s", box=None, pad_edge=False)
+    table = Table("latency", "n", "p50", "p95", "max", box=None, pad_edge=False)
     for column in table.columns[1:]:
         column.justify = "right"
     for stage, statistics in summary.latencies.items():
@@ -171,7 +171,14 @@ def _latency_table(summary: Summary) -> Table:
 
 def _numbers(statistics: LatencyStatistics) -> list[str]:
     values = (statistics.p50_s, statistics.p95_s, statistics.max_s)
-    return ["-" if value is None else f"{value:.3g}" for value in values]
+    return ["-" if value is None else _latency(value) for value in values]
+
+
+def _latency(seconds: float) -> str:
+    """Return a time in the unit that suits it."""
+    if seconds < 1e-3:
+        return f"{seconds * 1e6:.0f} us"
+    return f"{seconds * 1e3:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
 
 
 def _assistant(summary: Summary) -> str:

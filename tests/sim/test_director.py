@@ -155,3 +155,11 @@ def test_the_pace_may_change_while_it_runs():
     director.at(in_an_hour, lambda: times.append(director.now_ns), Priority.SCRIPT)
     director.run()
     assert times == [in_an_hour]
+
+
+def test_results_of_an_instant_arrive_before_workers_start_in_it():
+    director, seen = Director(Virtual()), []
+    for priority in reversed(Priority):
+        director.at(5, lambda name=priority.name: seen.append(name), priority)
+    director.run()
+    assert seen == ["PHYSICS", "SCRIPT", "SENSOR", "RESULT", "START", "SETTLE", "OBSERVE"]

@@ -125,3 +125,8 @@ def test_a_projection_of_two_that_stay_apart_is_silent():
 def test_a_resolution_without_a_traffic_advisory_before_counts_as_both():
     projection = tcas.project(head_on(20.0), level(HIGH), level(HIGH), ground_m=0.0)
     assert projection == (0.0, 0.0)
+
+
+def test_of_two_aircraft_the_one_that_speaks_first_counts():
+    early, late = tcas.Projection(10.0, None), tcas.Projection(12.0, 20.0)
+    assert tcas.earliest(early, late) == tcas.earliest(late, early) == (10.0, 20.0)
