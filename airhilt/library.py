@@ -10,6 +10,8 @@ from pathlib import Path
 
 from airhilt.errors import ScenarioError
 
+SHOWN_NAMES = 12
+"""In an error about one that does not exist."""
 KINDS = ("aircraft", "airports", "scenarios", "bridges")
 
 
@@ -45,4 +47,7 @@ def nearest(name: str, known: list[str]) -> str:
     close = difflib.get_close_matches(name.lower(), list(lowered), n=1, cutoff=0.5)
     if close:
         return f"; did you mean {lowered[close[0]]!r}?"
-    return f"; known: {', '.join(known)}" if known else "; none is known"
+    if not known:
+        return "; none is known"
+    more = f" and {len(known) - SHOWN_NAMES} more" if len(known) > SHOWN_NAMES else ""
+    return f"; known: {', '.join(known[:SHOWN_NAMES])}{more}"

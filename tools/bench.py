@@ -21,6 +21,10 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from airhilt.scenario import Scenario
 
 ROUNDS = 5
 
@@ -80,15 +84,15 @@ def headon() -> dict[str, float]:
     }
 
 
-def fifty() -> dict[str, float]:
-    """Run fifty 737s on crossing tracks."""
-    from airhilt import load, run
+def fifty_scenario() -> Scenario:
+    """Return fifty 737s on ten levels that all fly to one point."""
+    from airhilt import load
     from airhilt.scenario import Scenario
 
     document = load("s02a_headon").model_dump(mode="json")
     template = document["actors"][0]
     document |= {"name": "fifty", "conflict": None, "end_when": [], "perturbations": []}
-    document |= {"duration_s": 60.0, "radio": {}}
+    document |= {"duration_s": 60.0, "radio": {}, "cameras": []}
     document["actors"] = [
         template
         | {
@@ -107,8 +111,15 @@ def fifty() -> dict[str, float]:
         }
         for index in range(50)
     ]
+    return Scenario.model_validate(document)
+
+
+def fifty() -> dict[str, float]:
+    """Run fifty aircraft."""
+    from airhilt import run
+
     with tempfile.TemporaryDirectory() as scratch:
-        summary = run(Scenario.model_validate(document), out=Path(scratch) / "run").summary
+        summary = run(fifty_scenario(), out=Path(scratch) / "run").summary
     peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return {"real_time_factor": summary.real_time_factor, "peak_memory_mb": peak_kib / 1024.0}
 

@@ -1,0 +1,16 @@
+"""The benchmarks measure what they say."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+from airhilt.scenario import check
+
+BENCH = Path(__file__).parents[1] / "tools" / "bench.py"
+
+
+def test_the_scenario_of_fifty_is_one_that_flies() -> None:
+    scenario = runpy.run_path(str(BENCH))["fifty_scenario"]()
+    check(scenario, "fifty")
+    assert len(scenario.actors) == 50
