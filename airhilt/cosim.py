@@ -413,48 +413,36 @@ class Simulation:
     def run(self, info: RunInfo) -> Result:
         """Run to the end, and finish the run folder whatever happens."""
         begun_wall, begun_cpu = time.perf_counter(), time.process_time()
-        cause = ""
+        failure: BaseException | None = None
         try:
             self._set_modalities()
             self._brief()
             self._director.run()
-            self._phase = "finished"
-        except AirhiltError as error:
-            self._phase, cause = "stopped", str(error)
-            raise
-        except KeyboardInterrupt:
-            self._phase, cause = "stopped", "interrupted"
-            self._observer.notice(f"interrupted; {self._folder.path} is complete up to here")
-            raise
-        except Exception as error:
-            self._phase, cause = "stopped", f"{type(error).__name__}: {error}"
-            raise
-        finally:
-            wall_s = time.perf_counter() - begun_wall
-            cpu_s = time.process_time() - begun_cpu
-            summary = self._finish(info, cause, wall_s, cpu_s)
+        except BaseException as error:
+            failure = error
+            if isinstance(error, KeyboardInterrupt):
+                self._observer.notice(f"interrupted; {self._folder.path} is complete up to here")
+        self._phase = "finished" if failure is None else "stopped"
+        wall_s = time.perf_counter() - begun_wall
+        cpu_s = time.process_time() - begun_cpu
+        try:
+            summary = self._finish(info, _cause(failure), wall_s, cpu_s)
+        except AirhiltError:
+            if failure is None:
+                raise
+        if failure is not None:
+            raise failure
         return Result(summary, self._folder.path)
 
     def _finish(self, info: RunInfo, cause: str, wall_s: float, cpu_s: float) -> Summary:
+        """Close the logs, then write the summary and ``run.json``."""
         phase: Literal["finished", "stopped"] = "stopped" if cause else "finished"
         self._event(phase, "run", cause or "came to its end")
         self._publish_clock()
-        for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
-            self._latency_log.step(step)
-        self._log.close()
-        self._latency_log.close()
-        now_ns = self._director.now_ns
-        summary = self._collector.summary(
-            {
-                "seed": self._options.seed,
-                "assistant": self._options.assistant_name,
-                "outcome": f"stopped: {cause}" if cause else "finished",
-                "inputs_dropped": self._pool.inputs_dropped(),
-                "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
-                "cpu_s": cpu_s,
-            },
-            now_ns,
-        )
+        with closing(self._latency_log), closing(self._log):
+            for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
+                self._latency_log.step(step)
+        summary = self._summary(cause, wall_s, cpu_s)
         self._folder.write_summary(summary)
         self._folder.write_info(
             info.model_copy(
@@ -467,6 +455,20 @@ class Simulation:
             )
         )
         return summary
+
+    def _summary(self, cause: str, wall_s: float, cpu_s: float) -> Summary:
+        now_ns = self._director.now_ns
+        return self._collector.summary(
+            {
+                "seed": self._options.seed,
+                "assistant": self._options.assistant_name,
+                "outcome": f"stopped: {cause}" if cause else "finished",
+                "inputs_dropped": self._pool.inputs_dropped(),
+                "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
+                "cpu_s": cpu_s,
+            },
+            now_ns,
+        )
 
     def _schedule_world(self) -> None:
         director, every = self._director, self._director.every
@@ -753,6 +755,19 @@ class Simulation:
                 self._collector.last_advisory,
             )
         )
+
+
+def _cause(failure: BaseException | None) -> str:
+    """Return why a run was stopped, in words; empty if it was not."""
+    match failure:
+        case None:
+            return ""
+        case KeyboardInterrupt():
+            return "interrupted"
+        case AirhiltError():
+            return str(failure)
+        case _:
+            return f"{type(failure).__name__}: {failure}"
 
 
 def _minima(separation: Separation) -> Minima:

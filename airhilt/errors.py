@@ -42,6 +42,14 @@ class RunFolderError(AirhiltError):
     """A run folder cannot be written, or does not hold what it must."""
 
 
+def disk_failed(path: str, error: OSError) -> RunFolderError:
+    """Return the error for a disk that takes no more in the middle of a run."""
+    return RunFolderError(
+        f"{path}: cannot be written any more: {error.strerror}; make room, or choose another "
+        "folder with --out"
+    )
+
+
 class WorkerError(AirhiltError):
     """A worker broke its contract: it answered garbage, or with a time in the past."""
 

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from airhilt.errors import RunFolderError
+from airhilt.errors import RunFolderError, disk_failed
 from airhilt.sim import StepRecord
 
 
@@ -17,8 +17,14 @@ class LatencyLog:
         self._stream = path.open("w", encoding="utf-8", buffering=1)
 
     def step(self, record: StepRecord) -> None:
-        """Write a step."""
-        self._stream.write(
+        """Write a step.
+
+        Raises
+        ------
+        RunFolderError
+            The disk is full or gone; so in the other methods.
+        """
+        self._write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
             f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}, '
@@ -28,11 +34,20 @@ class LatencyLog:
     def lost(self, worker: str, t_ns: int, cause: str) -> None:
         """Write that a worker was lost."""
         row = {"worker": worker, "t_ns": t_ns, "lost": cause}
-        self._stream.write(json.dumps(row) + "\n")
+        self._write(json.dumps(row) + "\n")
+
+    def _write(self, line: str) -> None:
+        try:
+            self._stream.write(line)
+        except OSError as error:
+            raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
         """Close the file."""
-        self._stream.close()
+        try:
+            self._stream.close()
+        except OSError as error:
+            raise disk_failed(self._stream.name, error) from None
 
 
 @dataclass

@@ -19,7 +19,7 @@ from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 from pydantic import BaseModel
 
-from airhilt.errors import RunFolderError
+from airhilt.errors import RunFolderError, disk_failed
 
 BROKEN = (McapError, struct.error, zstandard.ZstdError, KeyError, UnicodeDecodeError)
 """What reading a log raises where it breaks off or is damaged."""
@@ -82,16 +82,21 @@ class LogWriter:
         try:
             self._writer.flush()  # type: ignore[no-untyped-call]
         except OSError as error:
-            raise RunFolderError(
-                f"{self._stream.name}: cannot be written any more: {error.strerror}; make room, or "
-                "choose another folder with --out"
-            ) from None
+            raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
-        """Write the index and close the file."""
-        if not self._stream.closed:
-            self._writer.finish()  # type: ignore[no-untyped-call]
-            self._stream.close()
+        """Write the index and close the file.
+
+        Raises
+        ------
+        RunFolderError
+            The disk is full or gone; what was flushed before stays readable.
+        """
+        try:
+            with self._stream:
+                self._writer.finish()  # type: ignore[no-untyped-call]
+        except OSError as error:
+            raise disk_failed(self._stream.name, error) from None
 
 
 def read_log(path: Path) -> Iterator[Logged]:

@@ -157,12 +157,11 @@ class Server:
         if self.is_lost:
             return
         now_ns = self._director.now_ns
+        done = replace(step, compute_s=reply.compute_s, outputs=len(reply.outputs), finished=True)
+        self._done(done)
+        self._in_hand = None
         for output in reply.outputs:
             self._send(output, step.t_start_ns)
-        self._in_hand = None
-        self._done(
-            replace(step, compute_s=reply.compute_s, outputs=len(reply.outputs), finished=True)
-        )
         if self._waiting:
             self._director.at(now_ns, self._start, Priority.START)
             return

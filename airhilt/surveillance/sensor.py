@@ -127,9 +127,9 @@ class AdsbSensor:
         self._seq += 1
 
         def leave() -> None:
+            self._done(step)
             del self._in_flight[step.seq]
             self._publish(decoded.report(out_ns))
-            self._done(step)
 
         self._director.at(out_ns, leave, Priority.RESULT)
 
