@@ -172,6 +172,10 @@ class Evidence(BaseModel):
     note: str = ""
 
 
+CONTROLLER = "ATC"
+"""The recipient that is the controller."""
+
+
 class Advisory(Message):
     """``advisory/<recipient>``: one conflict as told to one recipient; ``t_ns`` is t_dec.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from airhilt.messages import (
+    CONTROLLER,
     AdsbReport,
     Advisory,
     Message,
@@ -29,8 +30,6 @@ from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import FOOT, SECOND_NS
 
-CONTROLLER = "ATC"
-"""Recipient that is the controller."""
 SPEAK_MIN_LEVEL = Severity.CAUTION
 """Least severity that is spoken, and so the least that counts as a warning."""
 JUSTIFIED_WITHIN_S = 300.0

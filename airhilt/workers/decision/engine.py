@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from airhilt.messages import (
+    CONTROLLER,
     AdsbReport,
     Advisory,
     Briefing,
@@ -39,7 +40,6 @@ from airhilt.workers.decision.resolution import resolve
 from airhilt.workers.decision.tracks import Track
 from airhilt.workers.protocol import Step
 
-CONTROLLER = "ATC"
 ACTIVITY_S = 600.0
 """Traffic that comes within the horizontal minimum in this time counts as activity."""
 COASTING_NS = SECOND_NS
