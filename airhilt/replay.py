@@ -101,7 +101,9 @@ def _recorded(
         elif loss is not None:
             losses[name] = loss
         published = [logged for logged in log if logged.publisher == name]
-        worker = RecordedWorker(published, latencies.outputs.get(name, {}), failure)
+        worker = RecordedWorker(
+            published, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
+        )
         workers.append(Participant(description, worker, attached=True))
     return Recorded(
         latency=LatencySpec(
@@ -131,15 +133,22 @@ class RecordedWorker:
         Its messages, in order.
     outputs
         How many of them each step gave.
+    wakes_ns
+        When each step asked to be called again.
     failure
         The step in which it was lost, and why; None if it was lost between steps or not at all.
     """
 
     def __init__(
-        self, published: Sequence[Logged], outputs: dict[int, int], failure: tuple[int, str] | None
+        self,
+        published: Sequence[Logged],
+        outputs: dict[int, int],
+        wakes_ns: dict[int, int | None],
+        failure: tuple[int, str] | None,
     ) -> None:
         self._published = deque(published)
         self._outputs = outputs
+        self._wakes_ns = wakes_ns
         self._failure = failure
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RecordedStep:  # noqa: ARG002
@@ -149,7 +158,7 @@ class RecordedWorker:
         count = min(self._outputs.get(seq, 0), len(self._published))
         taken = [self._published.popleft() for _ in range(count)]
         outputs = tuple(Output(item.key, item.data, item.t_ns) for item in taken)
-        return RecordedStep(Reply(outputs, 0.0), None)
+        return RecordedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
 
 
 @dataclass(frozen=True)

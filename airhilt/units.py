@@ -28,11 +28,6 @@ def seconds_to_ns(seconds: float) -> int:
     return round(seconds * SECOND_NS)
 
 
-def ns_to_seconds(t_ns: int) -> float:
-    """Return nanoseconds as seconds."""
-    return t_ns / SECOND_NS
-
-
 def wrap_angle(angle: float) -> float:
     """Return ``angle`` (rad) brought into [-pi, pi)."""
     return (angle + math.pi) % (2.0 * math.pi) - math.pi

@@ -28,6 +28,7 @@ class LatencyLog:
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
             f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}, '
+            f'"wake_ns": {"null" if record.wake_ns is None else record.wake_ns}, '
             f'"finished": {"true" if record.finished else "false"}}}\n'
         )
 
@@ -72,7 +73,7 @@ class RecordedLatencies:
 
     latencies_ns: dict[str, dict[int, int]] = field(default_factory=dict)
     outputs: dict[str, dict[int, int]] = field(default_factory=dict)
-    """By worker and step."""
+    wakes_ns: dict[str, dict[int, int | None]] = field(default_factory=dict)
     losses: dict[str, Loss] = field(default_factory=dict)
     unfinished: dict[str, UnfinishedStep] = field(default_factory=dict)
     """What each worker had in hand when it was lost, or when the run ended."""
@@ -103,6 +104,7 @@ def read_latencies(path: Path) -> RecordedLatencies:
             seq = row["seq"]
             recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
             recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
+            recorded.wakes_ns.setdefault(worker, {})[seq] = row["wake_ns"]
             if not row["finished"]:
                 due_ns = row["t_start_ns"] + row["latency_ns"]
                 recorded.unfinished[worker] = UnfinishedStep(seq, due_ns)

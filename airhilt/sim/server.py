@@ -24,6 +24,8 @@ class StepRecord:
     latency_ns: int
     compute_s: float
     outputs: int
+    wake_ns: int | None = None
+    """When it asked to be called again."""
     finished: bool = True
 
 
@@ -157,7 +159,13 @@ class Server:
         if self.is_lost:
             return
         now_ns = self._director.now_ns
-        done = replace(step, compute_s=reply.compute_s, outputs=len(reply.outputs), finished=True)
+        done = replace(
+            step,
+            compute_s=reply.compute_s,
+            outputs=len(reply.outputs),
+            wake_ns=reply.wake_ns,
+            finished=True,
+        )
         self._done(done)
         self._in_hand = None
         for output in reply.outputs:

@@ -88,6 +88,21 @@ def test_an_attached_worker_knows_the_separation_of_the_scenario(
     assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
 
 
+def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path: Path) -> None:
+    """In an outage the decision worker carries conflicts on, called by its own alarm."""
+    adsb = encounter.adsb.model_copy(update={"outages_s": ((8.0, 20.0),)})
+    scenario = encounter.model_copy(update={"adsb": adsb})
+    endpoint = free_endpoint()
+    with decision_worker(endpoint):
+        folder = run(
+            scenario, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("decision",)
+        ).folder
+    steps = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
+    woken = [s for s in steps if s["worker"] == "decision" and 9e9 < s["t_start_ns"] < 20e9]
+    assert len(woken) >= 8
+    assert replay(folder).identical
+
+
 @pytest.mark.parametrize("strict", [False, True])
 def test_a_program_without_grants_that_dies_is_noticed_too(
     encounter: Scenario, tmp_path: Path, strict: bool

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from airhilt.radio.script import GAP_S, RadioScript
 from airhilt.scenario.models import RadioLine
 from airhilt.sim import Director, Virtual
-from airhilt.units import SECOND_NS, ns_to_seconds, seconds_to_ns
+from airhilt.units import SECOND_NS, seconds_to_ns
 
 
 def line(name, at_s, words=8, frequency_khz=134325):
@@ -44,7 +44,7 @@ def test_a_call_waits_until_the_frequency_is_free_and_then_a_little():
 
 def test_another_frequency_does_not_wait():
     calls = played(line("a", 20.0), line("b", 21.0, frequency_khz=118_000))
-    assert [ns_to_seconds(call.t_tx_ns) for call in calls] == [20.0, 21.0]
+    assert [call.t_tx_ns / SECOND_NS for call in calls] == [20.0, 21.0]
 
 
 def test_those_who_wait_come_on_in_the_order_of_the_script():
