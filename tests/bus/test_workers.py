@@ -91,7 +91,11 @@ def test_an_attached_worker_knows_the_separation_of_the_scenario(
 def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path: Path) -> None:
     """In an outage the decision worker carries conflicts on, called by its own alarm."""
     adsb = encounter.adsb.model_copy(update={"outages_s": ((8.0, 20.0),)})
-    scenario = encounter.model_copy(update={"adsb": adsb})
+    deaf = tuple(
+        actor.model_copy(update={"pilot": actor.pilot.model_copy(update={"compliance": 0.0})})
+        for actor in encounter.actors
+    )
+    scenario = encounter.model_copy(update={"adsb": adsb, "actors": deaf})
     endpoint = free_endpoint()
     with decision_worker(endpoint):
         folder = run(
@@ -100,6 +104,8 @@ def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path
     steps = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
     woken = [s for s in steps if s["worker"] == "decision" and 9e9 < s["t_start_ns"] < 20e9]
     assert len(woken) >= 8
+    told_s = [x.t_ns / 1e9 for x in read_log(folder / "log.mcap") if x.key == "advisory/ATC"]
+    assert max(told_s) > 20.0, "something is said after the outage, by a later step"
     assert replay(folder).identical
 
 
