@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 import click
 
 from airhilt._version import __version__
+from airhilt.cli_airport import airport
 from airhilt.errors import AirhiltError, ScenarioError
 
 
@@ -236,17 +237,18 @@ Examples:
 )
 @click.argument("file")
 def validate(file: str) -> None:
-    """Check a scenario file, and fly its aircraft for an instant."""
-    from airhilt.actors import build_fleet
+    """Check a scenario file, and put all its actors where they begin."""
+    from airhilt.actors import build_cast
     from airhilt.cosim import TICK_S
     from airhilt.scenario import load, realise
+    from airhilt.scenario.geometry import Setting
 
     try:
         scenario = load(file)
     except ScenarioError as error:
         raise AirhiltError("\n".join(error.problems)) from None
     realised, _ = realise(scenario, 0)
-    build_fleet(realised, 0, TICK_S)
+    build_cast(realised, Setting.of(realised), 0, TICK_S)
     click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
 
 
@@ -324,6 +326,9 @@ def worker(
     from airhilt.workers.decision import DecisionWorker
 
     serve(DecisionWorker(name=name or kind), connect, run_name, patience)
+
+
+cli.add_command(airport)
 
 
 def main() -> NoReturn:

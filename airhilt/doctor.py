@@ -12,7 +12,18 @@ from typing import Any
 from airhilt import library
 from airhilt._version import __version__
 
-NEEDED = ("jsbsim", "numpy", "eclipse-zenoh", "pydantic", "mcap", "zstandard", "geographiclib")
+NEEDED = (
+    "jsbsim",
+    "numpy",
+    "eclipse-zenoh",
+    "pydantic",
+    "mcap",
+    "zstandard",
+    "geographiclib",
+    "shapely",
+    "networkx",
+    "pygeomag",
+)
 
 
 @dataclass(frozen=True)

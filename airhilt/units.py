@@ -9,6 +9,8 @@ import math
 
 FOOT = 0.3048
 """Metres in an international foot (exact; ICAO Annex 5)."""
+INCH = FOOT / 12.0
+"""Metres in an inch."""
 NAUTICAL_MILE = 1852.0
 """Metres in a nautical mile (exact; ICAO Annex 5)."""
 KNOT = NAUTICAL_MILE / 3600.0

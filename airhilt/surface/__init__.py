@@ -1,0 +1,1 @@
+"""The airport: runways, taxiways, and what moves on them by itself."""

@@ -1,0 +1,163 @@
+"""The commands of ``airhilt airport``, and the diagram that they draw."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from airhilt.errors import ScenarioError
+from airhilt.surface.airport import load_airport
+from airhilt.surface.chart import as_svg, draw
+from airhilt.surface.layout import Layout
+
+Cli = Callable[..., subprocess.CompletedProcess[str]]
+FOLDER = Path(__file__).parent / "ourairports"
+FILES = (
+    "--runways",
+    FOLDER / "runways.csv",
+    "--frequencies",
+    FOLDER / "airport-frequencies.csv",
+)
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def washington() -> Layout:
+    return Layout(load_airport("KDCA"))
+
+
+def test_list_names_the_airports_with_their_runways(airhilt_command: Cli) -> None:
+    done = airhilt_command("airport", "list")
+    assert "KDCA  Ronald Reagan Washington National  01/19  04/22  15/33" in done.stdout
+    rows = json.loads(airhilt_command("airport", "list", "--json").stdout)
+    assert [row["icao"] for row in rows] == ["EHAM", "KDCA", "KSFO", "LSZH", "RJTT"]
+
+
+def test_show_says_what_scenarios_can_name(airhilt_command: Cli) -> None:
+    facts = json.loads(airhilt_command("airport", "show", "kdca", "--json").stdout)
+    assert {"runway": "01/19", "taxiway": "A", "node": "01/19 A"} in facts["holds"]
+    assert "gate_b12" in facts["stands"]
+    assert ["01/19", "15/33"] in facts["intersections"]
+    assert "01/19 crosses 15/33" in airhilt_command("airport", "show", "KDCA").stdout
+
+
+def test_show_of_an_unknown_airport_gives_the_nearest(airhilt_command: Cli) -> None:
+    done = airhilt_command("airport", "show", "KDCX")
+    assert done.returncode == 2
+    assert "did you mean 'kdca'" in done.stderr
+
+
+def test_import_writes_a_file_that_show_reads(airhilt_command: Cli, tmp_path: Path) -> None:
+    done = airhilt_command("airport", "import", "kpao", *FILES, "--name", "Palo Alto")
+    assert (done.returncode, done.stdout) == (0, "kpao.json\n")
+    assert "note: 13/31 is 2598 ft long by its coordinates" in done.stderr
+    shown = airhilt_command("airport", "show", "kpao.json", "--out", "kpao.svg")
+    assert shown.stdout == "kpao.svg\n"
+    assert "Palo Alto" in (tmp_path / "kpao.svg").read_text(encoding="utf-8")
+
+
+def test_import_replaces_a_file_only_when_told(airhilt_command: Cli, tmp_path: Path) -> None:
+    (tmp_path / "kpao.json").write_text("mine")
+    refused = airhilt_command("airport", "import", "KPAO", *FILES)
+    assert refused.returncode == 2
+    assert "kpao.json exists already; --overwrite replaces it" in refused.stderr
+    assert (tmp_path / "kpao.json").read_text() == "mine"
+    assert airhilt_command("airport", "import", "KPAO", *FILES, "--overwrite").returncode == 0
+
+
+@pytest.mark.parametrize("command", [("airport",), ("airport", "import"), ("airport", "show")])
+def test_help_shows_examples(airhilt_command: Cli, command: tuple[str, ...]) -> None:
+    assert "airhilt airport show KDCA" in airhilt_command(*command, "--help").stdout or (
+        "airhilt airport import KBOS" in airhilt_command(*command, "--help").stdout
+    )
+
+
+def test_help_does_not_wait_for_the_geometry_libraries() -> None:
+    code = (
+        "import sys, airhilt.cli; "
+        "print([name for name in ('shapely', 'networkx', 'pygeomag') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
+# --- the diagram ------------------------------------------------------------------------------
+
+
+def test_the_diagram_names_runways_taxiways_holds_and_cameras(washington: Layout) -> None:
+    root = ET.fromstring(as_svg(washington))
+    texts = {element.text for element in root.iter(f"{SVG}text")}
+    titles = {element.text for element in root.iter(f"{SVG}title")}
+    assert {"01", "19", "15", "33", "04", "22", "J", "K", "A", "500 m", "N"} <= texts
+    assert {"Potomac River", "Terminal 2", "gate_b12", "tower", "tower_east"} <= texts | titles
+    assert {f"hold {name}" for name in washington.holds} <= titles
+    assert "01/19 crosses 15/33" in titles
+
+
+def test_north_is_up_and_the_terminal_is_west_of_runway_01(washington: Layout) -> None:
+    root = ET.fromstring(as_svg(washington))
+    at = {
+        element.text: (float(element.attrib["x"]), float(element.attrib["y"]))
+        for element in root.iter(f"{SVG}text")
+    }
+    assert at["19"][1] < at["01"][1]
+    assert at["Terminal 1"][0] < at["01"][0] < at["Potomac River"][0]
+
+
+def test_the_scale_bar_is_as_long_as_it_says(washington: Layout) -> None:
+    document = as_svg(washington)
+    root = ET.fromstring(document)
+    bar = next(e for e in root.iter(f"{SVG}path") if e.attrib["class"] == "ink").attrib["d"]
+    left, right = float(bar[1:].split(" ")[0]), float(bar.split("H")[1].split("V")[0])
+    at = {
+        element.text: (float(element.attrib["x"]), float(element.attrib["y"]))
+        for element in root.iter(f"{SVG}text")
+    }
+    apart = sum((a - b) ** 2 for a, b in zip(at["01"], at["19"], strict=True)) ** 0.5
+    pixels_per_metre = (right - left) / 500.0
+    runway = washington.runway("01").length_m
+    assert apart / pixels_per_metre == pytest.approx(runway + 28.0 / pixels_per_metre, rel=0.01)
+
+
+def test_the_diagram_says_what_is_not_surveyed_and_has_dark_colours(washington: Layout) -> None:
+    document = as_svg(washington)
+    assert "Not surveyed, drawn or generated: buildings, cameras, holds, taxiways" in document
+    assert "prefers-color-scheme: dark" in document
+
+
+@pytest.mark.parametrize("icao", ["EHAM", "KSFO", "LSZH", "RJTT"])
+def test_every_airport_can_be_drawn(icao: str) -> None:
+    layout = Layout(load_airport(icao))
+    texts = {element.text for element in ET.fromstring(as_svg(layout)).iter(f"{SVG}text")}
+    assert {end.ident for strip in layout.strips.values() for end in strip.ends} <= texts
+
+
+def test_png_is_drawn_where_its_library_is(washington: Layout, tmp_path: Path) -> None:
+    pytest.importorskip("resvg_py")
+    picture = draw(washington, tmp_path / "kdca.png").read_bytes()
+    assert picture.startswith(b"\x89PNG")
+    assert len(picture) > 50_000
+
+
+def test_png_without_its_library_says_how_to_get_it(
+    washington: Layout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    with pytest.raises(ScenarioError, match=r"pip install 'airhilt\[plot\]', or write an \.svg"):
+        draw(washington, tmp_path / "kdca.png")
+
+
+def test_other_formats_are_refused(washington: Layout, tmp_path: Path) -> None:
+    with pytest.raises(ScenarioError, match=r"kdca\.pdf: expected a name that ends in \.svg or"):
+        draw(washington, tmp_path / "kdca.pdf")
+
+
+def test_a_folder_that_does_not_exist_is_named(washington: Layout, tmp_path: Path) -> None:
+    with pytest.raises(ScenarioError, match=r"kdca\.svg: cannot be written: No such file"):
+        draw(washington, tmp_path / "gone" / "kdca.svg")

@@ -1,0 +1,363 @@
+"""Runways, holds, taxi routes, entries and exits of the airports that ship."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+import pytest
+from shapely import LineString, Point
+
+from airhilt.errors import ScenarioError
+from airhilt.surface.airport import Airport, load_airport
+from airhilt.surface.frame import distance_and_azimuth, onward
+from airhilt.surface.layout import CLEAR_OF_HOLD_M, Hold, Layout
+from airhilt.surface.path import length, turn
+from airhilt.surface.runway import Place, RunwayEnd
+
+SHIPPED = ("EHAM", "KDCA", "KSFO", "LSZH", "RJTT")
+NOSE_WHEEL_RADIUS_M = 25.0
+"""Wider than the 21 m that a 737-800 needs (Boeing D6-58325-6, section 4.2)."""
+
+
+@pytest.fixture(scope="module", params=SHIPPED)
+def layout(request: pytest.FixtureRequest) -> Layout:
+    return Layout(load_airport(request.param))
+
+
+@pytest.fixture(scope="module")
+def washington() -> Layout:
+    return Layout(load_airport("KDCA"))
+
+
+def local(layout: Layout, places: Sequence[Place]) -> list[tuple[float, float]]:
+    return [layout.frame.to_local(place) for place in places]
+
+
+def midway(layout: Layout, first: str, second: str) -> tuple[float, float]:
+    a, b = local(layout, [layout.node(first), layout.node(second)])
+    return (a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0
+
+
+def smallest_radius(layout: Layout, places: Sequence[Place]) -> float:
+    points = local(layout, places)
+    radii = [math.inf]
+    for before, corner, after in zip(points, points[1:], points[2:], strict=False):
+        angle = abs(turn(before, corner, after))
+        if angle > 1e-3:
+            radii.append((math.dist(before, corner) + math.dist(corner, after)) / 2.0 / angle)
+    return min(radii)
+
+
+def entries(layout: Layout) -> Iterator[tuple[Hold, RunwayEnd]]:
+    """Every hold with the directions of its runway that have some runway ahead of it."""
+    for hold in layout.holds.values():
+        for end in layout.strips[hold.runway].ends:
+            apart, azimuth = distance_and_azimuth(hold.place, end.end)
+            if apart * math.cos(azimuth - end.course_rad) > 200.0:
+                yield hold, end
+
+
+def all_ends(layout: Layout) -> list[str]:
+    return [end.ident for strip in layout.strips.values() for end in strip.ends]
+
+
+# --- runways ----------------------------------------------------------------------------------
+
+
+def test_the_three_runways_of_washington_cross_each_other(washington: Layout) -> None:
+    crossings = {(first, second): at for first, second, at in washington.intersections}
+    assert set(crossings) == {("01/19", "04/22"), ("01/19", "15/33"), ("04/22", "15/33")}
+    threshold = washington.frame.to_local(washington.runway("01").threshold)
+    assert math.dist(threshold, crossings["01/19", "04/22"]) == pytest.approx(609.0, abs=2.0)
+    assert math.dist(threshold, crossings["01/19", "15/33"]) == pytest.approx(1504.5, abs=2.0)
+
+
+@pytest.mark.parametrize(("icao", "count"), [("KSFO", 4), ("EHAM", 1), ("LSZH", 1), ("RJTT", 1)])
+def test_intersections_come_out_of_the_coordinates(icao: str, count: int) -> None:
+    assert len(Layout(load_airport(icao)).intersections) == count
+
+
+def test_a_displaced_threshold_lies_beyond_the_start() -> None:
+    end = Layout(load_airport("LSZH")).runway("34")
+    assert end.displaced_m == pytest.approx(470.0, abs=1.0)
+    ahead, azimuth = distance_and_azimuth(end.start, end.threshold)
+    assert ahead == pytest.approx(end.displaced_m, abs=0.01)
+    assert azimuth == pytest.approx(end.course_rad, abs=1e-6)
+
+
+def test_both_directions_share_their_ends(layout: Layout) -> None:
+    for strip in layout.strips.values():
+        low, high = strip.ends
+        assert (low.start, low.end) == (high.end, high.start)
+        assert math.cos(low.course_rad - high.course_rad) == pytest.approx(-1.0, abs=1e-6)
+
+
+def test_a_runway_is_found_without_its_leading_zero(washington: Layout) -> None:
+    assert washington.runway("1") is washington.runway("01")
+
+
+def test_an_unknown_runway_is_answered_with_those_that_exist(washington: Layout) -> None:
+    with pytest.raises(
+        ScenarioError, match="KDCA has no runway '27'; it has 01, 19, 04, 22, 15, 33"
+    ):
+        washington.runway("27")
+
+
+# --- holds ------------------------------------------------------------------------------------
+
+
+def test_hold_lines_lie_on_the_edge_of_the_area_that_they_protect(layout: Layout) -> None:
+    for hold in layout.holds.values():
+        strip = layout.strips[hold.runway]
+        at = Point(layout.frame.to_local(hold.place))
+        assert strip.protected_area.exterior.distance(at) < 0.02, hold.name
+        assert strip.centreline.distance(at) >= strip.hold_distance_m - 0.02, hold.name
+
+
+def test_holds_are_clear_of_every_pavement_and_of_other_protected_areas(layout: Layout) -> None:
+    for hold in layout.holds.values():
+        at = Point(layout.frame.to_local(hold.place))
+        for strip in layout.strips.values():
+            assert strip.pavement.distance(at) > 25.0, hold.name
+            if strip.name != hold.runway:
+                assert not strip.protected_area.contains(at), hold.name
+
+
+def test_holds_face_the_runway(layout: Layout) -> None:
+    for hold in layout.holds.values():
+        strip = layout.strips[hold.runway]
+        east, north = layout.frame.to_local(hold.place)
+        ahead = Point(
+            east + 30.0 * math.sin(hold.heading_rad), north + 30.0 * math.cos(hold.heading_rad)
+        )
+        assert strip.centreline.distance(ahead) < strip.centreline.distance(Point(east, north))
+
+
+def test_every_runway_direction_can_be_entered_near_its_start(layout: Layout) -> None:
+    for ident in all_ends(layout):
+        end, strip = layout.runway(ident), layout.strip_of(ident)
+        start = layout.frame.to_local(end.start)
+        along = [
+            math.dist(start, layout.frame.to_local(hold.place))
+            for hold in layout.holds.values()
+            if hold.runway == strip.name
+        ]
+        assert min(along) < 350.0, ident
+
+
+def test_a_hold_is_found_by_runway_and_taxiway(washington: Layout) -> None:
+    assert washington.hold("01", "A").name == "01/19 A"
+    assert washington.hold("19", "A") is washington.hold("1", "A")
+
+
+def test_a_taxiway_that_crosses_has_a_hold_on_each_side(washington: Layout) -> None:
+    south, north = washington.hold("15", "J_south"), washington.hold("15", "J_north")
+    assert math.cos(south.heading_rad - north.heading_rad) == pytest.approx(-1.0, abs=1e-3)
+    with pytest.raises(ScenarioError, match=r"2 holds short of runway 15/33 .* J_south or J_north"):
+        washington.hold("15", "J")
+
+
+def test_a_hold_that_does_not_exist_is_answered_with_those_that_do(washington: Layout) -> None:
+    with pytest.raises(
+        ScenarioError, match="no hold short of runway 33 on taxiway 'A'; there is: G, H, J_north"
+    ):
+        washington.hold("33", "A")
+
+
+# --- taxi routes ------------------------------------------------------------------------------
+
+
+def test_every_hold_is_reached_from_every_stand(layout: Layout) -> None:
+    for stand in layout.stands:
+        for name, hold in layout.holds.items():
+            route = layout.taxi_route(stand, name)
+            assert route[0] == pytest.approx(layout.node(stand))
+            assert route[-1] == pytest.approx(hold.place)
+
+
+def test_taxi_corners_are_wide_enough_for_a_737(washington: Layout) -> None:
+    for stand in washington.stands:
+        for name in washington.holds:
+            radius = smallest_radius(washington, washington.taxi_route(stand, name))
+            assert radius > NOSE_WHEEL_RADIUS_M, (stand, name)
+
+
+def test_the_way_to_runway_01_crosses_04_22_and_no_other(washington: Layout) -> None:
+    route = LineString(local(washington, washington.taxi_route("gate_b12", "01/19 A")))
+    crossed = {name for name, strip in washington.strips.items() if route.crosses(strip.pavement)}
+    assert crossed == {"04/22"}
+
+
+def test_the_way_to_runway_19_crosses_15_33_and_no_other(washington: Layout) -> None:
+    route = LineString(local(washington, washington.taxi_route("gate_e50", "01/19 N")))
+    crossed = {name for name, strip in washington.strips.items() if route.crosses(strip.pavement)}
+    assert crossed == {"15/33"}
+
+
+def test_the_way_to_the_end_of_15_or_04_crosses_no_runway(washington: Layout) -> None:
+    for hold in ("15/33 P", "04/22 C"):
+        route = LineString(local(washington, washington.taxi_route("gate_c28", hold)))
+        for strip in washington.strips.values():
+            assert not route.crosses(strip.pavement)
+
+
+def test_via_leads_over_the_taxiways_that_it_names(washington: Layout) -> None:
+    direct = washington.taxi_route("gate_b12", "01/19 E")
+    detour = washington.taxi_route("gate_b12", "01/19 E", via=("F", "J"))
+    junction = Point(washington.frame.to_local(washington.node("J/F")))
+    assert LineString(local(washington, direct)).distance(junction) > 200.0
+    assert LineString(local(washington, detour)).distance(junction) < 15.0
+
+
+def test_a_route_from_a_place_begins_there(washington: Layout) -> None:
+    place = washington.frame.to_place(-125.0, -100.0)
+    route = washington.taxi_route(place, "gate_b12")
+    assert route[0] == pytest.approx(place)
+    assert route[-1] == pytest.approx(washington.node("gate_b12"))
+
+
+def test_a_route_between_two_places_on_one_leg_is_straight(washington: Layout) -> None:
+    a, b = (washington.frame.to_place(-128.6 - 0.0786 * n, n) for n in (-150.0, -50.0))
+    route = local(washington, washington.taxi_route(a, b))
+    assert length(route) == pytest.approx(100.3, abs=0.5)
+
+
+def test_a_route_to_where_one_stands_is_that_place(washington: Layout) -> None:
+    assert washington.taxi_route("gate_b12", "gate_b12") == [washington.node("gate_b12")]
+
+
+def test_a_route_to_a_place_on_a_runway_enters_it_by_a_taxiway(washington: Layout) -> None:
+    runway = washington.runway("01")
+    place = onward(runway.threshold, runway.course_rad, 920.0)
+    route = local(washington, washington.taxi_route("fire_station", place))
+    strip, way = washington.strips["01/19"], LineString(route)
+    assert math.dist(route[-1], washington.frame.to_local(place)) < 0.01
+    hold = Point(washington.frame.to_local(washington.hold("01", "D").place))
+    assert way.distance(hold) < 0.1
+    assert way.intersection(strip.centreline.buffer(0.5)).length == pytest.approx(90.0, abs=5.0)
+
+
+def test_two_places_on_one_runway_are_joined_along_it(washington: Layout) -> None:
+    runway = washington.runway("01")
+    a, b = (onward(runway.threshold, runway.course_rad, along) for along in (300.0, 500.0))
+    assert length(local(washington, washington.taxi_route(a, b))) == pytest.approx(200.0, abs=0.1)
+
+
+def test_a_heading_makes_the_way_go_on_rather_than_turn_round(washington: Layout) -> None:
+    place = washington.frame.to_place(*midway(washington, "J/E", "J/F"))
+    south, north = math.radians(175.5), math.radians(355.5)
+    straight, round_about = (
+        length(local(washington, washington.taxi_route(place, "gate_b12", heading_rad=heading)))
+        for heading in (south, north)
+    )
+    assert straight < round_about
+    route = local(washington, washington.taxi_route(place, "gate_b12", heading_rad=north))
+    assert route[1][1] > route[0][1]
+
+
+def test_a_route_from_off_the_airport_is_refused(washington: Layout) -> None:
+    with pytest.raises(ScenarioError, match=r"start of the taxi route is \d+ m from the nearest"):
+        washington.taxi_route(washington.frame.to_place(3000.0, 0.0), "gate_b12")
+
+
+def test_an_unknown_node_gets_the_nearest(washington: Layout) -> None:
+    with pytest.raises(ScenarioError, match="no taxiway node 'gate_b13'; did you mean 'gate_b1"):
+        washington.taxi_route("gate_b13", "01/19 A")
+
+
+def test_an_unknown_taxiway_is_answered_with_those_that_exist(washington: Layout) -> None:
+    with pytest.raises(ScenarioError, match="no taxiway 'Q'; known: A, B, C"):
+        washington.taxi_route("gate_b12", "01/19 A", via=("Q",))
+
+
+def test_where_no_taxiway_leads_there_is_no_route(washington: Layout) -> None:
+    taxiways = washington.airport.taxiways
+    kept = tuple(edge for edge in taxiways.edges if "K/gate_b12" not in edge.nodes)
+    cut_off: Airport = washington.airport.model_copy(
+        update={"taxiways": taxiways.model_copy(update={"edges": kept})}
+    )
+    with pytest.raises(ScenarioError, match="no taxi route from 'gate_b12' to '01/19 A' at KDCA"):
+        Layout(cut_off).taxi_route("gate_b12", "01/19 A")
+
+
+# --- entries and exits ------------------------------------------------------------------------
+
+
+def test_entry_paths_end_lined_up_on_the_centre_line(layout: Layout) -> None:
+    for hold, end in entries(layout):
+        path = layout.entry_path(hold, end.ident)
+        assert path[0] == pytest.approx(hold.place)
+        ahead, azimuth = distance_and_azimuth(path[-2], path[-1])
+        assert 0.0 < ahead <= 4.1
+        assert math.cos(azimuth - end.course_rad) > math.cos(math.radians(0.1))
+        centreline = layout.strips[hold.runway].centreline
+        for place in path[-8:]:
+            assert centreline.distance(Point(layout.frame.to_local(place))) < 0.1
+
+
+def test_entry_paths_can_be_steered_and_are_dense(layout: Layout) -> None:
+    for hold, end in entries(layout):
+        path = layout.entry_path(hold, end.ident)
+        assert smallest_radius(layout, path) > NOSE_WHEEL_RADIUS_M, (hold.name, end.ident)
+        assert max(math.dist(a, b) for a, b in pairwise(local(layout, path))) < 4.1
+
+
+def test_an_entry_from_the_end_is_lined_up_within_a_hundred_metres(washington: Layout) -> None:
+    path = washington.entry_path(washington.hold("01", "A"), "01")
+    start = washington.frame.to_local(washington.runway("01").start)
+    assert math.dist(start, washington.frame.to_local(path[-1])) == pytest.approx(100.0, abs=1.0)
+
+
+def test_a_hold_of_another_runway_is_no_way_in(washington: Layout) -> None:
+    with pytest.raises(ScenarioError, match="short of runway 15/33, not of 01"):
+        washington.entry_path(washington.hold("15", "P"), "01")
+
+
+def test_a_hold_at_the_far_end_is_no_way_in(washington: Layout) -> None:
+    with pytest.raises(ScenarioError, match="'01/19 N' is at the far end of runway 01"):
+        washington.entry_path(washington.hold("01", "N"), "01")
+
+
+def test_exits_come_in_the_order_in_which_a_landing_meets_them(layout: Layout) -> None:
+    for ident in all_ends(layout):
+        along = [way.along_m for way in layout.exits(ident)]
+        assert along == sorted(along)
+        assert along
+        assert along[0] > 0.0
+        assert along[-1] < layout.runway(ident).length_m
+
+
+def test_exits_of_runway_01_are_those_on_the_map(washington: Layout) -> None:
+    exits = washington.exits("01")
+    west = [way.position for way in exits if way.position != "B_east" and way.position != "M_east"]
+    assert west == ["B_west", "D", "E", "F", "M_west", "N"]
+    assert next(way for way in exits if way.taxiway == "D").along_m == pytest.approx(755.0, abs=1.0)
+
+
+def test_exits_begin_on_the_centre_line_and_end_clear_of_the_runway(washington: Layout) -> None:
+    for ident in all_ends(washington):
+        strip = washington.strip_of(ident)
+        for way in washington.exits(ident):
+            path = local(washington, way.path)
+            assert strip.centreline.distance(Point(path[0])) < 0.1
+            assert not strip.protected_area.contains(Point(path[-1])), way.hold
+            past = LineString(path)
+            hold = past.project(Point(washington.frame.to_local(washington.holds[way.hold].place)))
+            assert past.length - hold == pytest.approx(CLEAR_OF_HOLD_M, abs=0.5), way.hold
+
+
+def test_exits_do_not_end_in_the_protected_area_of_another_runway(layout: Layout) -> None:
+    for ident in all_ends(layout):
+        for way in layout.exits(ident):
+            end = Point(layout.frame.to_local(way.path[-1]))
+            for strip in layout.strips.values():
+                assert strip.protected_area.buffer(-0.1).disjoint(end), (ident, way.hold)
+
+
+def test_exits_can_be_steered_and_acute_ones_are_wide(washington: Layout) -> None:
+    for ident in all_ends(washington):
+        for way in washington.exits(ident):
+            radius = smallest_radius(washington, way.path)
+            assert radius > (120.0 if abs(way.turn_rad) < 0.6 else NOSE_WHEEL_RADIUS_M), way.hold
