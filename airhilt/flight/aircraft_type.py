@@ -32,6 +32,8 @@ class Speeds(_Section):
     rotate_kt: float = Field(gt=0)
     climb_safety_kt: float = Field(gt=0)
     """V2."""
+    drift_down_kt: float = Field(gt=0)
+    """After an engine failure en route; the best glide speed of an aircraft with one engine."""
     cruise_kt: float = Field(gt=0)
     minimum_clean_kt: float = Field(gt=0)
     maximum_kt: float = Field(gt=0)
@@ -47,7 +49,8 @@ class Speeds(_Section):
 class PitchGains(_Section):
     """Attitude to pitch rate to elevator (normalised, -1..1).
 
-    The elevator works against dynamic pressure: its gains hold at ``reference_pressure_pa``.
+    Elevator and ailerons work against dynamic pressure: their gains hold at
+    ``reference_pressure_pa``.
     """
 
     attitude_per_s: float = Field(gt=0)
@@ -104,6 +107,77 @@ class Gains(_Section):
     guidance: GuidanceGains
 
 
+class Ground(_Section):
+    """Rolling and taxiing."""
+
+    model_nose_wheel_deg: float = Field(gt=0)
+    """To which the JSBSim model turns its nose wheel at full command; more than full is obeyed."""
+    nose_wheel_limit_deg: float = Field(gt=0, lt=90)
+    """Of the real aircraft."""
+    yaw_rate_s: float = Field(gt=0)
+    """Rudder per error of yaw rate, and of its integral."""
+    yaw_integral: float = Field(ge=0)
+    deceleration_m_s2: float = Field(gt=0)
+    """After touchdown."""
+    taxi_speed_kt: float = Field(gt=0)
+    look_ahead_m: float = Field(gt=0)
+    """Of the steering along a path, at least."""
+    tail_contact_deg: float = Field(gt=0)
+    """Pitch, on the main wheels, at which the tail touches the ground: of the Boeings as their
+    flight crew training manuals have it, of the Cessnas from the JSBSim model's tail skid."""
+    wing_contact_deg: float = Field(gt=0)
+    """Bank, on one main wheel, at which a wing tip or an engine touches the ground: of the 747 as
+    its flight manual warns (BFU Bulletin, October 2014), of the 737 about, of the Cessnas from the
+    JSBSim model's wing tips."""
+
+
+class Flare(_Section):
+    """The flare: sink rate ``height / time_constant_s + touchdown_rate_fpm``, and its pitch law."""
+
+    time_constant_s: float = Field(gt=0)
+    touchdown_rate_fpm: float = Field(gt=0)
+    decrab_height_m: float = Field(ge=0)
+    """Of the main wheels above the ground, below which the rudder points the nose along the
+    runway."""
+    idle_height_part: float = Field(ge=0, lt=1)
+    """Of the height at which the flare began: there the levers have come to idle."""
+    climb: float = Field(gt=0)
+    """Pitch per error of climb angle; `airhilt.flight.autopilot.PitchLaw` says the rest."""
+    climb_integral_per_s: float = Field(ge=0)
+    climb_rate_s: float = Field(ge=0)
+    attitude_per_s: float = Field(gt=0)
+
+
+class Landing(_Section):
+    """Configuration and guidance of approach and landing."""
+
+    flaps: float = Field(ge=0, le=1)
+    """Part of the model's full deflection."""
+    aim_m: float = Field(gt=0)
+    """From the threshold to where the main wheels' glide path meets the runway."""
+    configure_m: float = Field(gt=0)
+    """From the threshold, on approach, to where gear and flaps are lowered."""
+    course_per_s: float = Field(gt=0)
+    """Turn rate per course error on the localizer."""
+    glide_per_s: float = Field(gt=0)
+    """Vertical rate per height error on the glide path."""
+    flare: Flare
+
+
+class Takeoff(_Section):
+    """Configuration and rotation."""
+
+    flaps: float = Field(ge=0, le=1)
+    """Part of the model's full deflection."""
+    pitch_deg: float = Field(gt=0)
+    """Rotated to; below where the tail touches."""
+    pitch_rate_deg_s: float = Field(gt=0)
+    pull: float = Field(ge=0, lt=1)
+    """Elevator with which the rotation begins: what lifts the nose wheel at rotation speed."""
+    rejected_deceleration_m_s2: float = Field(gt=0)
+    """Of a rejected takeoff."""
+
+
 class Mesh(_Section):
     """Free shape parameters for a lofted model; what is not here follows from `Dimensions`."""
 
@@ -134,6 +208,9 @@ class AircraftType(_Section):
     start: Literal["trim", "settle"]
     """How the model finds its equilibrium: JSBSim's trim, or flying until it is steady."""
     gains: Gains
+    ground: Ground
+    takeoff: Takeoff
+    landing: Landing
     mesh: Mesh
 
 

@@ -15,8 +15,8 @@ import jsbsim
 from airhilt.flight import standard_atmosphere
 from airhilt.flight.aircraft_type import AircraftType
 from airhilt.flight.model import ModelError, load_model
-from airhilt.flight.state import AircraftState, Atmosphere, InitialCondition
-from airhilt.units import FOOT, KNOT, wrap_angle
+from airhilt.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
+from airhilt.units import DEGREE, FOOT, INCH, KNOT, wrap_angle
 
 PASCAL_PER_PSF = 47.880258980336
 """Pascal in a pound-force per square foot (lbf = 4.4482216152605 N, ft = 0.3048 m)."""
@@ -25,13 +25,19 @@ MILITARY_SPECIFICATION = 3
 
 BOTH_MAGNETOS = 3
 CRUISE_LEVER = 0.7
+MAIN_WHEELS = (1, 2)
+"""JSBSim's numbers of the left and the right main gear; 0 is the nose gear."""
+FULL_WIND_M_S = 15.0
+"""Ground speed from which the whole wind and its turbulence are felt; slower, a part of them in
+proportion. The models' coefficients are linear in an angle of attack that goes round to 180 degrees
+in a tailwind and is anything in a pure crosswind: they would rear a standing aircraft up."""
 
 Reader = Callable[[], float]
 Writer = Callable[[float], object]
 
 
 class Airframe:
-    """A JSBSim aircraft in the air.
+    """A JSBSim aircraft.
 
     Parameters
     ----------
@@ -100,13 +106,27 @@ class Airframe:
         self.set_aileron = writer("fcs/aileron-cmd-norm")
         self.set_rudder = writer("fcs/rudder-cmd-norm")
         """Set (-1..1, positive yaws left)."""
+        self.set_flaps = writer("fcs/flap-cmd-norm")
+        """Set (0..1); so are the gear (1 is down) and the speed brakes, where there are any."""
+        self.set_gear = writer("gear/gear-cmd-norm")
+        self.set_speed_brakes = writer("fcs/speedbrake-cmd-norm")
+        self.set_ground_spoilers = writer("fcs/spoiler-cmd-norm")
+        self._blow_north = writer("atmosphere/wind-north-fps")
+        self._blow_east = writer("atmosphere/wind-east-fps")
+        self._blow_gusts = writer("atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps")
+        self._wind_fps = 0.0, 0.0, 0.0
+        self._wind_part = 1.0
+        self._steer = writer("fcs/steer-cmd-norm")
+        self._brakes = [writer(f"fcs/{side}-brake-cmd-norm") for side in ("left", "right")]
+        self._nose_wheel_on_ground = reader("gear/unit[0]/WOW")
+        self._main_wheels_on_ground = [reader(f"gear/unit[{wheel}]/WOW") for wheel in MAIN_WHEELS]
         self._throttles = [
             writer("fcs/throttle-cmd-norm" + (f"[{engine}]" if engine else ""))
             for engine in range(self._engines)
         ]
 
     def start(self, initial: InitialCondition, heading_rad: float) -> None:
-        """Put the aircraft into still air at a condition, engines running, gear up, untrimmed."""
+        """Put the aircraft into still air at a condition, engines running, untrimmed."""
         fdm = self._fdm
         fdm["simulation/randomseed"] = self._seed
         fdm["ic/lat-geod-rad"] = initial.latitude_rad
@@ -121,8 +141,61 @@ class Airframe:
             fdm[f"fcs/advance-cmd-norm{index}"] = 1.0
         fdm.run_ic()
         fdm["propulsion/set-running"] = -1
-        fdm["gear/gear-cmd-norm"] = 0.0
-        fdm["gear/gear-pos-norm"] = 0.0
+        gear, flaps = (1.0, self._kind.landing.flaps) if initial.on_approach else (0.0, 0.0)
+        fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = gear
+        fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = flaps
+        self._take_wheel_positions()
+
+    def _take_wheel_positions(self) -> None:
+        """Read where the wheels are, which is known once the model has been initialised."""
+        fdm = self._fdm
+        part = "inertia/cg-{}-in", f"gear/unit[{MAIN_WHEELS[0]}]/{{}}-position"
+        nose = fdm["gear/unit[0]/x-position"]
+        self.wheelbase_m = (fdm[part[1].format("x")] - nose) * INCH
+        below, aft = ((fdm[part[0].format(axis)] - fdm[part[1].format(axis)]) for axis in "zx")
+        self._wheels_below_m, self._wheels_aft_m = below * INCH, -aft * INCH
+
+    def start_on_ground(self, place: OnGround) -> None:
+        """Put the aircraft on its wheels in still air, engines running, flaps set for takeoff."""
+        fdm = self._fdm
+        fdm["simulation/randomseed"] = self._seed
+        fdm["ic/lat-geod-rad"] = place.latitude_rad
+        fdm["ic/long-gc-rad"] = place.longitude_rad
+        fdm["ic/h-sl-ft"] = self._wheels_on_ground_m / FOOT
+        fdm["ic/psi-true-rad"] = place.heading_rad
+        fdm["ic/vc-kts"] = 0.0
+        for engine in range(self._engines):
+            index = f"[{engine}]" if engine else ""
+            fdm[f"fcs/mixture-cmd-norm{index}"] = 1.0
+            fdm[f"fcs/advance-cmd-norm{index}"] = 1.0
+        fdm.run_ic()
+        fdm["propulsion/set-running"] = -1
+        fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = 1.0
+        fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = self._kind.takeoff.flaps
+        self._take_wheel_positions()
+
+    def blow(self, atmosphere: Atmosphere) -> None:
+        """Let the air of an atmosphere blow over the aircraft that stands on the ground."""
+        fdm = self._fdm
+        self._make_turbulent(atmosphere)
+        self._know_wind(atmosphere)
+        self.feel_wind(0.0)
+        fdm["simulation/randomseed"] = self._seed
+        fdm["propulsion/starter_cmd"] = 0
+
+    def feel_wind(self, ground_speed_m_s: float) -> None:
+        """Let the aircraft on the ground feel the part of the wind that its models can stand."""
+        part = min(ground_speed_m_s / FULL_WIND_M_S, 1.0)
+        if part != self._wind_part:
+            self._wind_part = part
+            north, east, gusts = self._wind_fps
+            self._blow_north(part * north)
+            self._blow_east(part * east)
+            self._blow_gusts(part * gusts)
+
+    def _know_wind(self, atmosphere: Atmosphere) -> None:
+        wind, gusts = atmosphere, atmosphere.turbulence_wind_at_20ft_m_s
+        self._wind_fps = wind.wind_north_m_s / FOOT, wind.wind_east_m_s / FOOT, gusts / FOOT
 
     def crank(self) -> None:
         """Start piston engines with their starters, the throttles at cruise power.
@@ -156,6 +229,7 @@ class Airframe:
         roll, pitch, heading = self._roll(), self._pitch(), self._heading()
         rates = self.roll_rate(), self.pitch_rate(), self.yaw_rate()
         wind_north, wind_east = atmosphere.wind_north_m_s / FOOT, atmosphere.wind_east_m_s / FOOT
+        self._know_wind(atmosphere)
         fdm["ic/lat-geod-rad"] = initial.latitude_rad
         fdm["ic/long-gc-rad"] = initial.longitude_rad
         fdm["ic/h-sl-ft"] = initial.altitude_m / FOOT
@@ -170,6 +244,14 @@ class Airframe:
         fdm["ic/ve-fps"] = east + wind_east
         fdm["ic/vd-fps"] = down
         fdm["ic/p-rad_sec"], fdm["ic/q-rad_sec"], fdm["ic/r-rad_sec"] = rates
+        self._make_turbulent(atmosphere)
+        fdm["simulation/randomseed"] = self._seed
+        fdm.run_ic()
+        fdm["simulation/randomseed"] = self._seed
+        fdm["propulsion/starter_cmd"] = 0
+
+    def _make_turbulent(self, atmosphere: Atmosphere) -> None:
+        fdm = self._fdm
         if atmosphere.turbulence_severity or atmosphere.turbulence_wind_at_20ft_m_s:
             turbulence = "atmosphere/turbulence/milspec"
             fdm["atmosphere/turb-type"] = MILITARY_SPECIFICATION
@@ -177,10 +259,60 @@ class Airframe:
             fdm[f"{turbulence}/windspeed_at_20ft_AGL-fps"] = (
                 atmosphere.turbulence_wind_at_20ft_m_s / FOOT
             )
-        fdm["simulation/randomseed"] = self._seed
-        fdm.run_ic()
-        fdm["simulation/randomseed"] = self._seed
-        fdm["propulsion/starter_cmd"] = 0
+
+    def on_ground(self) -> bool:
+        """Return whether a main wheel carries weight."""
+        return any(weight() for weight in self._main_wheels_on_ground)
+
+    def nose_on_ground(self) -> bool:
+        """Return whether the nose wheel carries weight."""
+        return self._nose_wheel_on_ground() > 0.0
+
+    def set_nose_wheel(self, angle_rad: float) -> None:
+        """Turn the nose wheel, positive to the right."""
+        self._steer(angle_rad / (self._kind.ground.model_nose_wheel_deg * DEGREE))
+
+    def set_brakes(self, pedals: float) -> None:
+        """Set both brakes (0..1)."""
+        for brake in self._brakes:
+            brake(pedals)
+
+    def main_wheel_height_m(self, state: AircraftState) -> float:
+        """Return how far the unloaded main wheels are above the ground at this pitch."""
+        pitch = state.pitch_rad
+        return (
+            state.height_agl_m
+            + self._kind.dimensions.wheel_height_offset_m
+            - self._wheels_below_m * math.cos(pitch)
+            - self._wheels_aft_m * math.sin(pitch)
+        )
+
+    def clean_up(self) -> None:
+        """Retract gear, flaps and speed brakes."""
+        for retract in (self.set_gear, self.set_flaps, self.set_speed_brakes):
+            retract(0.0)
+
+    def require_engine(self, engine: int) -> None:
+        """Check that there is such an engine (counted from 0).
+
+        Raises
+        ------
+        ValueError
+            There is not.
+        """
+        if engine not in range(self._engines):
+            raise ValueError(f"engine is {engine}; expected 0 to {self._engines - 1}")
+
+    def cut_engine(self, engine: int) -> None:
+        """Stop an engine (counted from 0) for good.
+
+        ``set-running`` alone does not: the engine starts again.
+        """
+        fdm = self._fdm
+        fdm["propulsion/active_engine"] = engine
+        fdm["propulsion/cutoff_cmd"] = 1
+        fdm["propulsion/magneto_cmd"] = 0
+        fdm["propulsion/active_engine"] = -1
 
     def set_throttle(self, lever: float) -> None:
         """Set the throttle levers of all engines (0..1)."""

@@ -199,6 +199,12 @@ class Altitude:
         """Return the commanded vertical rate (m/s, positive up)."""
         return within(self._gain * (self._altitude - state.altitude_m), self._rate)
 
+    def captures(self, state: AircraftState) -> bool:
+        """Return whether the climb or descent must be levelled off now, at whatever rate it is."""
+        wanted = self._gain * (self._altitude - state.altitude_m)
+        rate = state.vertical_rate_m_s
+        return wanted <= rate if wanted > 0.0 else wanted >= rate
+
 
 class Airspeed:
     """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb.

@@ -56,6 +56,8 @@ class AircraftState(NamedTuple):
 class InitialCondition:
     """Where an aircraft begins, and how it flies there.
 
+    On approach its gear is down and its flaps are set for landing; otherwise it is clean.
+
     Raises
     ------
     ValueError
@@ -68,6 +70,7 @@ class InitialCondition:
     track_rad: float
     calibrated_airspeed_m_s: float
     vertical_rate_m_s: float = 0.0
+    on_approach: bool = False
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -78,6 +81,30 @@ class InitialCondition:
             raise ValueError(
                 f"calibrated_airspeed_m_s is {self.calibrated_airspeed_m_s}; expected more than 0"
             )
+
+
+@dataclass(frozen=True, slots=True)
+class OnGround:
+    """Where an aircraft stands on its wheels, brakes set, engines idling.
+
+    It may stand lined up on a runway, or anywhere else.
+
+    Raises
+    ------
+    ValueError
+        A value is not finite, or the latitude is outside [-pi/2, pi/2].
+    """
+
+    latitude_rad: float
+    longitude_rad: float
+    heading_rad: float
+    lined_up: bool = False
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            require_finite(field.name, getattr(self, field.name))
+        if abs(self.latitude_rad) > math.pi / 2.0:
+            raise ValueError(f"latitude_rad is {self.latitude_rad}; expected within [-pi/2, pi/2]")
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 
 import pytest
+from geographiclib.geodesic import Geodesic
 
 from airhilt.flight import (
     Aircraft,
@@ -13,7 +15,9 @@ from airhilt.flight import (
     InitialCondition,
     load_aircraft_type,
 )
-from airhilt.units import DEGREE, FOOT, KNOT
+from airhilt.flight.state import OnGround
+from airhilt.surface.runway import Place, RunwayEnd
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 
 CRUISE = {"737": (35_000, 260), "B747": (35_000, 270), "c172p": (5_000, 95), "c310": (6_000, 150)}
 """Altitude (ft) and calibrated airspeed (kt)."""
@@ -49,6 +53,90 @@ def in_cruise(
     )
 
 
+LATITUDE, LONGITUDE, COURSE = 38.85, -77.04, 10.0
+"""Of a runway's threshold, in degrees, and its true course."""
+RUNWAY_LENGTH_M = 2_200.0
+RUNWAY_ELEVATION_M = 4.0
+
+
+def along_runway(along_m: float, right_m: float = 0.0) -> Place:
+    """Return the place so far beyond the threshold and to the right of the centre line."""
+    on_line = Geodesic.WGS84.Direct(LATITUDE, LONGITUDE, COURSE, along_m)
+    there = Geodesic.WGS84.Direct(on_line["lat2"], on_line["lon2"], COURSE + 90.0, right_m)
+    return there["lat2"] * DEGREE, there["lon2"] * DEGREE
+
+
+def make_runway(ident: str, right_m: float = 0.0) -> RunwayEnd:
+    """Return the runway, or a parallel one to the right of it."""
+    threshold = along_runway(0.0, right_m)
+    return RunwayEnd(
+        ident=ident,
+        start=threshold,
+        threshold=threshold,
+        end=along_runway(RUNWAY_LENGTH_M, right_m),
+        elevation_m=RUNWAY_ELEVATION_M,
+        width_m=45.0,
+        length_m=RUNWAY_LENGTH_M,
+        displaced_m=0.0,
+        course_rad=COURSE * DEGREE,
+    )
+
+
+def on_final(
+    name: str,
+    *,
+    distance_nm: float = 2.0,
+    offset_m: float = 0.0,
+    altitude_m: float | None = None,
+    airspeed_kt: float | None = None,
+    track_deg: float = COURSE,
+    on_approach: bool = True,
+    seed: int = 1,
+    atmosphere: Atmosphere | None = None,
+) -> Aircraft:
+    """Return an aircraft on the final approach of the runway, where not told otherwise."""
+    kind = load_aircraft_type(name)
+    slope = math.tan(3.0 * DEGREE)
+    glide_path_m = (distance_nm * NAUTICAL_MILE + kind.landing.aim_m) * slope
+    height = RUNWAY_ELEVATION_M + kind.dimensions.wheel_height_offset_m + glide_path_m
+    airspeed = (airspeed_kt or kind.speeds.approach_kt) * KNOT
+    initial = InitialCondition(
+        *along_runway(-distance_nm * NAUTICAL_MILE, offset_m),
+        altitude_m=height if altitude_m is None else altitude_m,
+        track_rad=track_deg * DEGREE,
+        calibrated_airspeed_m_s=airspeed,
+        vertical_rate_m_s=-airspeed * slope if altitude_m is None else 0.0,
+        on_approach=on_approach,
+    )
+    return Aircraft(
+        kind,
+        initial,
+        seed=seed,
+        atmosphere=atmosphere or Atmosphere(),
+        terrain_elevation_m=RUNWAY_ELEVATION_M,
+    )
+
+
+def on_the_ground(
+    name: str,
+    *,
+    along_m: float = 60.0,
+    right_m: float = 0.0,
+    heading_deg: float = COURSE,
+    lined_up: bool = True,
+    seed: int = 1,
+    atmosphere: Atmosphere | None = None,
+) -> Aircraft:
+    """Return an aircraft on its wheels, lined up on the runway where not told otherwise."""
+    return Aircraft(
+        load_aircraft_type(name),
+        OnGround(*along_runway(along_m, right_m), heading_deg * DEGREE, lined_up),
+        seed=seed,
+        atmosphere=atmosphere or Atmosphere(),
+        terrain_elevation_m=RUNWAY_ELEVATION_M,
+    )
+
+
 def states(aircraft: Aircraft, seconds: float) -> Iterator[AircraftState]:
     """Fly on, and yield the state after every tick."""
     for _ in range(round(seconds * 20)):
@@ -70,3 +158,28 @@ def in_cruise_fixture() -> Callable[..., Aircraft]:
 @pytest.fixture(name="states")
 def states_fixture() -> Callable[..., Iterator[AircraftState]]:
     return states
+
+
+@pytest.fixture(name="on_final")
+def on_final_fixture() -> Callable[..., Aircraft]:
+    return on_final
+
+
+@pytest.fixture(name="on_the_ground")
+def on_the_ground_fixture() -> Callable[..., Aircraft]:
+    return on_the_ground
+
+
+@pytest.fixture(name="along_runway")
+def along_runway_fixture() -> Callable[..., Place]:
+    return along_runway
+
+
+@pytest.fixture
+def runway() -> RunwayEnd:
+    return make_runway("01")
+
+
+@pytest.fixture
+def parallel_runway() -> RunwayEnd:
+    return make_runway("01R", 400.0)

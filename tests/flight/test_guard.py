@@ -43,6 +43,32 @@ def test_the_guard_names_the_cause(change, cause, in_cruise):
     assert Guard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
 
 
+@pytest.mark.parametrize(
+    ("change", "cause"),
+    [
+        ({}, None),
+        ({"calibrated_airspeed_m_s": 20 * KNOT, "true_airspeed_m_s": 20 * KNOT}, None),
+        ({"velocity_down_m_s": 13 * FOOT}, "ground_contact"),
+        ({"pitch_rad": 15 * DEGREE}, "ground_contact"),
+        ({"roll_rad": -14 * DEGREE}, "ground_contact"),
+        ({"height_agl_m": -1.2}, "ground_contact"),
+    ],
+    ids=["soft", "slow", "hard", "tail", "wing", "gear"],
+)
+def test_only_the_wheels_may_touch_the_ground_and_softly(change, cause, on_the_ground):
+    aircraft = on_the_ground("737")
+    state = aircraft.state._replace(**change)
+    assert Guard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
+
+
+def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground):
+    aircraft = on_the_ground("737")
+    hop = aircraft.state._replace(height_agl_m=0.5, calibrated_airspeed_m_s=70 * KNOT)
+    guard = Guard(aircraft.kind)
+    assert guard.check(hop, may_touch=True, on_ground=False) is None
+    assert guard.check(hop, may_touch=False, on_ground=True) == "ground_contact"
+
+
 def test_a_state_that_is_not_finite_ends_the_flight(in_cruise, monkeypatch):
     aircraft = in_cruise("737")
     good = aircraft.state

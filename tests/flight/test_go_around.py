@@ -1,0 +1,92 @@
+"""A go-around from just above the runway climbs away, and does not touch it."""
+
+import pytest
+
+from airhilt.flight import Atmosphere
+from airhilt.units import DEGREE, FOOT, KNOT, wrap_angle
+
+TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
+
+
+def descend_to(height_ft, aircraft, runway, states):
+    """Fly the approach down to a height of the main wheels."""
+    aircraft.land(runway)
+    for state in states(aircraft, 200):
+        if aircraft._airframe.main_wheel_height_m(state) < height_ft * FOOT:
+            return
+
+
+@pytest.mark.parametrize("air", [Atmosphere(), TURBULENCE], ids=["calm", "turbulence"])
+def test_from_50_ft_it_climbs_away_without_touching(name, air, on_final, runway, states):
+    aircraft = on_final(name, atmosphere=air, distance_nm=1.0)
+    descend_to(50, aircraft, runway, states)
+    aircraft.go_around(600.0)
+    assert aircraft.phase == "go_around"
+    for state in states(aircraft, 150):
+        assert not aircraft.on_ground
+        assert aircraft._airframe.main_wheel_height_m(state) > 15 * FOOT
+    assert aircraft.ended is None
+    climbed = state.altitude_m
+    assert climbed > 400.0
+    assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 5 * DEGREE
+
+
+def test_it_levels_off_clean_on_the_runways_track(on_final, runway, states):
+    aircraft = on_final("737", distance_nm=1.0)
+    descend_to(200, aircraft, runway, states)
+    aircraft.go_around(900.0)
+    assert aircraft.target_altitude_m == 900.0
+    *_, state = states(aircraft, 150)
+    assert aircraft.phase == "en_route"
+    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
+    assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
+    assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 0.5 * DEGREE
+
+
+def test_it_turns_when_told_and_climbs_on(on_final, runway, states):
+    aircraft = on_final("737", distance_nm=1.0)
+    descend_to(100, aircraft, runway, states)
+    aircraft.go_around(900.0)
+    *_, _ = states(aircraft, 20)
+    aircraft.turn_by(30 * DEGREE)
+    assert aircraft.phase == "go_around"
+    *_, state = states(aircraft, 120)
+    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
+    turned = wrap_angle(state.track_rad - runway.course_rad)
+    assert turned == pytest.approx(30 * DEGREE, abs=1 * DEGREE)
+
+
+def test_once_more_it_lands(on_final, runway, states):
+    aircraft = on_final("c172p", distance_nm=3.0)
+    aircraft.land(runway)
+    *_, _ = states(aircraft, 10)
+    aircraft.go_around(400.0)
+    *_, _ = states(aircraft, 15)
+    aircraft.land(runway)
+    for _ in states(aircraft, 300):
+        if aircraft.on_ground:
+            break
+    assert aircraft.ended is None
+    assert aircraft.on_ground
+
+
+def test_after_touchdown_it_is_refused(on_final, runway, states):
+    aircraft = on_final("c172p", distance_nm=0.5)
+    aircraft.land(runway)
+    for _ in states(aircraft, 100):
+        if aircraft.on_ground:
+            break
+    with pytest.raises(ValueError, match="expected glide or flare"):
+        aircraft.go_around(500.0)
+
+
+def test_without_an_approach_it_is_refused(on_final):
+    with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
+        on_final("737").go_around(1_000.0)
+
+
+def test_an_altitude_that_is_not_above_is_refused(on_final, runway):
+    aircraft = on_final("737")
+    aircraft.land(runway)
+    with pytest.raises(ValueError, match="expected more than the altitude now"):
+        aircraft.go_around(50.0)

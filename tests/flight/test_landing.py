@@ -1,0 +1,189 @@
+"""An aircraft lands where and as softly as it should, and leaves the runway."""
+
+import math
+
+import pytest
+
+from airhilt.flight import Atmosphere
+from airhilt.flight.procedures.final import Final
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+
+TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
+TOUCHDOWN_ZONE_M = 3_000 * FOOT
+"""FAA Pilot/Controller Glossary."""
+JOINING = {"737": (10.0, 220), "B747": (12.0, 230), "c172p": (5.0, 95), "c310": (7.0, 140)}
+"""From where (NM) and how fast (kt) the final approach is joined."""
+SOFT_FPM = {"737": 250, "B747": 250, "c172p": 200, "c310": 200}
+
+
+def wind_from_left(knots, runway):
+    course = runway.course_rad
+    return Atmosphere(-knots * KNOT * math.sin(course), knots * KNOT * math.cos(course))
+
+
+class Landing:
+    """What a landing was like, in the units of the targets."""
+
+    def __init__(self, aircraft, runway, states, exit_path=()):
+        final = Final(runway, aircraft.kind)
+        aircraft.land(runway, exit_path)
+        self.phases = [aircraft.phase]
+        self.touchdown = None
+        sink_m_s = 0.0
+        self.bounce_m = self.off_centre_m = self.off_glide_path_m = 0.0
+        for state in states(aircraft, 400):
+            if aircraft.phase != self.phases[-1]:
+                self.phases.append(aircraft.phase)
+            on_ground = aircraft.on_ground
+            if self.touchdown is None:
+                if on_ground:
+                    self.touchdown = state
+                    self.touchdown_m = final.along_m(state)
+                    self.sink_fpm = sink_m_s / FOOT_PER_MINUTE
+                elif aircraft.phase == "glide" and final.along_m(state) < -100.0:
+                    off = abs(final.above_glide_path_m(state))
+                    self.off_glide_path_m = max(self.off_glide_path_m, off)
+            elif aircraft.phase == "rollout":
+                self.off_centre_m = max(self.off_centre_m, abs(final.cross_track_m(state)))
+                if not on_ground:
+                    height = aircraft._airframe.main_wheel_height_m(state)
+                    self.bounce_m = max(self.bounce_m, height)
+            sink_m_s = state.velocity_down_m_s
+            if aircraft.phase == "standing" or aircraft.ended:
+                break
+        self.ended = aircraft.ended
+        self.state = state
+
+
+@pytest.mark.parametrize("wind_kt", [0, 15, -15])
+def test_it_lands_in_the_touchdown_zone_and_stops_on_the_centre_line(
+    name, wind_kt, on_final, runway, states
+):
+    aircraft = on_final(name, atmosphere=wind_from_left(wind_kt, runway))
+    landing = Landing(aircraft, runway, states)
+    assert landing.ended is None
+    assert landing.phases == ["glide", "flare", "rollout", "standing"]
+    assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
+    assert landing.sink_fpm < SOFT_FPM[name]
+    assert landing.off_glide_path_m < 10 * FOOT
+    assert landing.bounce_m < 2 * FOOT
+    assert landing.off_centre_m < 20 * FOOT
+    assert landing.state.ground_speed_m_s < 1.0
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(
+    name, seed, on_final, runway, states
+):
+    landing = Landing(on_final(name, atmosphere=TURBULENCE, seed=seed), runway, states)
+    assert landing.ended is None
+    assert landing.off_glide_path_m > 1 * FOOT
+    assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
+    assert landing.sink_fpm < SOFT_FPM[name]
+    assert landing.bounce_m < 2 * FOOT
+    assert landing.off_centre_m < 20 * FOOT
+
+
+def test_a_landing_is_the_same_bit_by_bit(name, on_final, runway, states):
+    def last():
+        aircraft = on_final(name, atmosphere=TURBULENCE, seed=5, distance_nm=1.0)
+        return tuple(Landing(aircraft, runway, states).state)
+
+    assert last() == last()
+
+
+def test_it_leaves_the_runway_at_the_exit_and_stands_at_its_end(
+    name, on_final, runway, along_runway, states
+):
+    exit_m = 1_900.0 if name in {"737", "B747"} else 800.0
+    curve = [
+        along_runway(exit_m + 30 * math.sin(a * DEGREE), 30 * (1 - math.cos(a * DEGREE)))
+        for a in range(0, 91, 10)
+    ]
+    exit_path = [*curve, along_runway(exit_m + 30, 150)]
+    landing = Landing(on_final(name), runway, states, exit_path)
+    assert landing.phases == ["glide", "flare", "rollout", "vacate", "standing"]
+    final = Final(runway, on_final(name).kind)
+    assert final.along_m(landing.state) == pytest.approx(exit_m + 30, abs=2.0)
+    assert final.cross_track_m(landing.state) == pytest.approx(150, abs=3.0)
+
+
+def test_it_joins_the_final_approach_from_the_side_clean_and_fast(name, on_final, runway, states):
+    distance_nm, airspeed_kt = JOINING[name]
+    aircraft = on_final(
+        name,
+        distance_nm=distance_nm,
+        offset_m=0.15 * distance_nm * NAUTICAL_MILE,
+        altitude_m=0.045 * distance_nm * NAUTICAL_MILE,
+        airspeed_kt=airspeed_kt,
+        on_approach=False,
+    )
+    landing = Landing(aircraft, runway, states)
+    assert landing.ended is None
+    assert landing.phases[:3] == ["glide", "flare", "rollout"]
+    assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
+    assert landing.sink_fpm < SOFT_FPM[name]
+
+
+def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(on_final, runway, states):
+    aircraft = on_final("737")
+    aircraft.land(runway)
+    *_, _ = states(aircraft, 10)
+    aircraft.hold_altitude(900.0)
+    assert aircraft.phase == "en_route"
+    *_, state = states(aircraft, 150)
+    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
+    assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
+
+
+def test_a_runway_that_cannot_be_reached_is_refused(on_final, runway):
+    aside = on_final("737", offset_m=9_000.0)
+    with pytest.raises(ValueError, match="68 degrees off the final approach course of runway 01"):
+        aside.land(runway)
+    beyond = on_final("737", distance_nm=-2.0, altitude_m=500.0)
+    with pytest.raises(ValueError, match="threshold of runway 01 is 3704 m behind"):
+        beyond.land(runway)
+    far = on_final("737", distance_nm=40.0, altitude_m=3_000.0)
+    with pytest.raises(ValueError, match="40 NM away"):
+        far.land(runway)
+    away = on_final("737", track_deg=190.0)
+    with pytest.raises(ValueError, match="flies away from runway 01"):
+        away.land(runway)
+
+
+def test_on_the_ground_no_en_route_command_is_taken(on_final, runway, states):
+    aircraft = on_final("c172p", distance_nm=1.0)
+    Landing(aircraft, runway, states)
+    for command in (
+        lambda: aircraft.hold_altitude(500.0),
+        lambda: aircraft.hold_track(1.0),
+        lambda: aircraft.hold_speed(50.0),
+        lambda: aircraft.land(runway),
+        lambda: aircraft.go_around(500.0),
+    ):
+        with pytest.raises(ValueError, match=r"in phase standing"):
+            command()
+
+
+def test_side_stepping_it_lands_on_the_parallel_runway(on_final, runway, parallel_runway, states):
+    aircraft = on_final("737", distance_nm=5.0)
+    aircraft.land(runway)
+    *_, _ = states(aircraft, 10)
+    aircraft.side_step(parallel_runway)
+    landing = Landing(aircraft, parallel_runway, states)
+    assert landing.ended is None
+    assert landing.sink_fpm < SOFT_FPM["737"]
+    assert landing.off_centre_m < 20 * FOOT
+
+
+def test_a_side_step_too_late_or_too_wide_is_refused(on_final, runway, parallel_runway, states):
+    aircraft = on_final("737", distance_nm=0.6)
+    aircraft.land(runway)
+    with pytest.raises(ValueError, match="expected at least 300 ft"):
+        aircraft.side_step(parallel_runway)
+    near = on_final("737", distance_nm=1.2)
+    near.land(runway)
+    with pytest.raises(ValueError, match="left to join it"):
+        near.side_step(parallel_runway)
+    with pytest.raises(ValueError, match="side_step in phase en_route; expected glide"):
+        on_final("737").side_step(parallel_runway)

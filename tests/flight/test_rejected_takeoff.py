@@ -1,0 +1,60 @@
+"""A takeoff that is rejected ends standing on the runway."""
+
+import math
+
+import pytest
+
+from airhilt.flight import Atmosphere
+from airhilt.flight.procedures.final import Final
+from airhilt.units import DEGREE, FOOT, KNOT
+
+COURSE = 10.0
+REJECTED_AT_KT = {"737": 100, "B747": 100, "c172p": 40, "c310": 70}
+CROSSWIND = Atmosphere(
+    -15 * KNOT * math.sin(COURSE * DEGREE), 15 * KNOT * math.cos(COURSE * DEGREE)
+)
+
+
+def roll_to(aircraft, airspeed_kt, states):
+    for state in states(aircraft, 60):
+        if state.calibrated_airspeed_m_s >= airspeed_kt * KNOT:
+            return state
+    raise AssertionError(aircraft.phase)
+
+
+@pytest.mark.parametrize("air", [Atmosphere(), CROSSWIND], ids=["calm", "crosswind"])
+def test_it_stops_within_3000_ft_on_the_centre_line(air, name, on_the_ground, runway, states):
+    aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
+    line = Final(runway, aircraft.kind)
+    aircraft.take_off(runway, 500.0)
+    rejected_m = line.along_m(roll_to(aircraft, REJECTED_AT_KT[name], states))
+    aircraft.reject_takeoff()
+    assert aircraft.phase == "rejected_takeoff"
+    for state in states(aircraft, 60):
+        assert abs(line.cross_track_m(state)) < 20 * FOOT
+    assert aircraft.phase == "standing"
+    assert aircraft.ended is None
+    assert line.along_m(aircraft.state) - rejected_m < 3_000 * FOOT
+
+
+def test_it_can_take_off_after_all(on_the_ground, runway, states):
+    aircraft = on_the_ground("c172p")
+    aircraft.take_off(runway, 100.0)
+    roll_to(aircraft, 30, states)
+    aircraft.reject_takeoff()
+    for _ in states(aircraft, 30):
+        pass
+    aircraft.take_off(runway, 100.0)
+    for _ in states(aircraft, 60):
+        pass
+    assert aircraft.phase == "en_route"
+
+
+def test_only_a_takeoff_roll_is_rejected(on_the_ground, runway, states):
+    aircraft = on_the_ground("c172p")
+    with pytest.raises(ValueError, match="reject_takeoff in phase lined_up; expected takeoff_roll"):
+        aircraft.reject_takeoff()
+    aircraft.take_off(runway, 500.0)
+    roll_to(aircraft, aircraft.kind.speeds.rotate_kt + 2, states)
+    with pytest.raises(ValueError, match="expected takeoff_roll"):
+        aircraft.reject_takeoff()

@@ -1,0 +1,138 @@
+"""An aircraft takes off along the runway and climbs out, whatever the air does."""
+
+import math
+
+import pytest
+
+from airhilt.flight import Atmosphere
+from airhilt.flight.procedures.final import Final
+from airhilt.units import DEGREE, FOOT, KNOT
+
+COURSE = 10.0
+CLIMB_TO_M = 300.0
+TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
+
+
+def crosswind(from_left_kt):
+    return Atmosphere(
+        -from_left_kt * KNOT * math.sin(COURSE * DEGREE),
+        from_left_kt * KNOT * math.cos(COURSE * DEGREE),
+    )
+
+
+class Takeoff:
+    """What a takeoff was like."""
+
+    def __init__(self, aircraft, runway, states):
+        line = Final(runway, aircraft.kind)
+        self.phases = [aircraft.phase]
+        self.off_centre_m = self.pitch_on_ground_rad = self.lost_m = 0.0
+        highest = 0.0
+        for state in states(aircraft, 200):
+            if aircraft.phase != self.phases[-1]:
+                self.phases.append(aircraft.phase)
+            if aircraft.on_ground:
+                self.off_centre_m = max(self.off_centre_m, abs(line.cross_track_m(state)))
+                self.pitch_on_ground_rad = max(self.pitch_on_ground_rad, state.pitch_rad)
+            highest = max(highest, state.height_agl_m)
+            self.lost_m = max(self.lost_m, highest - state.height_agl_m)
+            if aircraft.phase == "en_route" or aircraft.ended:
+                break
+
+
+@pytest.mark.parametrize(
+    "air", [crosswind(15), crosswind(-15), TURBULENCE], ids=["left", "right", "turbulence"]
+)
+def test_it_keeps_to_the_centre_line_and_strikes_nothing(air, name, on_the_ground, runway, states):
+    aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
+    aircraft.take_off(runway, CLIMB_TO_M)
+    takeoff = Takeoff(aircraft, runway, states)
+    assert takeoff.phases == ["takeoff_roll", "rotate", "climb_out", "en_route"]
+    assert takeoff.off_centre_m < 20 * FOOT
+    assert takeoff.pitch_on_ground_rad < aircraft.kind.ground.tail_contact_deg * DEGREE
+    assert takeoff.lost_m < 3.0
+
+
+def test_it_levels_off_clean_on_the_runway_track(name, on_the_ground, runway, states):
+    aircraft = on_the_ground(name)
+    aircraft.take_off(runway, CLIMB_TO_M)
+    speeds = aircraft.kind.speeds
+    *_, state = states(aircraft, 240)
+    assert aircraft.phase == "en_route"
+    assert abs(state.altitude_m - CLIMB_TO_M) < 10.0
+    assert abs(state.track_rad - COURSE * DEGREE) < 1.0 * DEGREE
+    assert state.calibrated_airspeed_m_s > (speeds.minimum_clean_kt - 5) * KNOT
+    assert aircraft._airframe._fdm["fcs/flap-cmd-norm"] == 0.0
+    assert aircraft._airframe._fdm["gear/gear-cmd-norm"] == 0.0
+
+
+def test_it_takes_off_after_lining_up(on_the_ground, along_runway, runway, states):
+    aircraft = on_the_ground("737", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
+    bend = [
+        (30.0 + 40.0 * (1.0 - math.cos(a)), 40.0 - 40.0 * math.sin(a))
+        for a in (math.pi / 2.0 * step / 12 for step in range(13))
+    ]
+    points = [(30.0, 80.0), *bend, (110.0, 0.0)]
+    aircraft.taxi([along_runway(*point) for point in points], then="lined_up")
+    with pytest.raises(ValueError, match="expected lined up"):
+        aircraft.take_off(runway, CLIMB_TO_M)
+    for _ in states(aircraft, 90):
+        if aircraft.phase == "lined_up":
+            break
+    aircraft.take_off(runway, CLIMB_TO_M)
+    takeoff = Takeoff(aircraft, runway, states)
+    assert takeoff.phases[-1] == "en_route"
+    assert takeoff.off_centre_m < 20 * FOOT
+
+
+def test_it_takes_off_rolling(on_the_ground, along_runway, runway, states):
+    aircraft = on_the_ground("737")
+    aircraft.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
+    *_, state = states(aircraft, 20)
+    assert state.ground_speed_m_s > 5.0
+    aircraft.take_off(runway, CLIMB_TO_M)
+    slowest = min(state.ground_speed_m_s for state in states(aircraft, 10))
+    assert slowest > 5.0
+    assert Takeoff(aircraft, runway, states).phases[-1] == "en_route"
+
+
+def test_commands_in_the_climb_are_flown_above_400_ft(on_the_ground, runway, states):
+    aircraft = on_the_ground("737")
+    aircraft.take_off(runway, 1_500.0)
+    for _ in states(aircraft, 60):
+        if aircraft.phase == "climb_out":
+            break
+    aircraft.hold_track((COURSE + 40.0) * DEGREE)
+    aircraft.hold_altitude(600.0)
+    for state in states(aircraft, 120):
+        if state.height_agl_m < 350 * FOOT:
+            assert abs(state.roll_rad) < 5.0 * DEGREE
+    assert aircraft.phase == "en_route"
+    assert abs(state.altitude_m - 600.0) < 10.0
+    assert abs(state.track_rad - (COURSE + 40.0) * DEGREE) < 1.0 * DEGREE
+
+
+def test_a_takeoff_that_cannot_be_is_refused(in_cruise, on_the_ground, runway):
+    with pytest.raises(ValueError, match="take_off in phase en_route in the air"):
+        in_cruise("737").take_off(runway, CLIMB_TO_M)
+    with pytest.raises(ValueError, match="60 m beside the centre line of runway 01"):
+        on_the_ground("737", right_m=60.0).take_off(runway, CLIMB_TO_M)
+    with pytest.raises(ValueError, match="90 degrees off its course"):
+        on_the_ground("737", heading_deg=COURSE + 90.0).take_off(runway, CLIMB_TO_M)
+    with pytest.raises(ValueError, match="2300 m beyond the beginning of runway 01"):
+        on_the_ground("737", along_m=runway.length_m + 100.0).take_off(runway, CLIMB_TO_M)
+    with pytest.raises(ValueError, match="climb_to_m"):
+        on_the_ground("737").take_off(runway, 0.0)
+    with pytest.raises(ValueError, match="climb_to_m"):
+        on_the_ground("737").take_off(runway, math.nan)
+
+
+def test_the_same_seed_gives_the_same_takeoff(name, on_the_ground, runway, states):
+    def flown(seed):
+        aircraft = on_the_ground(name, seed=seed, atmosphere=TURBULENCE)
+        aircraft.take_off(runway, CLIMB_TO_M)
+        *_, last = states(aircraft, 40)
+        return tuple(last)
+
+    assert flown(7) == flown(7)
+    assert flown(7) != flown(8)

@@ -1,0 +1,163 @@
+"""On the ground an aircraft follows its path, stops where it shall, and stays there."""
+
+import math
+
+import pytest
+from shapely import LineString, Point
+
+from airhilt.flight import Atmosphere
+from airhilt.surface.plane import Plane
+from airhilt.units import DEGREE, KNOT
+
+COURSE = 10.0
+RADIUS_M = 30.0
+BEND_AT_M = 120.0
+END = (BEND_AT_M + RADIUS_M, 150.0)
+"""Along and to the right of the runway."""
+
+
+def wind_from(degrees, kt=15.0):
+    to = (degrees + 180.0) * DEGREE
+    return Atmosphere(kt * KNOT * math.cos(to), kt * KNOT * math.sin(to))
+
+
+def corner(place):
+    """Return a path ahead, around a bend to the right, and on."""
+    bend = [math.pi / 2.0 * step / 12 for step in range(13)]
+    points = [
+        (0.0, 0.0),
+        *((BEND_AT_M + RADIUS_M * math.sin(a), RADIUS_M * (1.0 - math.cos(a))) for a in bend),
+        END,
+    ]
+    return [place(*point) for point in points]
+
+
+def distances_to(path, flown):
+    """Return how far from the path each of the places is (m)."""
+    plane = Plane(path[0], 0.0)
+    line = LineString([plane.to_local(place) for place in path])
+    return [line.distance(Point(plane.to_local(place))) for place in flown]
+
+
+def place_of(state):
+    return state.latitude_rad, state.longitude_rad
+
+
+@pytest.mark.parametrize(
+    "wind", [Atmosphere(), wind_from(COURSE + 90.0)], ids=["calm", "crosswind"]
+)
+def test_it_follows_the_path_and_stops_at_its_end(wind, name, on_the_ground, along_runway, states):
+    aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind)
+    path = corner(along_runway)
+    aircraft.taxi(path)
+    assert aircraft.phase == "taxi"
+    flown = []
+    for state in states(aircraft, 120):
+        flown.append(state)
+        if aircraft.phase == "standing":
+            break
+    assert aircraft.phase == "standing"
+    assert aircraft.ended is None
+    assert distances_to([path[-1]] * 2, [place_of(aircraft.state)])[0] < 0.5
+    off = distances_to(path, map(place_of, flown))
+    assert max(off) < 3.5
+    plane = Plane(path[0], 0.0)
+    before_bend = [
+        distance
+        for distance, state in zip(off, flown, strict=True)
+        if math.hypot(*plane.to_local(place_of(state))) < BEND_AT_M
+    ]
+    assert max(before_bend) < 2.0
+    assert max(off[-20:]) < 2.0
+
+
+def test_it_slows_down_for_a_bend(on_the_ground, along_runway, states):
+    aircraft = on_the_ground("737", along_m=0.0)
+    aircraft.taxi(corner(along_runway), 20 * KNOT)
+    fastest = sideways = 0.0
+    turned = COURSE * DEGREE
+    for state in states(aircraft, 60):
+        fastest = max(fastest, state.ground_speed_m_s)
+        sideways = max(sideways, state.ground_speed_m_s * abs(state.heading_rad - turned) * 20.0)
+        turned = state.heading_rad
+    assert 17 * KNOT < fastest < 21 * KNOT
+    assert sideways < 1.3
+
+
+def test_it_holds_its_position_and_goes_on(name, on_the_ground, along_runway, states):
+    aircraft = on_the_ground(name, along_m=0.0)
+    aircraft.taxi([along_runway(0.0), along_runway(200.0)])
+    *_, moving = states(aircraft, 20)
+    aircraft.hold_position()
+    *_, held = states(aircraft, 15)
+    needed = distances_to([place_of(moving)] * 2, [place_of(held)])[0]
+    assert needed < 0.5 * moving.ground_speed_m_s**2 / 1.0
+    *_, later = states(aircraft, 60)
+    assert distances_to([place_of(held)] * 2, [place_of(later)])[0] < 0.01
+    assert aircraft.phase == "standing"
+    aircraft.resume_taxi()
+    for _ in states(aircraft, 10):
+        pass
+    assert aircraft.phase == "taxi"
+    for _ in states(aircraft, 90):
+        pass
+    end = [along_runway(200.0)] * 2
+    assert distances_to(end, [place_of(aircraft.state)])[0] < 0.5
+
+
+@pytest.mark.parametrize("from_deg", [0.0, 90.0, 180.0, 270.0])
+def test_it_stands_still_in_any_wind(from_deg, name, on_the_ground, states):
+    aircraft = on_the_ground(name, lined_up=False, atmosphere=wind_from(COURSE + from_deg, 30.0))
+    _, *later = states(aircraft, 60)
+    assert set(later) == {aircraft.state}
+    assert aircraft.state.ground_speed_m_s == 0.0
+    assert aircraft.phase == "standing"
+    assert aircraft.on_ground
+
+
+@pytest.mark.parametrize("from_deg", [90.0, 180.0])
+def test_no_wind_tips_it_over(from_deg, name, on_the_ground, along_runway, states):
+    aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind_from(COURSE + from_deg, 25.0))
+    standing = aircraft.state.pitch_rad
+    aircraft.taxi(corner(along_runway))
+    for state in states(aircraft, 60):
+        assert abs(state.pitch_rad - standing) < 3.0 * DEGREE
+        assert abs(state.roll_rad) < 3.0 * DEGREE
+    assert aircraft.ended is None
+
+
+def test_it_lines_up_when_told_so(on_the_ground, along_runway, states):
+    aircraft = on_the_ground("c172p", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
+    lead_in = [(30.0, 80.0), (30.0, 30.0), (39.0, 9.0), (60.0, 0.0), (120.0, 0.0)]
+    aircraft.taxi([along_runway(*point) for point in lead_in], then="lined_up")
+    assert aircraft.phase == "line_up"
+    for _ in states(aircraft, 90):
+        pass
+    assert aircraft.phase == "lined_up"
+    assert abs(aircraft.state.heading_rad - COURSE * DEGREE) < 2.0 * DEGREE
+
+
+def test_what_belongs_to_the_ground_is_refused_in_the_air(in_cruise, along_runway):
+    aircraft = in_cruise("c172p")
+    with pytest.raises(ValueError, match="taxi in phase en_route in the air"):
+        aircraft.taxi([along_runway(0.0), along_runway(100.0)])
+    with pytest.raises(ValueError, match="hold_position in phase en_route; expected taxi"):
+        aircraft.hold_position()
+
+
+def test_what_belongs_to_the_air_is_refused_on_the_ground(on_the_ground):
+    aircraft = on_the_ground("c172p")
+    for command in (
+        lambda: aircraft.hold_altitude(1_000.0),
+        lambda: aircraft.hold_track(0.0),
+        lambda: aircraft.turn_by(1.0),
+        lambda: aircraft.hold_speed(40.0),
+    ):
+        with pytest.raises(ValueError, match="on the ground"):
+            command()
+    assert aircraft.phase == "lined_up"
+
+
+def test_a_path_needs_places(on_the_ground):
+    with pytest.raises(ValueError, match="path"):
+        on_the_ground("c172p").taxi([])
