@@ -8,26 +8,30 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
-from airhilt.actors import Flight, build_fleet
+from airhilt.actors import Performer, Unable, build_cast
+from airhilt.actors.cues import Cues
 from airhilt.bus.attach import attach
 from airhilt.bus.exchange import Exchange
 from airhilt.bus.session import Bus
+from airhilt.commands import Command
 from airhilt.errors import AirhiltError, RunStopped, ScenarioError, WorkerError, first_problem
+from airhilt.flight import Aircraft, load_aircraft_type
 from airhilt.messages import (
     ActorCommand,
+    ActorTruth,
     AdsbReport,
     Advisory,
-    AircraftTruth,
+    AirportBriefing,
     Briefing,
     Clock,
     ConflictPhase,
@@ -38,6 +42,8 @@ from airhilt.messages import (
     Modality,
     ModalityState,
     Phase,
+    RosterEntry,
+    RunwayBriefing,
     SpokenTruth,
     Status,
     Transcript,
@@ -48,12 +54,23 @@ from airhilt.metrics.conditions import ConditionCompiler
 from airhilt.metrics.monitor import ConflictMonitor, Pair
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.report import write_report
+from airhilt.metrics.runways import Incursion, RunwayMonitor
 from airhilt.metrics.summary import Summary
 from airhilt.radio.script import RadioScript, Spoken
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
 from airhilt.scenario import Scenario, check, realise
-from airhilt.scenario.models import ScriptedCommand, Separation
+from airhilt.scenario.failures import HappeningLine, as_it_happens
+from airhilt.scenario.geometry import Setting, Site
+from airhilt.scenario.models import (
+    AircraftActor,
+    Condition,
+    EngineFailure,
+    ScriptedCommand,
+    Separation,
+    VehicleActor,
+    WildlifeActor,
+)
 from airhilt.scenario.perturbation import Draw
 from airhilt.sim import (
     Director,
@@ -72,6 +89,10 @@ from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, bearing_degree
 from airhilt.workers import LocalWorker
 from airhilt.workers.decision import DecisionWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
+
+if TYPE_CHECKING:
+    from airhilt.surface.layout import Layout
+    from airhilt.surface.runway import Place
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -192,7 +213,8 @@ def run(
     name = options.run_name or f"{scenario.name}-{options.seed}"
     folder = RunFolder(options.out or _default_folder(name))
     folder.require_free(options.overwrite)
-    flights = build_fleet(realised, options.seed, TICK_S)
+    setting = Setting.of(realised)
+    cast = build_cast(realised, setting, options.seed, TICK_S)
     with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
         participants, programs = _participants(options, bus, observer, recorded)
@@ -203,10 +225,11 @@ def run(
         folder.write_info(info)
         simulation = Simulation(
             realised,
+            setting,
             options,
             bus,
             folder,
-            flights,
+            cast,
             participants,
             programs,
             latency,
@@ -334,10 +357,11 @@ class Simulation:
     def __init__(
         self,
         scenario: Scenario,
+        setting: Setting,
         options: Options,
         bus: Bus,
         folder: RunFolder,
-        flights: dict[str, Flight],
+        cast: dict[str, Performer],
         participants: Sequence[Participant],
         programs: Sequence[str],
         latency: LatencySpec,
@@ -345,11 +369,16 @@ class Simulation:
         observer: Observer,
     ) -> None:
         self._scenario = scenario
+        self._setting = setting
         self._options = options
         self._bus = bus
         self._folder = folder
-        self._flights = flights
-        self._by_address = {flight.actor.icao24: flight for flight in flights.values()} | flights
+        self._cast = cast
+        self._by_address = {
+            performer.actor.icao24: performer
+            for performer in cast.values()
+            if not isinstance(performer.actor, WildlifeActor)
+        } | cast
         """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
         self._observer = observer
         self._director = Director(pace)
@@ -365,24 +394,41 @@ class Simulation:
         )
         self._ended_lines: set[str] = set()
 
-        aircraft = {callsign: flight.aircraft for callsign, flight in flights.items()}
+        self._cues = Cues()
+        self._misled: set[str] = set()
+        """Actors that act under a failure that has happened."""
         self._pair = pair_of(scenario)
         self._monitor = ConflictMonitor(
-            aircraft,
+            {c: p.body for c, p in cast.items() if isinstance(p.body, Aircraft)},
+            {c: p.body for c, p in cast.items() if not isinstance(p.body, Aircraft)},
             _minima(scenario.separation),
-            scenario.scene.terrain_elevation_ft * FOOT,
+            setting.ground_m,
+            _zone(setting),
             TICK_S,
             frozenset() if self._pair is None else frozenset({self._pair}),
             self._became_true,
         )
-        compiler = ConditionCompiler(aircraft, self._monitor, self._ended_lines)
-        self._opens = (
-            None if scenario.conflict is None else compiler.compile(scenario.conflict.opens_when)
+        self._runways = None
+        if setting.layout is not None:
+            self._runways = RunwayMonitor(
+                setting.layout, cast, self._misled, self._exchange.publish, self._incurred
+            )
+        self._conditions = ConditionCompiler(cast, self._monitor, self._runways, self._ended_lines)
+        compiled = self._conditions.compile
+        self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
+        self._ends = [compiled(condition) for condition in scenario.end_when]
+        lines = as_it_happens(scenario)
+        script = RadioScript(
+            self._director,
+            lines,
+            scenario.radio.words_per_minute,
+            self._once,
+            self._failed,
+            self._spoken,
         )
-        self._ends = [compiler.compile(condition) for condition in scenario.end_when]
-        lines = scenario.radio.lines
-        script = RadioScript(self._director, lines, scenario.radio.words_per_minute, self._spoken)
-        self._collector = Collector(scenario, self._monitor, Plans(lines, script))
+        self._collector = Collector(
+            scenario, setting.ground_m, self._monitor, self._runways, Plans(lines, script)
+        )
         self._pool = WorkerPool(
             self._director,
             participants,
@@ -398,7 +444,8 @@ class Simulation:
         self._sensor = AdsbSensor(
             self._director,
             scenario,
-            flights,
+            setting,
+            cast,
             latency,
             options.seed,
             state_at_ns=lambda: self._ticked_ns,
@@ -406,6 +453,7 @@ class Simulation:
             done=self._latency_log.step,
         )
         self._schedule_world()
+        self._schedule_occurrences()
         self._serve_bus(participants)
 
     # --- the run ----------------------------------------------------------------------------
@@ -475,7 +523,7 @@ class Simulation:
         tick_ns = seconds_to_ns(TICK_S)
         every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
         every(TRUTH_PERIOD_NS, self._publish_truth, Priority.SENSOR)
-        every(CONDITION_PERIOD_NS, self._watch_window, Priority.OBSERVE)
+        every(CONDITION_PERIOD_NS, self._look_around, Priority.OBSERVE)
         every(END_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
         every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
         every(SECOND_NS, self._log.flush, Priority.OBSERVE, first_ns=SECOND_NS)
@@ -484,7 +532,7 @@ class Simulation:
 
     def _end_if_due(self) -> None:
         now_ns = self._director.now_ns
-        everybody_ended = all(f.aircraft.ended is not None for f in self._flights.values())
+        everybody_ended = all(p.body.ended is not None for p in self._cast.values())
         if everybody_ended or any(test(now_ns) for test in self._ends):
             self._director.stop()
 
@@ -492,19 +540,53 @@ class Simulation:
 
     def _tick(self) -> None:
         now_ns = self._director.now_ns
-        for flight in self._flights.values():
-            aircraft = flight.aircraft
-            if aircraft.ended is None:
-                aircraft.advance()
-                if aircraft.ended is not None:
-                    self._actor_ended(flight)
+        for performer in self._cast.values():
+            body = performer.body
+            if body.ended is None:
+                body.advance()
+                if body.ended is not None:
+                    self._actor_ended(performer)
         self._ticked_ns = now_ns
         self._monitor.tick(now_ns)
 
-    def _actor_ended(self, flight: Flight) -> None:
-        callsign, cause = flight.actor.callsign, flight.aircraft.ended or ""
+    def _actor_ended(self, performer: Performer) -> None:
+        callsign, cause = performer.actor.callsign, performer.body.ended or ""
         self._collector.ended_actors[callsign] = cause
         self._event("actor_ended", callsign, cause)
+
+    def _look_around(self) -> None:
+        """Let everything that waits for the world to be so look whether it is."""
+        now_ns = self._director.now_ns
+        for performer in self._cast.values():
+            if performer.body.ended is None:
+                try:
+                    performer.attend()
+                except Unable as unable:
+                    self._event("unable", performer.actor.callsign, str(unable))
+        if self._runways is not None:
+            self._runways.look(now_ns)
+        self._cues.look(now_ns)
+        self._watch_window()
+
+    def _once(self, condition: Condition, action: Callable[[], None]) -> None:
+        self._cues.once(self._conditions.compile(condition), action)
+
+    def _schedule_occurrences(self) -> None:
+        """Let engines fail, and wildlife move, when the scenario says so."""
+        for failure in self._scenario.failures:
+            if isinstance(failure, EngineFailure):
+                self._once(failure.when, partial(self._fail_engine, failure))
+        for performer in self._cast.values():
+            if isinstance(performer.actor, WildlifeActor):
+                for cue in performer.actor.plan:
+                    action = partial(self._do, performer.actor.callsign, cue.command)
+                    self._once(cue.when, action)
+
+    def _fail_engine(self, failure: EngineFailure) -> None:
+        body = self._cast[failure.actor].body
+        if isinstance(body, Aircraft) and body.ended is None:
+            body.fail_engine(failure.engine)
+            self._event("failure", failure.actor, f"engine {failure.engine} stops")
 
     def _watch_window(self) -> None:
         """Open the conflict window on its condition; close it once the pair is past it."""
@@ -541,10 +623,28 @@ class Simulation:
             ),
         )
         if phase == "collision":
+            if self._runways is not None:
+                self._runways.collided(*pair)
             for callsign, other in (pair, pair[::-1]):
-                flight = self._flights[callsign]
-                flight.aircraft.ended = f"collision with {other}"
-                self._actor_ended(flight)
+                performer, struck = self._cast[callsign], self._cast[other]
+                if struck.category == "wildlife" and not struck.body.on_ground:
+                    continue  # An aircraft flies on after a bird strike.
+                performer.body.ended = f"collision with {other}"
+                self._actor_ended(performer)
+
+    def _incurred(self, incursion: Incursion) -> None:
+        actors = (incursion.user, incursion.intruder)
+        self._exchange.publish(
+            "truth/conflict",
+            ConflictTruth(
+                t_ns=self._director.now_ns,
+                phase="runway_incursion",
+                actors=tuple(actor for actor in actors if actor is not None),
+                horizontal_m=incursion.closest.horizontal_m if incursion.closest else None,
+                vertical_m=incursion.closest.vertical_m if incursion.closest else None,
+                runway=incursion.runway.replace("/", "-"),
+            ),
+        )
 
     def _publish_conflict(self, phase: ConflictPhase, pair: Pair) -> None:
         self._exchange.publish(
@@ -554,9 +654,9 @@ class Simulation:
 
     def _publish_truth(self) -> None:
         now_ns = self._director.now_ns
-        for callsign, flight in self._flights.items():
-            if flight.aircraft.ended is None:
-                self._exchange.publish(f"truth/state/{callsign}", _truth_of(flight, now_ns))
+        for callsign, performer in self._cast.items():
+            if performer.body.ended is None:
+                self._exchange.publish(f"truth/state/{callsign}", _truth_of(performer, now_ns))
 
     # --- sensors ----------------------------------------------------------------------------
 
@@ -588,28 +688,47 @@ class Simulation:
         for scripted in line.commands:
             self._director.at(
                 now_ns + seconds_to_ns(scripted.delay_s),
-                partial(self._carry_out, scripted),
+                partial(self._when_due, scripted),
                 Priority.SCRIPT,
             )
 
-    def _carry_out(self, scripted: ScriptedCommand) -> None:
-        self._flights[scripted.actor].crew.command(scripted.command)
-        self._event("command", scripted.actor, scripted.command.model_dump_json())
+    def _failed(self, happening: HappeningLine) -> None:
+        self._misled |= happening.misled
+        for text in happening.failures:
+            self._event("failure", happening.declared.id, text)
+
+    def _when_due(self, scripted: ScriptedCommand) -> None:
+        action = partial(self._do, scripted.actor, scripted.command)
+        if scripted.when is None:
+            action()
+        else:
+            self._once(scripted.when, action)
+
+    def _do(self, callsign: str, command: Command) -> None:
+        """Let an actor do as it was told, or say that it cannot."""
+        performer = self._cast[callsign]
+        if performer.body.ended is not None:
+            return
+        self._event("command", callsign, command.model_dump_json(exclude_none=True))
+        try:
+            performer.command(command)
+        except Unable as unable:
+            self._event("unable", callsign, str(unable))
 
     # --- the loop closes --------------------------------------------------------------------
 
     def _tell_crew(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         if not isinstance(message, Advisory):
             return
-        flight = self._by_address.get(message.recipient)
-        if flight is None:
+        performer = self._by_address.get(message.recipient)
+        if performer is None:
             return
-        reaction = flight.crew.hear(message)
+        reaction = performer.hear(message)
         if reaction is None:
             return
 
         def react() -> None:
-            if flight.aircraft.ended is None and reaction.act():
+            if performer.body.ended is None and reaction.act():
                 self._event("pilot_reacts", message.recipient, f"{reaction.text} ({message.id})")
 
         due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
@@ -698,9 +817,9 @@ class Simulation:
             self._set_modality("decision", "on")
         self._exchange.heard(key, stamped, FOREIGN)
         if isinstance(stamped, ActorCommand):
-            flight = self._flights.get(key.split("/")[1])
-            if flight is not None:
-                flight.crew.command(stamped.command)
+            callsign = key.split("/")[1]
+            if callsign in self._cast:
+                self._do(callsign, stamped.command)
 
     # --- what is told -----------------------------------------------------------------------
 
@@ -710,13 +829,18 @@ class Simulation:
             controller=self._scenario.radio.controller,
             horizontal_separation_nm=separation.horizontal_nm,
             vertical_separation_ft=separation.vertical_ft,
+            roster=_roster(self._scenario),
+            airport=None if self._setting.layout is None else _charted(self._setting.layout),
         )
         self._exchange.publish("briefing", briefing)
         self._bus.keep("briefing", briefing.model_dump_json().encode())
 
     def _set_modalities(self) -> None:
         scenario, options = self._scenario, self._options
-        equipped = any(actor.transponder.equipped for actor in scenario.actors)
+        equipped = any(
+            not isinstance(actor, WildlifeActor) and actor.transponder.equipped
+            for actor in scenario.actors
+        )
         self._set_modality("adsb", "on" if equipped else "off")
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
         self._set_modality("speech", "not evaluated" if options.speech else "off")
@@ -777,12 +901,71 @@ def _minima(separation: Separation) -> Minima:
     )
 
 
-def _truth_of(flight: Flight, now_ns: int) -> AircraftTruth:
-    state = flight.aircraft.state
-    return AircraftTruth(
+def _zone(setting: Setting) -> Site | None:
+    """Return the centre of the airport, if there is one."""
+    if setting.layout is None:
+        return None
+    centre = setting.layout.frame.to_place(0.0, 0.0)
+    return Site(*centre, altitude_m=setting.ground_m)
+
+
+def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
+    """Return whom the controller knows: all that speak on the radio or are spoken to."""
+    entries = []
+    for actor in scenario.actors:
+        match actor:
+            case AircraftActor(callsign=callsign, on_roster=True, aircraft=name):
+                designator = load_aircraft_type(name).icao_designator
+                entries.append(RosterEntry(callsign=callsign, category="aircraft", type=designator))
+            case VehicleActor(callsign=callsign, kind=kind):
+                entries.append(RosterEntry(callsign=callsign, category="vehicle", type=kind))
+    return tuple(entries)
+
+
+def _charted(layout: Layout) -> AirportBriefing:
+    def point(place: Place) -> tuple[float, float]:
+        return place[0] / DEGREE, place[1] / DEGREE
+
+    runways = []
+    for strip in layout.strips.values():
+        area = [layout.frame.to_place(*xy) for xy in strip.protected_area.exterior.coords[:-1]]
+        runways += [
+            RunwayBriefing(
+                ident=end.ident,
+                threshold=point(end.threshold),
+                end=point(end.end),
+                elevation_ft=end.elevation_m / FOOT,
+                width_m=end.width_m,
+                protected_area=tuple(point(corner) for corner in area),
+            )
+            for end in strip.ends
+        ]
+    return AirportBriefing(
+        icao=layout.airport.icao,
+        elevation_ft=layout.elevation_m / FOOT,
+        runways=tuple(runways),
+    )
+
+
+def _truth_of(performer: Performer, now_ns: int) -> ActorTruth:
+    body, actor = performer.body, performer.actor
+    state = body.state
+    flown: dict[str, float] = {}
+    if isinstance(body, Aircraft):
+        flown = {
+            "roll_deg": body.state.roll_rad / DEGREE,
+            "pitch_deg": body.state.pitch_rad / DEGREE,
+            "true_airspeed_m_s": body.state.true_airspeed_m_s,
+            "calibrated_airspeed_m_s": body.state.calibrated_airspeed_m_s,
+            "target_altitude_m": body.target_altitude_m,
+        }
+    return ActorTruth(
         t_ns=now_ns,
-        actor=flight.actor.callsign,
-        icao24=flight.actor.icao24,
+        actor=actor.callsign,
+        category=performer.category,
+        icao24=None if isinstance(actor, WildlifeActor) else actor.icao24,
+        phase=body.phase,
+        on_ground=body.on_ground,
         latitude_deg=state.latitude_rad / DEGREE,
         longitude_deg=state.longitude_rad / DEGREE,
         altitude_m=state.altitude_m,
@@ -790,12 +973,8 @@ def _truth_of(flight: Flight, now_ns: int) -> AircraftTruth:
         velocity_north_m_s=state.velocity_north_m_s,
         velocity_east_m_s=state.velocity_east_m_s,
         velocity_down_m_s=state.velocity_down_m_s,
-        roll_deg=state.roll_rad / DEGREE,
-        pitch_deg=state.pitch_rad / DEGREE,
         heading_deg=bearing_degrees(state.heading_rad),
-        true_airspeed_m_s=state.true_airspeed_m_s,
-        calibrated_airspeed_m_s=state.calibrated_airspeed_m_s,
-        target_altitude_m=flight.aircraft.target_altitude_m,
+        **flown,
     )
 
 

@@ -69,12 +69,54 @@ class Status(Message):
     cause: str = ""
 
 
+GeodeticPoint = tuple[
+    Annotated[float, Field(ge=-90.0, le=90.0)], Annotated[float, Field(ge=-180.0, le=180.0)]
+]
+"""Latitude and longitude, WGS84, in degrees."""
+
+
+class RunwayBriefing(BaseModel):
+    """One direction of a runway, as charts publish it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    ident: str
+    threshold: GeodeticPoint
+    end: GeodeticPoint
+    elevation_ft: float
+    width_m: float
+    protected_area: tuple[GeodeticPoint, ...] = Field(
+        description="corners, in order, of the area that hold-short positions keep clear"
+    )
+
+
+class AirportBriefing(BaseModel):
+    """The airport, as charts publish it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    icao: str
+    elevation_ft: float
+    runways: tuple[RunwayBriefing, ...]
+
+
+class RosterEntry(BaseModel):
+    """An aircraft or a vehicle that the controller knows."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    callsign: str
+    category: Literal["aircraft", "vehicle"]
+    type: str = Field(description="ICAO designator of an aircraft, kind of a vehicle")
+
+
 class Briefing(Message):
     """``briefing``: what everybody in the airspace knows before the run begins."""
 
     controller: str
     horizontal_separation_nm: float = Field(gt=0.0)
     vertical_separation_ft: float = Field(gt=0.0)
+    roster: tuple[RosterEntry, ...] = Field(
+        default=(), description="who is expected: flight strips, and vehicles that are out"
+    )
+    airport: AirportBriefing | None = None
 
 
 # --- what sensors give ----------------------------------------------------------------------
@@ -96,6 +138,11 @@ class Transmission(Message):
     samples: int = 0
 
 
+EmitterCategory = Literal["A0", "A1", "A2", "A3", "A5", "C1", "C2"]
+"""DO-260B, 2.2.3.2.5.2: A1 light, A2 small, A3 large, A5 heavy aircraft; C1 emergency, C2 service
+surface vehicle; A0 no information."""
+
+
 class AdsbReport(Message):
     """``adsb/<icao24>``: a state vector as an ADS-B receiver has it (units of DO-260B)."""
 
@@ -103,7 +150,13 @@ class AdsbReport(Message):
     callsign: str | None = Field(description="null until an identification squitter came through")
     latitude_deg: float = Field(ge=-90.0, le=90.0)
     longitude_deg: float = Field(ge=-180.0, le=180.0)
-    altitude_ft: float = Field(description="pressure altitude in steps of 25 ft")
+    altitude_ft: float | None = Field(
+        description="pressure altitude in steps of 25 ft; null on the ground"
+    )
+    on_ground: bool = Field(default=False, description="it came in the surface format")
+    emitter_category: EmitterCategory | None = Field(
+        default=None, description="null until an identification squitter came through"
+    )
     ground_speed_kt: float = Field(ge=0.0)
     track_deg: float = Field(ge=0.0, lt=360.0)
     vertical_rate_fpm: float = Field(description="in steps of 64 ft/min")
@@ -155,7 +208,34 @@ class MaintainLevel(BaseModel):
     altitude_ft: float
 
 
-Recommendation = Annotated[Climb | Turn | MaintainLevel, Field(discriminator="action")]
+class GoAround(BaseModel):
+    """Break the approach off."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["go_around"] = "go_around"
+    runway: str
+
+
+class CancelTakeoff(BaseModel):
+    """Do not take off, or reject the takeoff."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["cancel_takeoff"] = "cancel_takeoff"
+    runway: str
+
+
+class HoldPosition(BaseModel):
+    """Stop where you are, short of the runway."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    action: Literal["hold_position"] = "hold_position"
+    runway: str
+
+
+Recommendation = Annotated[
+    Climb | Turn | MaintainLevel | GoAround | CancelTakeoff | HoldPosition,
+    Field(discriminator="action"),
+]
 
 
 class Evidence(BaseModel):
@@ -169,6 +249,10 @@ class Evidence(BaseModel):
     time_to_closest_approach_s: float | None = None
     horizontal_at_closest_approach_m: float | None = None
     vertical_at_closest_approach_m: float | None = None
+    runway: str | None = None
+    time_to_go_s: float | None = Field(
+        default=None, description="until the runway's user is where its way is blocked"
+    )
     note: str = ""
 
 
@@ -191,7 +275,7 @@ class Advisory(Message):
         description="ATC, a callsign, or an icao24 while there is no callsign",
     )
     recipients: tuple[str, ...]
-    kind: Literal["loss_of_separation", "readback_mismatch"]
+    kind: Literal["loss_of_separation", "readback_mismatch", "runway_conflict"]
     severity: Severity
     active: bool = True
     traffic: tuple[str, ...] = Field(description="callsigns (or icao24) of those in conflict")
@@ -210,11 +294,14 @@ class ActorCommand(Message):
 # --- truth: for the recorder, metrics and viewers only --------------------------------------
 
 
-class AircraftTruth(Message):
-    """``truth/state/<actor>``: what really is."""
+class ActorTruth(Message):
+    """``truth/state/<actor>``: what really is; null where it does not apply."""
 
     actor: str
-    icao24: str
+    category: Literal["aircraft", "vehicle", "wildlife"]
+    icao24: str | None = None
+    phase: str = Field(description="of flight, of driving, of an animal's behaviour")
+    on_ground: bool
     latitude_deg: float
     longitude_deg: float
     altitude_m: float
@@ -222,12 +309,12 @@ class AircraftTruth(Message):
     velocity_north_m_s: float
     velocity_east_m_s: float
     velocity_down_m_s: float
-    roll_deg: float
-    pitch_deg: float
+    roll_deg: float = 0.0
+    pitch_deg: float = 0.0
     heading_deg: float
-    true_airspeed_m_s: float
-    calibrated_airspeed_m_s: float
-    target_altitude_m: float
+    true_airspeed_m_s: float | None = None
+    calibrated_airspeed_m_s: float | None = None
+    target_altitude_m: float | None = None
 
 
 class SpokenTruth(Message):
@@ -243,22 +330,52 @@ class SpokenTruth(Message):
 
 
 ConflictPhase = Literal[
-    "opened", "closed", "loss_of_separation", "nmac", "collision", "tcas_ta", "tcas_ra"
+    "opened",
+    "closed",
+    "loss_of_separation",
+    "nmac",
+    "tcas_ta",
+    "tcas_ra",
+    "runway_incursion",
+    "collision",
 ]
 
 
 class ConflictTruth(Message):
-    """``truth/conflict``: what became true of two aircraft at this instant."""
+    """``truth/conflict``: what became true of two actors at this instant.
+
+    In the air the distances are between the actors' centres, on a runway between their outlines.
+    """
 
     phase: ConflictPhase
     actors: tuple[str, ...]
     horizontal_m: float | None = None
     vertical_m: float | None = None
+    runway: str | None = None
+
+
+class Arrival(BaseModel):
+    """An aircraft on final approach."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    actor: str
+    runway: str = Field(description="the direction that it lands in")
+    time_to_threshold_s: float
+
+
+class RunwayTruth(Message):
+    """``truth/runway/<runway>``: who is in its protected area, and who comes; on each change."""
+
+    runway: str = Field(examples=["01-19"])
+    occupants: tuple[str, ...]
+    arrivals: tuple[Arrival, ...]
 
 
 EventKind = Literal[
     "actor_ended",
     "command",
+    "unable",
+    "failure",
     "pilot_reacts",
     "worker_lost",
     "unregistered",
@@ -366,9 +483,10 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "asr/{frequency_khz}": Transcript,
     "advisory/{recipient}": Advisory,
     "command/{actor}": ActorCommand,
-    "truth/state/{actor}": AircraftTruth,
+    "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
     "truth/conflict": ConflictTruth,
+    "truth/runway/{runway}": RunwayTruth,
     "truth/event": Event,
 }
 """The message of each key below ``airhilt/<run>/``."""

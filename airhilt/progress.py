@@ -152,11 +152,33 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("loss of separation", _yes(summary.loss_of_separation)),
         ("NMAC", _yes(summary.nmac)),
         ("collision", _yes(summary.collision)),
+        *_incursion_rows(summary),
         ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
         ("nuisance alerts", str(summary.nuisance_alerts)),
         ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
     ]
     rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
+    return rows
+
+
+def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row for each runway incursion."""
+    rows = []
+    for incursion in summary.runway_incursions:
+        way = f"in the way of {incursion.user}" if incursion.user else "nobody uses it"
+        near = "" if incursion.closest_m is None else f", {incursion.closest_m:.0f} m apart"
+        severity = (
+            incursion.category
+            if incursion.category == "accident"
+            else f"category {incursion.category}"
+        )
+        rows.append(
+            (
+                "runway incursion",
+                f"{severity}: {incursion.intruder} on {incursion.runway} at {incursion.t_s:.1f} s, "
+                f"{way}{near}",
+            )
+        )
     return rows
 
 

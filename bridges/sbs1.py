@@ -27,16 +27,21 @@ EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 def line(report: AdsbReport) -> str:
-    """Return a report as one line of the feed (without its end)."""
+    """Return a report as one line of the feed (without its end).
+
+    Type 3 is an airborne position, type 2 a surface position, which has no altitude.
+    """
     when = EPOCH + timedelta(seconds=report.t_adsb_out_ns / SECOND_NS)
     date, clock = when.strftime("%Y/%m/%d"), when.strftime("%H:%M:%S.%f")[:-3]
+    kind, ground = ("2", "-1") if report.on_ground else ("3", "0")
+    altitude = "" if report.altitude_ft is None else f"{report.altitude_ft:.0f}"
     return ",".join(
         [
-            "MSG", "3", "1", "1", report.icao24.upper(), "1", date, clock, date, clock,
-            report.callsign or "", f"{report.altitude_ft:.0f}", f"{report.ground_speed_kt:.0f}",
+            "MSG", kind, "1", "1", report.icao24.upper(), "1", date, clock, date, clock,
+            report.callsign or "", altitude, f"{report.ground_speed_kt:.0f}",
             f"{report.track_deg:.0f}", f"{report.latitude_deg:.5f}",
             f"{report.longitude_deg:.5f}", f"{report.vertical_rate_fpm:.0f}", "", "0", "0", "0",
-            "0",
+            ground,
         ]
     )  # fmt: skip
 

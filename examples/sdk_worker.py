@@ -27,7 +27,8 @@ class SimpleWorker:
     def step(self, t_ns: int, inputs: list[Input]) -> Step:
         for item in inputs:
             report = AdsbReport.model_validate_json(item.payload)
-            self.reports[report.icao24] = report
+            if report.altitude_ft is not None:
+                self.reports[report.icao24] = report
         outputs = []
         for a, b in combinations(self.reports.values(), 2):
             pair = "-".join(sorted((a.icao24, b.icao24)))

@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 
+import click
 import pytest
 
 from airhilt.cli import cli
@@ -40,9 +41,12 @@ def test_commands_and_options_exist(page: Path) -> None:
     for command, rest in re.findall(r"\bairhilt ([a-z]+)\b([^\n]*)", page.read_text()):
         if command not in cli.commands:
             continue
-        options = {
-            option for parameter in cli.commands[command].params for option in parameter.opts
-        }
+        found: click.Command = cli.commands[command]
+        if isinstance(found, click.Group):
+            name, rest = re.match(r"\s*([a-z]*)(.*)", rest).groups()
+            assert name in found.commands, f"airhilt {command} {name}"
+            found = found.commands[name]
+        options = {option for parameter in found.params for option in parameter.opts}
         for option in re.findall(r"(?<!\S)--[a-z-]+", rest.split("   ")[0]):
             assert option in options, f"airhilt {command} {option}"
 

@@ -15,8 +15,19 @@ import pytest
 
 from airhilt.cosim import Options, run
 from airhilt.errors import AirhiltError, RunFolderError
-from airhilt.messages import Advisory, AircraftTruth, Event, Evidence, Message, Severity
+from airhilt.messages import (
+    ActorTruth,
+    Advisory,
+    Arrival,
+    ConflictTruth,
+    Event,
+    Evidence,
+    Message,
+    RunwayTruth,
+    Severity,
+)
 from airhilt.metrics import report
+from airhilt.metrics.lanes import Spells
 from airhilt.metrics.report import write_report
 from airhilt.record import LogWriter, RunFolder
 from airhilt.scenario import Scenario
@@ -57,12 +68,19 @@ def rewrite_log(folder: Path, *messages: tuple[str, Message]) -> None:
             log.write(key, "test", type(message), message.t_ns, data)
 
 
-def truth(actor: str, t_s: float, **changed: float) -> AircraftTruth:
-    place = {"latitude_deg": 38.9, "longitude_deg": -77.0, "altitude_m": 10_668.0} | changed
-    still = dict.fromkeys(AircraftTruth.model_fields, 0.0)
-    return AircraftTruth.model_validate(
-        still | place | {"actor": actor, "icao24": "a1b2c3", "t_ns": round(t_s * SECOND_NS)}
-    )
+def truth(actor: str, t_s: float, **changed: Any) -> ActorTruth:
+    state = dict.fromkeys(ActorTruth.model_fields, 0.0) | {
+        "actor": actor,
+        "category": "aircraft",
+        "icao24": "a1b2c3",
+        "phase": "en_route",
+        "on_ground": False,
+        "latitude_deg": 38.9,
+        "longitude_deg": -77.0,
+        "altitude_m": 10_668.0,
+        "t_ns": round(t_s * SECOND_NS),
+    }
+    return ActorTruth.model_validate(state | changed)
 
 
 def hostile_advisory() -> Advisory:
@@ -153,6 +171,181 @@ def test_latencies_count_every_finished_step_once(folder: Path) -> None:
         assert sum(step["n"] for step in worker["bins"]) == worker["n"]
 
 
+# --- at an airport --------------------------------------------------------------------------
+
+THRESHOLD_01, THRESHOLD_19 = (38.8423996, -77.0367966), (38.8611984, -77.0386963)
+"""Of runway 01/19 of KDCA, which is 2096 m long."""
+
+
+def along_01(part: float) -> dict[str, float]:
+    """Return the place at a part of the length of runway 01; negative is on final."""
+    latitude, longitude = (
+        here + part * (there - here) for here, there in zip(THRESHOLD_01, THRESHOLD_19, strict=True)
+    )
+    return {"latitude_deg": latitude, "longitude_deg": longitude}
+
+
+def at_airport(folder: Path, name: str = "KDCA", **realised: Any) -> None:
+    """Make the run one at an airport, of an aircraft that lands where a truck stands."""
+    info = RunFolder(folder).info()
+    (first, _) = info.realised["actors"]
+    info.realised |= {
+        "scene": {"type": "airport", "airport": name},
+        "actors": [first, {"type": "vehicle", "callsign": "OPS1", "kind": "follow_me"}],
+        "conflict": {"actors": ["AAL123", "OPS1"]},
+        **realised,
+    }
+    RunFolder(folder).write_info(info)
+
+
+def landing() -> list[tuple[str, Message]]:
+    """Over the threshold 10 s after the begin, down 4 s later, with OPS1 on the runway from 5 s."""
+    messages: list[tuple[str, Message]] = []
+    for t_s in range(21):
+        down = t_s >= 14
+        aircraft = truth(
+            "AAL123", t_s, phase="rollout" if down else "glide", on_ground=down,
+            altitude_m=5.0 if down else 5.0 + 4.0 * (14 - t_s), heading_deg=355.0,
+            **along_01((t_s - 10) / 30.0),
+        )  # fmt: skip
+        truck = truth(
+            "OPS1", t_s, category="vehicle", phase="driving" if t_s < 8 else "standing",
+            on_ground=True, altitude_m=5.0, heading_deg=85.0, **along_01(0.4),
+        )  # fmt: skip
+        messages += [("truth/state/AAL123", aircraft), ("truth/state/OPS1", truck)]
+    coming = Arrival(actor="AAL123", runway="01", time_to_threshold_s=9.0)
+    for t_s, occupants, arrivals in (
+        (0, (), (coming,)),
+        (5, ("OPS1",), (coming,)),
+        (14, ("OPS1", "AAL123"), ()),
+        (18, ("OPS1",), ()),
+    ):
+        changed = RunwayTruth(
+            t_ns=t_s * SECOND_NS, runway="01-19", occupants=occupants, arrivals=arrivals
+        )
+        messages.append(("truth/runway/01-19", changed))
+    return sorted(messages, key=lambda message: message[1].t_ns)
+
+
+def test_the_airport_is_drawn_around_its_reference_point(folder: Path) -> None:
+    at_airport(folder)
+    rewrite_log(folder, *landing())
+    data = shown(write_report(folder))
+    airport = data["airport"]
+    assert {runway["name"] for runway in airport["runways"]} == {"01/19", "04/22", "15/33"}
+    assert all(airport[part] for part in ("taxiways", "holds", "buildings", "water"))
+    (runway,) = (runway for runway in airport["runways"] if runway["name"] == "01/19")
+    south, north = (end["threshold"] for end in runway["ends"])
+    truck = next(track for track in data["tracks"] if track["callsign"] == "OPS1")
+    for place, axis in ((truck["east_nm"][0], 0), (truck["north_nm"][0], 1)):
+        expected = south[axis] + 0.4 * (north[axis] - south[axis])
+        assert place * 1852.0 == pytest.approx(expected, abs=0.5)
+
+
+def test_an_actor_says_what_it_is_and_how_large(folder: Path) -> None:
+    at_airport(folder)
+    rewrite_log(folder, *landing())
+    aircraft, truck = shown(write_report(folder))["tracks"]
+    assert (aircraft["category"], truck["category"]) == ("aircraft", "vehicle")
+    assert aircraft["length_m"] > 30.0 > truck["length_m"] > 1.0
+    assert aircraft["on_ground"] == [[14.0, 20.0]]
+    assert set(aircraft["heading_deg"]) == {355}
+
+
+def test_a_type_that_is_gone_is_drawn_without_its_size(folder: Path) -> None:
+    at_airport(folder, actors=[{"type": "vehicle", "callsign": "OPS1", "kind": HOSTILE}])
+    rewrite_log(folder, *landing())
+    tracks = {track["callsign"]: track for track in shown(write_report(folder))["tracks"]}
+    assert tracks["OPS1"]["type"] == HOSTILE
+    assert tracks["OPS1"]["length_m"] is None
+    assert tracks["AAL123"]["type"] == ""
+
+
+def test_an_airport_that_is_gone_is_named_and_the_traffic_drawn(folder: Path) -> None:
+    at_airport(folder, name="KDCX")
+    rewrite_log(folder, *landing())
+    data = shown(write_report(folder))
+    assert data["airport"] is None
+    assert any("KDCX" in note.upper() for note in data["notes"])
+    assert len(data["tracks"]) == 2
+    assert data["runways"][0]["approaches"][0]["threshold"] is None
+
+
+def test_runways_show_who_was_there_and_who_came_over_the_threshold_when(folder: Path) -> None:
+    at_airport(folder)
+    rewrite_log(folder, *landing())
+    (lane,) = shown(write_report(folder))["runways"]
+    assert lane["runway"] == "01/19"
+    assert lane["occupants"] == [
+        {"what": "OPS1", "from": 5.0, "to": 20.0},
+        {"what": "AAL123", "from": 14.0, "to": 18.0},
+    ]
+    (approach,) = lane["approaches"]
+    assert approach["what"] == "AAL123"
+    assert (approach["from"], approach["to"]) == (0.0, 14.0)
+    assert approach["threshold"] == pytest.approx(10.0, abs=0.1)
+
+
+def test_an_approach_that_is_broken_off_never_comes_over_the_threshold(folder: Path) -> None:
+    at_airport(folder)
+    coming = Arrival(actor="AAL123", runway="01", time_to_threshold_s=9.0)
+    truths = [
+        RunwayTruth(t_ns=t_s * SECOND_NS, runway="01-19", occupants=(), arrivals=arrivals)
+        for t_s, arrivals in ((0, (coming,)), (6, ()))
+    ]
+    states = [entry for entry in landing() if entry[0].startswith("truth/state")]
+    rewrite_log(folder, *states, *(("truth/runway/01-19", truth) for truth in truths))
+    ((approach,),) = (lane["approaches"] for lane in shown(write_report(folder))["runways"])
+    assert (approach["to"], approach["threshold"]) == (6.0, None)
+
+
+def test_phases_last_from_one_change_to_the_next(folder: Path) -> None:
+    at_airport(folder)
+    rewrite_log(folder, *landing())
+    lanes = {lane["callsign"]: lane["spells"] for lane in shown(write_report(folder))["phases"]}
+    assert lanes["AAL123"] == [
+        {"what": "glide", "from": 0.0, "to": 14.0},
+        {"what": "rollout", "from": 14.0, "to": 20.0},
+    ]
+    assert [spell["what"] for spell in lanes["OPS1"]] == ["driving", "standing"]
+
+
+def test_what_goes_on_again_is_another_spell() -> None:
+    spells = Spells[str]()
+    for t_ns, now in ((0, ["a"]), (1, ["a", "b"]), (2, ["b"]), (3, ["a", "b"])):
+        spells.go_on(t_ns, now)
+    assert spells.until(5) == [("a", 0, 2), ("b", 1, 5), ("a", 3, 5)]
+
+
+def test_a_failed_call_is_told_with_what_it_was_to_say(folder: Path) -> None:
+    line = {"id": "hold", "speaker": "Tower", "text": "Ops one, hold position."}
+    at_airport(folder, radio={"lines": [line]})
+    stopped = Event(t_ns=2, kind="failure", subject="AAL123", text="engine 0 stops")
+    dropped = Event(t_ns=1, kind="failure", subject="hold", text="it is never said")
+    rewrite_log(folder, ("truth/event", dropped), ("truth/event", stopped))
+    call, engine = shown(write_report(folder))["events"]
+    assert (call["speaker"], call["line"]) == ("Tower", "Ops one, hold position.")
+    assert "line" not in engine
+
+
+def test_an_incursion_names_its_runway(folder: Path) -> None:
+    incursion = ConflictTruth(
+        t_ns=1, phase="runway_incursion", actors=("AAL123", "OPS1"), runway="01-19"
+    )
+    rewrite_log(folder, ("truth/conflict", incursion))
+    (event,) = shown(write_report(folder))["events"]
+    assert (event["phase"], event["runway"]) == ("runway_incursion", "01/19")
+
+
+def test_a_command_with_a_long_route_can_still_be_put_in_words(folder: Path) -> None:
+    route = [{"type": "geodetic", "lat_deg": 38.0 + n / 100, "lon_deg": -77.0} for n in range(60)]
+    text = json.dumps({"action": "route", "route": route})
+    event = Event(t_ns=1, kind="command", subject="AAL123", text=text)
+    rewrite_log(folder, ("truth/event", event))
+    (event,) = shown(write_report(folder))["events"]
+    assert json.loads(event["text"]) == {"action": "route", "route": 60}
+
+
 # --- runs that did not come to their end ----------------------------------------------------
 
 
@@ -234,6 +427,17 @@ def test_hostile_text_stays_data(folder: Path) -> None:
     assert shown(page)["scenario"]["title"] == HOSTILE
 
 
+def test_a_hostile_phase_stays_data(folder: Path) -> None:
+    states = [truth("AAL123", t_s, phase=HOSTILE) for t_s in (0.0, 1.0)]
+    before = write_report(folder, folder.parent / "before.html").read_text().lower()
+    rewrite_log(folder, *(("truth/state/AAL123", state) for state in states))
+    page = write_report(folder)
+    (lane,) = shown(page)["phases"]
+    assert [spell["what"] for spell in lane["spells"]] == [HOSTILE]
+    for markup in ("<script", "</script", "<!--", "<img"):
+        assert page.read_text().lower().count(markup) == before.count(markup)
+
+
 def test_nothing_in_the_page_makes_markup_of_data() -> None:
     template = resources.files("airhilt.metrics").joinpath("report.html").read_text("utf-8")
     assert template.count(report.PLACEHOLDER) == 1
@@ -266,9 +470,12 @@ def test_a_track_is_thinned_out_evenly_and_keeps_its_ends() -> None:
     assert len(steps) == 1
 
 
-def test_fifty_aircraft_and_many_long_messages_stay_below_a_megabyte(folder: Path) -> None:
+@pytest.mark.parametrize("at", ["airspace", "airport"])
+def test_fifty_aircraft_and_many_long_messages_stay_below_a_megabyte(folder: Path, at: str) -> None:
+    if at == "airport":
+        at_airport(folder)
     info = RunFolder(folder).info()
-    (actor, *_) = info.realised["actors"]
+    actor = info.realised["actors"][0]
     names = [f"TST{number:03d}" for number in range(50)]
     info.realised["actors"] = [actor | {"callsign": name} for name in names]
     RunFolder(folder).write_info(info)

@@ -2,6 +2,9 @@
 
     python tools/bench.py headon            one encounter against bare JSBSim and real time
     python tools/bench.py fifty             fifty aircraft: real-time factor and memory
+    python tools/bench.py terminal          2 aircraft, 2 vehicles and a deer at an airport
+    python tools/bench.py airport           20 aircraft and 20 vehicles at an airport
+    python tools/bench.py procedures        every procedure, type and weather, over 20 seeds
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
     python tools/bench.py headon --json
@@ -54,9 +57,10 @@ def best(measure: Callable[[], float], rounds: int = ROUNDS) -> float:
 def headon() -> dict[str, float]:
     """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
     from airhilt import load, run
-    from airhilt.actors import build_fleet
+    from airhilt.actors import build_cast
     from airhilt.cosim import TICK_S
     from airhilt.scenario import realise
+    from airhilt.scenario.geometry import Setting
 
     scenario = load("s02a_headon")
     factors, whole, bare = [], [], []
@@ -65,8 +69,9 @@ def headon() -> dict[str, float]:
             summary = run(scenario, out=Path(scratch) / "run").summary
         factors.append(summary.real_time_factor)
         whole.append(summary.cpu_s / summary.duration_s)
-        fleet = build_fleet(realise(scenario, 0)[0], 0, TICK_S)
-        steppers = [flight.aircraft._airframe.step for flight in fleet.values()]
+        realised, _ = realise(scenario, 0)
+        cast = build_cast(realised, Setting.of(realised), 0, TICK_S)
+        steppers = [flight.body._airframe.step for flight in cast.values()]
         begun = time.process_time()
         for _ in range(60 * round(6 / TICK_S)):
             for step in steppers:
@@ -99,6 +104,7 @@ def fifty_scenario() -> Scenario:
             "callsign": f"TST{index}",
             "icao24": f"{0xABC000 + index:06x}",
             "initial": {
+                "type": "airborne",
                 "position": {
                     "type": "from_centre",
                     "bearing_deg": index * 7.2,
@@ -122,6 +128,100 @@ def fifty() -> dict[str, float]:
         summary = run(fifty_scenario(), out=Path(scratch) / "run").summary
     peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return {"real_time_factor": summary.real_time_factor, "peak_memory_mb": peak_kib / 1024.0}
+
+
+def terminal_scenario() -> Scenario:
+    """Return a landing, a departure, two vehicles that drive, and a deer."""
+    from airhilt import load
+    from airhilt.scenario import Scenario
+
+    document = load("s01b_nominal").model_dump(mode="json")
+    departure = load("s01a_tight_timing").model_dump(mode="json")["actors"][1]
+    deer = load("s01c_nominal").model_dump(mode="json")["actors"][1]
+    document["actors"] += [departure, deer]
+    document["actors"][2]["commands"] = [
+        {"action": "taxi", "to": {"type": "hold_short", "runway": "01", "taxiway": "A"}}
+    ]
+    document |= {"name": "terminal", "duration_s": 150.0, "end_when": [], "perturbations": []}
+    return Scenario.model_validate(document)
+
+
+def terminal() -> dict[str, float]:
+    """Run 2 aircraft, 2 vehicles and an animal."""
+    return _repeated(terminal_scenario())
+
+
+def airport_scenario() -> Scenario:
+    """Return five arrivals, five departures and ten taxiing aircraft among twenty vehicles."""
+    from airhilt.scenario import Scenario
+    from airhilt.surface.airport import load_airport
+    from airhilt.surface.layout import Layout
+
+    layout = Layout(load_airport("KDCA"))
+    stands, holds = list(layout.stands), ["A", "D", "E", "F", "N"]
+
+    def stand(index: int) -> dict[str, object]:
+        position = {"type": "node", "node": stands[index % len(stands)]}
+        return {"type": "standing", "position": position, "heading_deg": 85.0}
+
+    def to_hold(index: int) -> dict[str, object]:
+        place = {"type": "hold_short", "runway": "01", "taxiway": holds[index % len(holds)]}
+        return {"action": "taxi", "to": place}
+
+    actors: list[dict[str, object]] = []
+    for index in range(20):
+        aircraft = {
+            "type": "aircraft",
+            "callsign": f"TST{index}",
+            "icao24": f"{0xABC000 + index:06x}",
+            "aircraft": "737",
+        }
+        if index < 10:
+            final = {"type": "final", "runway": "01", "distance_nm": 2.0 + 1.2 * index}
+            land = {"action": "land", "runway": "01"}
+            actors.append(aircraft | {"initial": final, "commands": [land]})
+        else:
+            actors.append(aircraft | {"initial": stand(index), "commands": [to_hold(index)]})
+    for index in range(20):
+        actors.append(
+            {
+                "type": "vehicle",
+                "callsign": f"OPS{index}",
+                "icao24": f"{0xABD000 + index:06x}",
+                "kind": "follow_me",
+                "initial": stand(index),
+                "commands": [to_hold(index + 2)],
+                "transponder": {"equipped": True},
+            }
+        )
+    return Scenario.model_validate(
+        {
+            "name": "airport",
+            "title": "A busy airport",
+            "family": "S01A",
+            "scene": {"type": "airport", "airport": "KDCA"},
+            "duration_s": 90.0,
+            "actors": actors,
+        }
+    )
+
+
+def airport() -> dict[str, float]:
+    """Run 20 aircraft and 20 vehicles."""
+    return _repeated(airport_scenario(), rounds=2)
+
+
+def _repeated(scenario: Scenario, rounds: int = ROUNDS) -> dict[str, float]:
+    from airhilt import run
+
+    factors = []
+    for _ in range(rounds):
+        with tempfile.TemporaryDirectory() as scratch:
+            factors.append(run(scenario, out=Path(scratch) / "run").summary.real_time_factor)
+    return {
+        "real_time_factor_best": max(factors),
+        "real_time_factor_median": statistics.median(factors),
+    }
 
 
 FIRST_SECOND = """
@@ -180,7 +280,26 @@ def bluesky(python: str) -> dict[str, float]:
     return {"airhilt_x": ours, "bluesky_x": theirs, "ratio": ours / theirs}
 
 
-BENCHMARKS = {"headon": headon, "fifty": fifty, "startup": startup}
+def print_procedures(seeds: int, *, as_json: bool) -> None:
+    """Print how well the procedures are flown, line by line as they are."""
+    from procedures import rows
+
+    done = []
+    for row in rows(seeds):
+        done.append(row._asdict())
+        if not as_json:
+            print(row, flush=True)
+    if as_json:
+        print(json.dumps(done, indent=2))
+
+
+BENCHMARKS = {
+    "headon": headon,
+    "fifty": fifty,
+    "terminal": terminal,
+    "airport": airport,
+    "startup": startup,
+}
 
 
 def main() -> None:
@@ -188,10 +307,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky"])
+    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "procedures"])
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
+    parser.add_argument("--seeds", type=int, default=20, help="of the procedures")
     given = parser.parse_args()
+    if given.name == "procedures":
+        print_procedures(given.seeds, as_json=given.json)
+        return
     numbers = bluesky(given.bluesky_python) if given.name == "bluesky" else BENCHMARKS[given.name]()
     if given.json:
         print(json.dumps(numbers, indent=2))

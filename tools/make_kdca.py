@@ -2,9 +2,9 @@
 
     python tools/make_kdca.py RUNWAYS_CSV FREQUENCIES_CSV airports/kdca.json
 
-Runways and frequencies are those of the files. Everything else is drawn by eye from the published
-airport diagram and aerial views, in metres beside the runways: right as to what crosses what and
-which side it is on, wrong by tens of metres as to where.
+Runways and frequencies are those of the files. Everything else is drawn from memory of the real
+airport, in metres beside the runways: right as to what crosses what and which side it is on, wrong
+by tens of metres as to where.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ GATES = {
 """Distance along runway 01."""
 STATIONS = {"fire_station": 600.0, "vehicle_base": 650.0}
 CONNECTORS = {"D": 800.0, "E": 1050.0, "F": 1340.0}
-DRAWN = "Drawn by eye from the airport diagram (FAA) and aerial views"
+DRAWN = "Drawn from memory of the airport, beside the runways"
 UNIT_NAMES = {
     "APP": "Potomac Approach",
     "DEP": "Potomac Departure",

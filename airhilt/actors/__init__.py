@@ -1,6 +1,7 @@
-"""Who acts in a scenario: aircraft with their crews."""
+"""Who acts in a scenario: crews in aircraft, drivers in vehicles, wildlife."""
 
-from airhilt.actors.crew import Crew, Reaction
-from airhilt.actors.fleet import Flight, build_fleet
+from airhilt.actors.cast import Flight, build_cast
+from airhilt.actors.crew import Crew
+from airhilt.actors.performer import Performer, Reaction, Unable
 
-__all__ = ["Crew", "Flight", "Reaction", "build_fleet"]
+__all__ = ["Crew", "Flight", "Performer", "Reaction", "Unable", "build_cast"]

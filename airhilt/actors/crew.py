@@ -2,64 +2,53 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
+from airhilt.actors.departure_arrival import DepartureArrival
+from airhilt.actors.performer import Reaction, Unable
+from airhilt.actors.reactions import FOLLOWED_FROM, Person
 from airhilt.commands import (
     AltitudeCommand,
     Command,
+    DriftDownCommand,
+    EmergencyDescentCommand,
     ResumeRouteCommand,
+    RouteCommand,
     SpeedCommand,
     TrackCommand,
     TurnCommand,
 )
+from airhilt.errors import ScenarioError
 from airhilt.flight.aircraft import Aircraft
-from airhilt.messages import Advisory, Climb, MaintainLevel, Recommendation, Severity, Turn
-from airhilt.sim.streams import stream
+from airhilt.messages import (
+    Advisory,
+    CancelTakeoff,
+    Climb,
+    GoAround,
+    HoldPosition,
+    MaintainLevel,
+    Recommendation,
+    Turn,
+)
+from airhilt.scenario.geometry import Setting
+from airhilt.surface.runway import Place
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
-
-FOLLOWED_FROM = Severity.CAUTION
-"""Least severity that a crew acts on."""
-REPEAT_FACTOR = 0.5
-"""Reaction time to a changed advisory, against the first one: the standard pilot model
-of ICAO Annex 10, volume IV, has 2.5 s after 5 s."""
-
-
-@dataclass(frozen=True, slots=True)
-class Reaction:
-    """What the crew will do, and after how long."""
-
-    delay_s: float
-    act: Callable[[], bool]
-    """Does it; tells whether there still was anything to do."""
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class ReactionTime:
-    """A lognormal reaction time, and how probable it is that the crew follows at all."""
-
-    median_s: float
-    sigma: float
-    compliance: float
 
 
 class Crew:
     """Flies as told, unless an advisory that it follows says otherwise.
 
     A command that comes while an advisory is followed is remembered and flown once the conflict
-    is over.
+    is over. Runways and taxiways are the matter of its `DepartureArrival`.
     """
 
-    def __init__(
-        self, callsign: str, aircraft: Aircraft, reaction: ReactionTime, seed: int
-    ) -> None:
-        self.callsign = callsign
+    def __init__(self, person: Person, aircraft: Aircraft, setting: Setting) -> None:
+        self.callsign = person.callsign
         self.aircraft = aircraft
-        self._reaction = reaction
-        self._seed = seed
+        self.runway_work = DepartureArrival(aircraft, setting)
+        self._person = person
+        self._setting = setting
         self._return_lateral: Callable[[], None] = partial(
             aircraft.hold_track, aircraft.state.track_rad
         )
@@ -70,81 +59,122 @@ class Crew:
         self._has_turned = False
         self._has_route = False
 
-    def fly_route(self, waypoints: list[tuple[float, float]]) -> None:
-        """Take a route (latitude, longitude in radians) and fly it."""
+    def fly_route(self, waypoints: list[Place]) -> None:
+        """Take a route and fly it."""
         self.aircraft.fly_route(waypoints)
         self._return_lateral = self.aircraft.resume_route
         self._has_route = True
 
     def command(self, command: Command) -> None:
-        """Carry a command out, now or after the advisory in hand."""
+        """Carry a command out, now or after the advisory in hand.
+
+        Raises
+        ------
+        Unable
+            It cannot be done.
+        """
         if self._followed:
             self._deferred.append(command)
         else:
             self._carry_out(command)
 
+    def attend(self) -> None:
+        """Go on with what waits for its moment.
+
+        Raises
+        ------
+        Unable
+            It cannot be done.
+        """
+        try:
+            self.runway_work.attend()
+        except (ValueError, ScenarioError) as error:
+            raise Unable(f"unable, {error}") from None
+
     def _carry_out(self, command: Command) -> None:
+        try:
+            if not self.runway_work.carry_out(command):
+                self._fly(command)
+        except (ValueError, ScenarioError) as error:
+            raise Unable(f"unable, {error}") from None
+
+    def _fly(self, command: Command) -> None:
+        aircraft = self.aircraft
         match command:
             case AltitudeCommand(altitude_ft=altitude, vertical_rate_fpm=rate):
-                self.aircraft.hold_altitude(
+                aircraft.hold_altitude(
                     altitude * FOOT, None if rate is None else rate * FOOT_PER_MINUTE
                 )
             case TrackCommand(track_deg=track):
-                self.aircraft.hold_track(track * DEGREE)
-                self._return_lateral = partial(self.aircraft.hold_track, track * DEGREE)
+                aircraft.hold_track(track * DEGREE)
+                self._return_lateral = partial(aircraft.hold_track, track * DEGREE)
             case TurnCommand(degrees=degrees):
-                track = self.aircraft.state.track_rad + degrees * DEGREE
-                self.aircraft.turn_by(degrees * DEGREE)
-                self._return_lateral = partial(self.aircraft.hold_track, track)
+                track = aircraft.state.track_rad + degrees * DEGREE
+                aircraft.turn_by(degrees * DEGREE)
+                self._return_lateral = partial(aircraft.hold_track, track)
             case SpeedCommand(cas_kt=speed):
-                self.aircraft.hold_speed(speed * KNOT)
+                aircraft.hold_speed(speed * KNOT)
+            case RouteCommand(route=route):
+                self.fly_route([self._setting.place(position) for position in route])
             case ResumeRouteCommand() if self._has_route:
-                self.aircraft.resume_route()
-                self._return_lateral = self.aircraft.resume_route
+                aircraft.resume_route()
+                self._return_lateral = aircraft.resume_route
+            case DriftDownCommand():
+                aircraft.drift_down()
+            case EmergencyDescentCommand(altitude_ft=altitude):
+                aircraft.emergency_descent(altitude * FOOT)
+
+    # --- advisories -------------------------------------------------------------------------
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return how the crew will react to an advisory, None if it will not."""
+        person, again = self._person, advisory.id in self._followed
         if not advisory.active:
             self._over.add(advisory.id)
-            if advisory.id not in self._followed:
+            if not again:
                 return None
-            return Reaction(self._delay_s(advisory), lambda: self._resume(advisory.id), "resumes")
+            delay_s = person.delay_s(advisory, again)
+            return Reaction(delay_s, lambda: self._resume(advisory.id), "resumes")
         self._over.discard(advisory.id)
         recommendation = advisory.recommendation
         if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
             return None
-        if not self._complies(advisory.id):
+        if not person.complies(advisory.id):
             return None
         return Reaction(
-            self._delay_s(advisory),
+            person.delay_s(advisory, again),
             lambda: self._follow(advisory, recommendation),
             f"follows {recommendation.action}",
         )
 
-    def _complies(self, advisory_id: str) -> bool:
-        draw = stream(self._seed, f"compliance/{self.callsign}/{advisory_id}").random()
-        return bool(draw < self._reaction.compliance)
-
-    def _delay_s(self, advisory: Advisory) -> float:
-        name = f"reaction/{self.callsign}/{advisory.id}"
-        draw = stream(self._seed, name, advisory.revision).standard_normal()
-        first = self._reaction.median_s * math.exp(self._reaction.sigma * draw)
-        return first * (REPEAT_FACTOR if advisory.id in self._followed else 1.0)
-
     def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return False
+        match recommendation:
+            case GoAround():
+                return self.runway_work.go_around()
+            case CancelTakeoff():
+                return self.runway_work.cancel_takeoff()
+            case HoldPosition():
+                return self.runway_work.hold_position()
+            case Climb() | MaintainLevel() | Turn():
+                return self._avoid(advisory, recommendation)
+
+    def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if not self._followed:
             self._altitude_before_m = self.aircraft.target_altitude_m
+        try:
+            match recommendation:
+                case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
+                    self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+                case MaintainLevel(altitude_ft=altitude):
+                    self.aircraft.hold_altitude(altitude * FOOT)
+                case Turn(degrees=degrees):
+                    self.aircraft.turn_by(degrees * DEGREE)
+                    self._has_turned = True
+        except ValueError:  # It is on the ground by now.
+            return False
         self._followed[advisory.id] = advisory.revision
-        match recommendation:
-            case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
-                self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
-            case MaintainLevel(altitude_ft=altitude):
-                self.aircraft.hold_altitude(altitude * FOOT)
-            case Turn(degrees=degrees):
-                self._has_turned = True
-                self.aircraft.turn_by(degrees * DEGREE)
         return True
 
     def _resume(self, advisory_id: str) -> bool:

@@ -18,23 +18,27 @@ from airhilt.messages import (
 )
 from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
 from airhilt.metrics.plans import Plans
+from airhilt.metrics.runways import IncursionCategory, RunwayMonitor
 from airhilt.metrics.summary import (
     ClosestApproach,
     LatencyStatistics,
+    RunwayIncursion,
     Summary,
     ToldAdvisory,
     severest,
 )
-from airhilt.scenario.models import Scenario
+from airhilt.scenario.models import Scenario, WildlifeActor
 from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
-from airhilt.units import FOOT, SECOND_NS
+from airhilt.units import SECOND_NS
 
 SPEAK_MIN_LEVEL = Severity.CAUTION
 """Least severity that is spoken, and so the least that counts as a warning."""
 JUSTIFIED_WITHIN_S = 300.0
 """An alert about other traffic is no nuisance if that traffic will really lose separation within
 this time."""
+SEVEREST_FIRST: tuple[IncursionCategory, ...] = ("accident", "A", "B", "C", "D")
+SERIOUS = frozenset(SEVEREST_FIRST[:3])
 
 
 @dataclass
@@ -42,7 +46,8 @@ class _Told:
     """One advisory over its revisions."""
 
     advisory: Advisory
-    nuisance: bool
+    loses_separation: bool
+    """Whether its traffic was going to, when it was told."""
     severities: list[Severity] = field(default_factory=list)
     revisions: set[int] = field(default_factory=set)
     first_warning_ns: int | None = None
@@ -67,16 +72,29 @@ class Collector:
         Kept by the run.
     """
 
-    def __init__(self, scenario: Scenario, monitor: ConflictMonitor, plans: Plans) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        ground_m: float,
+        monitor: ConflictMonitor,
+        runways: RunwayMonitor | None,
+        plans: Plans,
+    ) -> None:
         self.window = ConflictWindow()
         self.modalities: dict[Modality, ModalityState] = {}
         self.ended_actors: dict[str, str] = {}
         self.last_advisory: Advisory | None = None
         self._scenario = scenario
+        self._ground_m = ground_m
         self._monitor = monitor
+        self._runways = runways
         self._plans = plans
         self._pair = pair_of(scenario)
-        self._callsigns = {actor.icao24: actor.callsign for actor in scenario.actors}
+        self._callsigns = {actor.callsign: actor.callsign for actor in scenario.actors} | {
+            actor.icao24: actor.callsign
+            for actor in scenario.actors
+            if not isinstance(actor, WildlifeActor)
+        }
         self._told: dict[str, _Told] = {}
         self._latencies_s: dict[str, list[float]] = {"adsb": [], "asr": [], "decision": []}
         self._first_warning_ns: int | None = None
@@ -100,7 +118,7 @@ class Collector:
     def _take_advisory(self, advisory: Advisory) -> None:
         told = self._told.get(advisory.id)
         if told is None:
-            told = _Told(advisory, self._is_nuisance(advisory))
+            told = _Told(advisory, self._loses_separation(advisory))
             self._told[advisory.id] = told
         if advisory.revision not in told.revisions:
             told.revisions.add(advisory.revision)
@@ -125,38 +143,52 @@ class Collector:
         motion, first, second = self._monitor.motion(pair)
         first_m = self._plans.altitude_at(pair[0], now_ns, first)
         second_m = self._plans.altitude_at(pair[1], now_ns, second)
-        ground_m = self._scenario.scene.terrain_elevation_ft * FOOT
+        ground_m = self._ground_m
         return tcas.earliest(
             tcas.project(motion, first_m, second_m, ground_m),
             tcas.project(motion, second_m, first_m, ground_m),
         )
 
     def _reaches_somebody(self, advisory: Advisory) -> bool:
-        recipient = advisory.recipient
-        return (
-            recipient == CONTROLLER
-            or recipient in self._callsigns
-            or recipient in self._callsigns.values()
-        )
+        return advisory.recipient == CONTROLLER or advisory.recipient in self._callsigns
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
-        return self._pair is not None and set(self._traffic(advisory)) <= set(self._pair)
+        """Return whether its traffic is the annotated pair's.
+
+        On a runway an assistant may name what it has no callsign for, such as a deer.
+        """
+        named = set(self._traffic(advisory))
+        if advisory.kind == "runway_conflict":
+            named &= set(self._callsigns)
+        return self._pair is not None and bool(named) and named <= set(self._pair)
 
     def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
         """Return who an advisory is about; before it has a callsign, traffic goes by icao24."""
         return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
 
-    def _is_nuisance(self, advisory: Advisory) -> bool:
-        """Return whether the traffic named is in no conflict, declared or real."""
+    def _loses_separation(self, advisory: Advisory) -> bool:
+        """Return whether the two named, if they are two, will really lose separation soon."""
+        traffic = advisory.traffic
+        if len(traffic) != 2 or not all(name in self._callsigns for name in traffic):
+            return False
+        first, second = self._traffic(advisory)
+        loss = self._monitor.time_to_loss_s((first, second))
+        return loss is not None and loss <= JUSTIFIED_WITHIN_S
+
+    def _is_nuisance(self, told: _Told) -> bool:
+        """Return whether the traffic named is in no conflict, declared or real.
+
+        In a scenario without a conflict everything is a nuisance but what came true.
+        """
+        advisory = told.advisory
         if self._concerns_conflict(advisory):
             return False
-        if self._pair is None or len(advisory.traffic) != 2:
-            return True
-        first, second = self._traffic(advisory)
-        if not {first, second} <= set(self._callsigns.values()):
-            return True
-        loss = self._monitor.time_to_loss_s((first, second))
-        return loss is None or loss > JUSTIFIED_WITHIN_S
+        if advisory.kind == "loss_of_separation":
+            return self._pair is None or not told.loses_separation
+        named = set(self._traffic(advisory))
+        return not any(
+            named & {incursion.user, incursion.intruder} for incursion in self._incursions()
+        )
 
     # --- the summary ------------------------------------------------------------------------
 
@@ -190,9 +222,11 @@ class Collector:
             loss_of_separation=self._happened("loss_of_separation"),
             nmac=self._happened("nmac"),
             collision=self._happened("collision"),
+            runway_incursions=self._incursions(),
+            runway_incursion_category=_severest_category(self._incursions()),
             avoided=self._avoided(truth),
             nuisance_alerts=sum(
-                told.nuisance and severest(told.severities).rank >= SPEAK_MIN_LEVEL.rank
+                severest(told.severities).rank >= SPEAK_MIN_LEVEL.rank and self._is_nuisance(told)
                 for told in self._told.values()
             ),
             advisories=[
@@ -203,7 +237,7 @@ class Collector:
                     t_first_s=told.advisory.t_ns / SECOND_NS,
                     severity=severest(told.severities),
                     revisions=len(told.revisions),
-                    nuisance=told.nuisance,
+                    nuisance=self._is_nuisance(told),
                 )
                 for told in self._told.values()
             ],
@@ -231,8 +265,33 @@ class Collector:
             return None
         return now_ns if self.window.closed_ns is None else self.window.closed_ns
 
+    def _incursions(self) -> list[RunwayIncursion]:
+        if self._runways is None:
+            return []
+        return [
+            RunwayIncursion(
+                t_s=incursion.t_ns / SECOND_NS,
+                runway=incursion.runway,
+                user=incursion.user,
+                intruder=incursion.intruder,
+                category=incursion.category,
+                closest_m=None if incursion.closest is None else incursion.closest.slant_m,
+            )
+            for incursion in self._runways.incursions.values()
+        ]
+
     def _avoided(self, truth: PairTruth | None) -> bool | None:
-        if truth is not None and "loss_of_separation" in truth.first_ns:
+        if truth is not None and truth.first_ns.keys() & {
+            "loss_of_separation",
+            "nmac",
+            "collision",
+        }:
+            return False
+        pair = set(self._pair or ())
+        if any(
+            incursion.category in SERIOUS and {incursion.user, incursion.intruder} <= pair
+            for incursion in self._incursions()
+        ):
             return False
         if self.window.opened_ns is None and self._first_warning_ns is None:
             return None
@@ -251,6 +310,11 @@ class Collector:
             return (said_ns - self._first_warning_ns) / SECOND_NS
         projection = self._projection
         return projection.traffic_s if alert == "tcas_ta" else projection.resolution_s
+
+
+def _severest_category(incursions: list[RunwayIncursion]) -> IncursionCategory | None:
+    categories = [incursion.category for incursion in incursions]
+    return min(categories, key=SEVEREST_FIRST.index, default=None)
 
 
 def pair_of(scenario: Scenario) -> Pair | None:

@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
-from airhilt.flight import Aircraft
+from airhilt.actors.performer import Performer
 from airhilt.metrics.monitor import ConflictMonitor, Pair
+from airhilt.metrics.runways import RunwayMonitor
 from airhilt.scenario.models import (
     AllOf,
     AnyOf,
     BoundForAltitude,
+    BoundForRunway,
     ClosestApproachPassed,
+    Collided,
     Condition,
+    DistanceBelow,
+    HeightBelow,
+    InPhase,
     LineEnded,
+    OnRunway,
     PredictedLossOfSeparation,
     SeparationBelow,
+    SpeedAbove,
+    ThresholdWithin,
     TimeReached,
 )
-from airhilt.units import FOOT, NAUTICAL_MILE, seconds_to_ns
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
 
 Test = Callable[[int], bool]
 """Tells whether a condition is true at a time in nanoseconds."""
@@ -28,16 +38,18 @@ class ConditionCompiler:
 
     def __init__(
         self,
-        aircraft: Mapping[str, Aircraft],
+        cast: Mapping[str, Performer],
         monitor: ConflictMonitor,
+        runways: RunwayMonitor | None,
         ended_lines: set[str],
     ) -> None:
-        self._aircraft = aircraft
+        self._cast = cast
         self._monitor = monitor
+        self._runways = runways
         self._ended_lines = ended_lines
 
     def compile(self, condition: Condition) -> Test:
-        """Return the test for a condition. Tests of ended aircraft are false."""
+        """Return the test for a condition. Tests of ended actors are false."""
         match condition:
             case TimeReached(at_s=at_s):
                 due_ns = seconds_to_ns(at_s)
@@ -52,6 +64,22 @@ class ConditionCompiler:
                 return self._separation(condition)
             case ClosestApproachPassed(actors=pair, for_s=for_s):
                 return self._passed(pair, for_s)
+            case DistanceBelow(actors=pair, distance_m=distance_m):
+                return self._of_flying(
+                    pair, lambda: self._monitor.motion(pair)[0].distance_m < distance_m
+                )
+            case Collided(actors=pair):
+                return lambda _: self._monitor.collided(pair)
+            case InPhase() | BoundForRunway() | OnRunway() | ThresholdWithin():
+                return self._of_performer(condition)
+            case SpeedAbove(actor=actor, speed_kt=speed_kt):
+                body = self._cast[actor].body
+                return lambda _: (
+                    body.ended is None and body.state.ground_speed_m_s > speed_kt * KNOT
+                )
+            case HeightBelow(actor=actor, height_ft=height_ft):
+                body = self._cast[actor].body
+                return lambda _: body.ended is None and body.state.height_agl_m < height_ft * FOOT
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: all(_each(tests, now_ns))
@@ -67,11 +95,34 @@ class ConditionCompiler:
         return loss is not None and loss <= within_s
 
     def _bound_for(self, condition: BoundForAltitude) -> Test:
-        aircraft = self._aircraft[condition.actor]
+        aircraft = self._cast[condition.actor].body
         altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
         return lambda _: (
-            aircraft.ended is None and abs(aircraft.target_altitude_m - altitude_m) <= within_m
+            aircraft.ended is None
+            and abs(getattr(aircraft, "target_altitude_m", math.inf) - altitude_m) <= within_m
         )
+
+    def _of_performer(
+        self, condition: InPhase | BoundForRunway | OnRunway | ThresholdWithin
+    ) -> Test:
+        performer, runways = self._cast[condition.actor], self._runways
+        name = condition.actor
+
+        def true() -> bool:
+            match condition:
+                case InPhase(phases=phases):
+                    return performer.body.phase in phases
+                case BoundForRunway(runway=runway):
+                    return performer.bound_runway == runway
+                case OnRunway(runway=runway):
+                    return runways is not None and runways.is_on(name, runway)
+                case ThresholdWithin(runway=runway, within_s=within_s):
+                    if runways is None:
+                        return False
+                    time_s = runways.time_to_threshold_s(name, runway)
+                    return time_s is not None and time_s <= within_s
+
+        return lambda _: performer.body.ended is None and true()
 
     def _separation(self, condition: SeparationBelow) -> Test:
         pair = condition.actors

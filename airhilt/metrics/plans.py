@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from airhilt.commands import AltitudeCommand
 from airhilt.radio.script import RadioScript
-from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.kinematics import VerticalProfile
 from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
@@ -22,11 +23,11 @@ class Plans:
     Until a line has ended, its end is where it would be if the frequency were free.
     """
 
-    def __init__(self, lines: Sequence[RadioLine], script: RadioScript) -> None:
+    def __init__(self, lines: Sequence[HappeningLine], script: RadioScript) -> None:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
-        for line in lines:
-            end_ns = script.planned_end_ns(line)
-            for scripted in line.commands:
+        for happening in lines:
+            end_ns = script.planned_end_ns(happening)
+            for scripted in happening.line.commands if happening.line else ():
                 self._plan(end_ns, scripted)
 
     def _plan(self, end_ns: int, scripted: ScriptedCommand) -> None:

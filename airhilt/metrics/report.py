@@ -11,25 +11,34 @@ import itertools
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from importlib import resources
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.errors import RunFolderError
+from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.flight import load_aircraft_type
+from airhilt.metrics.lanes import Approach, PhaseLane, RunwayLane, Spell, Spells
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
+from airhilt.surface.kinds import load_kind
+from airhilt.surface.mover import Size
 from airhilt.surveillance.kinematics import curvature_radii_m, relative
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
+
+if TYPE_CHECKING:
+    from airhilt.metrics.ground_plan import GroundPlan
 
 Json = dict[str, Any]
 
 MOST_POINTS = 600
 """Of one track. A chart is hardly wider in pixels."""
-MOST_POINTS_OF_ALL = 20_000
+MOST_POINTS_AT_AIRPORT = 1200
+"""Of one track there: turns are tight, and the last metres count."""
+MOST_POINTS_OF_ALL = 15_000
 """Of all tracks together; they share it, so that the file stays below a megabyte."""
 FEWEST_POINTS = 40
 MOST_EVENTS = 1500
@@ -97,8 +106,9 @@ def _reduce(folder: RunFolder) -> Json:
             f"The timeline shows the first {MOST_EVENTS} events; {log.events_left_out} later ones "
             "are in log.mcap only."
         )
-    tracks = _flown(log)
-    types = {actor["callsign"]: actor["aircraft"] for actor in info.realised.get("actors", ())}
+    ground = _ground_plan(info, notes)
+    tracks = _flown(log, ground)
+    actors = {actor["callsign"]: actor for actor in info.realised.get("actors", ())}
     pair, annotated = _pair(info, summary, tracks)
     return {
         "run": info.run,
@@ -123,9 +133,18 @@ def _reduce(folder: RunFolder) -> Json:
         "pair_is_annotated": annotated,
         "summary": None if summary is None else summary.model_dump(mode="json"),
         "end_s": round(log.end_ns / SECOND_NS, 3),
-        "tracks": [track.as_json(actor, types.get(actor, "")) for actor, track in tracks.items()],
+        "tracks": [
+            track.as_json(actor, ground is not None) | _kind(actors.get(actor, {}))
+            for actor, track in tracks.items()
+        ],
         "separations": _separations(tracks, pair),
-        "events": log.events,
+        "airport": None if ground is None else ground.as_json(),
+        "phases": [
+            {"callsign": actor, "spells": [_spell(spell) for spell in lane.spells()]}
+            for actor, lane in log.phases.items()
+        ],
+        "runways": [_runway(lane, log.end_ns, ground, tracks) for lane in log.runways.values()],
+        "events": [_with_line(event, info) for event in log.events],
         "latencies": _latencies(folder, notes),
         "draws": info.draws,
     }
@@ -171,7 +190,60 @@ def _about(info: RunInfo) -> list[tuple[str, str]]:
 
 def _points_a_track(info: RunInfo) -> int:
     share = MOST_POINTS_OF_ALL // max(len(info.realised.get("actors", ())), 1)
-    return max(min(share, MOST_POINTS), FEWEST_POINTS)
+    most = MOST_POINTS if _airport(info) is None else MOST_POINTS_AT_AIRPORT
+    return max(min(share, most), FEWEST_POINTS)
+
+
+def _airport(info: RunInfo) -> str | None:
+    """Return the name of the airport where the scenario takes place, if it does at one."""
+    scene = info.realised.get("scene", {})
+    return str(scene["airport"]) if scene.get("type") == "airport" else None
+
+
+def _ground_plan(info: RunInfo, notes: list[str]) -> GroundPlan | None:
+    name = _airport(info)
+    if name is None:
+        return None
+    # Not at the top: reports of other runs do without the libraries behind it.
+    from airhilt.metrics.ground_plan import GroundPlan
+
+    try:
+        return GroundPlan(name)
+    except AirhiltError as error:
+        notes.append(f"The airport cannot be drawn: {_cut(str(error))}")
+        return None
+
+
+def _kind(actor: Json) -> Json:
+    """Return what an actor is and how large, as far as its type is still known here."""
+    name = str(actor.get("aircraft") or actor.get("kind") or "")
+    try:
+        size = _dimensions(name, "aircraft" in actor) if name else None
+    except AirhiltError:
+        size = None
+    return {
+        "type": name,
+        "category": actor.get("type", "aircraft"),
+        "length_m": None if size is None else round(size.length_m, 1),
+        "span_m": None if size is None else round(size.span_m, 1),
+    }
+
+
+def _dimensions(name: str, is_aircraft: bool) -> Size:
+    if is_aircraft:
+        return load_aircraft_type(name).dimensions
+    return load_kind(name).dimensions
+
+
+def _with_line(event: Json, info: RunInfo) -> Json:
+    """Return an event; if it is a failure of a radio line, with what that was to say."""
+    if event["kind"] != "failure":
+        return event
+    lines = info.realised.get("radio", {}).get("lines", ())
+    declared = next((line for line in lines if line["id"] == event["who"]), None)
+    if declared is None:
+        return event
+    return event | {"speaker": declared["speaker"], "line": _cut(declared["text"])}
 
 
 def _read(folder: RunFolder, points_a_track: int, notes: list[str]) -> _Log:
@@ -197,6 +269,8 @@ class _State(NamedTuple):
     altitude_m: float
     velocity_north_m_s: float
     velocity_east_m_s: float
+    heading_deg: float
+    on_ground: bool
 
 
 class _Thinned:
@@ -237,6 +311,8 @@ def _state(data: bytes) -> _State:
         truth["altitude_m"],
         truth["velocity_north_m_s"],
         truth["velocity_east_m_s"],
+        truth["heading_deg"],
+        truth["on_ground"],
     )
 
 
@@ -245,6 +321,8 @@ class _Log:
 
     def __init__(self, points_a_track: int) -> None:
         self.tracks: dict[str, _Thinned] = {}
+        self.phases: dict[str, PhaseLane] = {}
+        self.runways: dict[str, RunwayLane] = {}
         self.events: list[Json] = []
         self.events_left_out = 0
         self.end_ns = 0
@@ -261,6 +339,12 @@ class _Log:
         if rest.startswith("state/"):
             actor = rest.removeprefix("state/")
             self.tracks.setdefault(actor, _Thinned(self._points_a_track)).add(logged.data)
+            self.phases.setdefault(actor, PhaseLane()).take(logged.t_ns, logged.data)
+            return
+        if rest.startswith("runway/"):
+            truth = json.loads(logged.data)
+            name = _runway_name(truth["runway"])
+            self.runways.setdefault(name, RunwayLane(name)).take(logged.t_ns, truth)
             return
         event = _event(family, rest, logged)
         if event is None:
@@ -293,13 +377,15 @@ def _event(family: str, rest: str, logged: Logged) -> Json | None:
             "text": message["cause"],
         }
     elif family == "command":
-        row = {"kind": "command", "who": rest, "text": json.dumps(message["command"])}
+        row = {"kind": "command", "who": rest, "text": _command(message["command"])}
     elif rest.startswith("radio/"):
         row = _call(message)
     elif rest == "conflict":
         row = _conflict(message)
     elif rest == "event":
         row = {"kind": message["kind"], "who": message["subject"], "text": message["text"]}
+        if row["kind"] == "command":
+            row["text"] = _command(json.loads(row["text"]))
     else:
         return None
     cut = {name: _cut(value) if isinstance(value, str) else value for name, value in row.items()}
@@ -340,7 +426,23 @@ def _conflict(message: Json) -> Json:
         "actors": message["actors"],
         "horizontal_m": message["horizontal_m"],
         "vertical_m": message["vertical_m"],
+        "runway": None if message["runway"] is None else _runway_name(message["runway"]),
     }
+
+
+def _command(command: Json) -> str:
+    """Return a command as JSON, with the number of points in the place of a way over many."""
+    points = {
+        name: len(value)
+        for name, value in command.items()
+        if name == "route" or (name == "via" and command["action"] == "land")
+    }
+    return json.dumps(command | points)
+
+
+def _runway_name(key: str) -> str:
+    """Return ``01/19`` for ``01-19``, as a key has it."""
+    return key.replace("-", "/")
 
 
 def _texts(source: Json, *names: str) -> dict[str, str]:
@@ -352,6 +454,18 @@ def _cut(text: str) -> str:
 
 
 # --- what is drawn --------------------------------------------------------------------------
+
+
+Locate = Callable[[_State], tuple[float, float]]
+"""Returns how far east and north of the plan's centre a state is, in nautical miles."""
+
+
+def _around_airport(ground: GroundPlan) -> Locate:
+    def locate(state: _State) -> tuple[float, float]:
+        east_m, north_m = ground.locate(state.latitude_rad, state.longitude_rad)
+        return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
+
+    return locate
 
 
 class _Projection(NamedTuple):
@@ -396,8 +510,8 @@ class _Flown(NamedTuple):
     north_nm: list[float]
 
     @classmethod
-    def of(cls, states: list[_State], projection: _Projection) -> _Flown:
-        positions = [projection.nautical_miles(state) for state in states]
+    def of(cls, states: list[_State], locate: Locate) -> _Flown:
+        positions = [locate(state) for state in states]
         return cls(states, [east for east, _ in positions], [north for _, north in positions])
 
     def at(self, t_ns: float) -> tuple[float, float, float]:
@@ -410,21 +524,39 @@ class _Flown(NamedTuple):
             float(np.interp(t_ns, times, heights_m)),
         )
 
-    def as_json(self, actor: str, aircraft_type: str) -> Json:
-        return {
+    def as_json(self, actor: str, at_airport: bool) -> Json:
+        digits = 5 if at_airport else 3
+        track: Json = {
             "callsign": actor,
-            "type": aircraft_type,
             "t": [round(state.t_ns / SECOND_NS, 2) for state in self.states],
-            "east_nm": [round(east, 3) for east in self.east_nm],
-            "north_nm": [round(north, 3) for north in self.north_nm],
+            "east_nm": [round(east, digits) for east in self.east_nm],
+            "north_nm": [round(north, digits) for north in self.north_nm],
             "altitude_ft": [round(state.altitude_m / FOOT) for state in self.states],
+            "on_ground": self._on_ground_s(),
         }
+        if at_airport:
+            track["heading_deg"] = [round(state.heading_deg) for state in self.states]
+        return track
+
+    def _on_ground_s(self) -> list[tuple[float, float]]:
+        """Return from when to when it was on the ground."""
+        spells: Spells[bool] = Spells()
+        for state in self.states:
+            spells.go_on(state.t_ns, [True] if state.on_ground else [])
+        return [
+            (round(spell.from_ns / SECOND_NS, 2), round(spell.to_ns / SECOND_NS, 2))
+            for spell in spells.until(self.states[-1].t_ns)
+        ]
 
 
-def _flown(log: _Log) -> dict[str, _Flown]:
+def _flown(log: _Log, ground: GroundPlan | None) -> dict[str, _Flown]:
     states = {actor: track.states() for actor, track in log.tracks.items()}
-    projection = _Projection.around(itertools.chain.from_iterable(states.values()))
-    return {actor: _Flown.of(flown, projection) for actor, flown in states.items()}
+    locate = _around_airport(ground) if ground is not None else _around_traffic(states.values())
+    return {actor: _Flown.of(flown, locate) for actor, flown in states.items()}
+
+
+def _around_traffic(states: Iterable[list[_State]]) -> Locate:
+    return _Projection.around(itertools.chain.from_iterable(states)).nautical_miles
 
 
 def _pair(
@@ -471,6 +603,56 @@ def _separations(tracks: dict[str, _Flown], pair: list[str] | None) -> Json | No
             round(abs(own.altitude_m - other.altitude_m) / FOOT, 1) for own, other in both
         ],
     }
+
+
+# --- lanes over time ------------------------------------------------------------------------
+
+
+def _spell(spell: Spell[str]) -> Json:
+    return {"what": _cut(spell.what), **_from_to(spell)}
+
+
+def _from_to(spell: Spell[Any]) -> Json:
+    return {
+        "from": round(spell.from_ns / SECOND_NS, 2),
+        "to": round(spell.to_ns / SECOND_NS, 2),
+    }
+
+
+def _runway(
+    lane: RunwayLane, end_ns: int, ground: GroundPlan | None, tracks: dict[str, _Flown]
+) -> Json:
+    return {
+        "runway": lane.name,
+        "occupants": [_spell(spell) for spell in lane.occupants(end_ns)],
+        "approaches": [
+            {
+                "what": spell.what.actor,
+                "runway": spell.what.runway,
+                "threshold": _crossed_s(spell, ground, tracks.get(spell.what.actor)),
+                **_from_to(spell),
+            }
+            for spell in lane.approaches(end_ns)
+        ],
+    }
+
+
+def _crossed_s(
+    spell: Spell[Approach], ground: GroundPlan | None, track: _Flown | None
+) -> float | None:
+    """Return when an approach came over its threshold."""
+    if ground is None or track is None:
+        return None
+    times_s = [state.t_ns / SECOND_NS for state in track.states]
+    first, last = np.searchsorted(times_s, (spell.from_ns / SECOND_NS, spell.to_ns / SECOND_NS))
+    part = slice(max(first - 1, 0), last + 1)
+    metres = ([value * NAUTICAL_MILE for value in axis] for axis in (track.east_nm, track.north_nm))
+    east_m, north_m = (values[part] for values in metres)
+    try:
+        crossed = ground.threshold_crossed_s(spell.what.runway, times_s[part], east_m, north_m)
+    except AirhiltError:  # The airport's file has changed since.
+        return None
+    return None if crossed is None else round(crossed, 2)
 
 
 # --- latencies ------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.messages import Modality, ModalityState, Severity
+from airhilt.metrics.runways import IncursionCategory
 
 Stage = str
 
@@ -37,6 +38,18 @@ class ClosestApproach(BaseModel):
     t_s: float
     horizontal_m: float
     vertical_m: float
+
+
+class RunwayIncursion(BaseModel):
+    """One actor in the way of the user of a runway, or there without any business."""
+
+    model_config = ConfigDict(frozen=True)
+    t_s: float
+    runway: str
+    user: str | None = Field(description="who took off or landed; null: nobody did")
+    intruder: str
+    category: IncursionCategory
+    closest_m: float | None = Field(description="between the outlines, in three dimensions")
 
 
 class ToldAdvisory(BaseModel):
@@ -86,9 +99,14 @@ class Summary(BaseModel):
     loss_of_separation: bool
     nmac: bool
     collision: bool
+    runway_incursions: list[RunwayIncursion]
+    runway_incursion_category: IncursionCategory | None = Field(
+        description="the most severe: accident, A, B, C, D; null if there was none"
+    )
     avoided: bool | None = Field(
         description="the conflict window opened, or a warning came before it did, and the pair "
-        "kept separation; null if neither happened"
+        "neither lost separation, nor came to an incursion of category A or B, nor collided; null "
+        "if neither happened"
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

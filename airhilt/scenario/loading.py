@@ -8,27 +8,53 @@ import typing
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ValidationError
 
 from airhilt import library
+from airhilt.commands import (
+    AircraftCommand,
+    Command,
+    ContinueCommand,
+    HoldPositionCommand,
+    TaxiCommand,
+    VehicleCommand,
+)
 from airhilt.errors import AirhiltError, ScenarioError
 from airhilt.flight import AircraftType, load_aircraft_type
+from airhilt.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
+from airhilt.scenario.geometry import Setting, distance_m
 from airhilt.scenario.models import (
-    ActorMount,
-    AllOf,
-    AnyOf,
-    BoundForAltitude,
+    Airborne,
+    AircraftActor,
+    AircraftStart,
+    AirportScene,
     Condition,
+    Dropped,
+    EngineFailure,
+    HoldingShort,
+    LinedUp,
     LineEnded,
     Scenario,
-    TimeReached,
+    Standing,
+    VehicleActor,
+    WildlifeActor,
 )
 from airhilt.scenario.perturbation import PathError, locate
+from airhilt.surface.kinds import load_kind
+from airhilt.surface.runway import Place
+from airhilt.units import FOOT
+
+if TYPE_CHECKING:
+    from airhilt.surface.layout import Layout
 
 GREATEST_LATITUDE_DEG = 75.0
 MAXIMUM_BYTES = 20_000_000
+GREATEST_SURFACE_WIND_KT = 40.0
+"""Beyond it airports stop: more than the demonstrated crosswind of any type here."""
+GREATEST_SURFACE_DISTANCE_M = 10_000.0
+"""From the airport's reference point, for what stands on the ground."""
 
 
 @dataclass(frozen=True)
@@ -228,15 +254,25 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     line_ids = [line.id for line in scenario.radio.lines]
     shared = [
         *_duplicates("actors", "callsign", callsigns),
-        *_duplicates("actors", "icao24", [actor.icao24 for actor in scenario.actors]),
+        *_duplicates("actors", "icao24", _addresses(scenario)),
         *_duplicates("radio/lines", "id", line_ids),
         *_duplicates("cameras", "name", [camera.name for camera in scenario.cameras]),
     ]
     if shared:
         yield from shared
         return
-    yield from _actors(scenario)
+    try:
+        setting = Setting.of(scenario)
+    except AirhiltError as error:
+        yield Problem("scene/airport", str(error))
+        return
+    yield from _actors(scenario, setting)
+    yield from _places(scenario, setting)
     yield from _references(scenario, callsigns, line_ids)
+    yield from _misfits(scenario)
+    if setting.layout is not None:
+        yield from _ways(scenario, setting, setting.layout)
+    yield from _failures(scenario, line_ids)
     yield from _perturbations(scenario)
 
 
@@ -250,32 +286,235 @@ def _duplicates(path: str, field: str, values: Sequence[str]) -> Iterator[Proble
             )
 
 
-def _actors(scenario: Scenario) -> Iterator[Problem]:
-    ground_ft = scenario.scene.terrain_elevation_ft
-    if abs(scenario.scene.centre.lat_deg) > GREATEST_LATITUDE_DEG:
+def _addresses(scenario: Scenario) -> list[str]:
+    """Return the 24-bit address of each actor; a name that none can have where it has none."""
+    return [
+        f"{actor.callsign} has none" if isinstance(actor, WildlifeActor) else actor.icao24
+        for actor in scenario.actors
+    ]
+
+
+def _actors(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
+    if abs(setting.centre.lat_deg) > GREATEST_LATITUDE_DEG:
         yield Problem(
             "scene/centre/lat_deg",
-            f"found {scenario.scene.centre.lat_deg:g}; expected within +-"
+            f"found {setting.centre.lat_deg:g}; expected within +-"
             f"{GREATEST_LATITUDE_DEG:g}, where relative motion is exact enough",
         )
     for index, actor in enumerate(scenario.actors):
-        path, initial = f"actors/{index}", actor.initial
-        if initial.altitude_ft <= ground_ft:
-            yield Problem(
-                f"{path}/initial/altitude_ft",
-                f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
-                f"than scene/terrain_elevation_ft, {ground_ft:g}",
-            )
-        if initial.track_deg is None and not actor.route:
-            yield Problem(
-                f"{path}/initial/track_deg", "missing; it is required where there is no route"
-            )
-        try:
-            kind = load_aircraft_type(actor.aircraft)
-        except AirhiltError as error:
-            yield Problem(f"{path}/aircraft", str(error))
+        path = f"actors/{index}"
+        if isinstance(actor, AircraftActor):
+            yield from _aircraft(path, actor, setting, scenario)
         else:
-            yield from _envelope(f"{path}/initial", initial.altitude_ft, initial.cas_kt, kind)
+            yield from _kind(path, actor)
+
+
+def _kind(path: str, actor: VehicleActor | WildlifeActor) -> Iterator[Problem]:
+    try:
+        load_kind(actor.kind, actor.type)
+    except AirhiltError as error:
+        yield Problem(f"{path}/kind", str(error))
+
+
+def _aircraft(
+    path: str, actor: AircraftActor, setting: Setting, scenario: Scenario
+) -> Iterator[Problem]:
+    try:
+        kind = load_aircraft_type(actor.aircraft)
+    except AirhiltError as error:
+        yield Problem(f"{path}/aircraft", str(error))
+        return
+    initial, ground_ft = actor.initial, setting.ground_m / FOOT
+    if not isinstance(initial, Airborne):
+        yield from _wind(scenario)
+        return
+    if initial.altitude_ft <= ground_ft:
+        where = (
+            "the airport"
+            if isinstance(scenario.scene, AirportScene)
+            else "scene/terrain_elevation_ft"
+        )
+        yield Problem(
+            f"{path}/initial/altitude_ft",
+            f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
+            f"than {where}, {ground_ft:g}",
+        )
+    if initial.track_deg is None and not actor.route:
+        yield Problem(
+            f"{path}/initial/track_deg", "missing; it is required where there is no route"
+        )
+    yield from _envelope(f"{path}/initial", initial.altitude_ft, initial.cas_kt, kind)
+
+
+def _wind(scenario: Scenario) -> Iterator[Problem]:
+    speed_kt = scenario.weather.wind.speed_kt
+    if speed_kt > GREATEST_SURFACE_WIND_KT:
+        yield Problem(
+            "weather/wind/speed_kt",
+            f"found {speed_kt:g}; expected at most {GREATEST_SURFACE_WIND_KT:g} where aircraft "
+            "take off, land or taxi",
+        )
+
+
+def _places(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
+    """Yield what refers to a runway, a hold-short position or a node that does not exist."""
+    for path, model in _models_of(scenario, ""):
+        position: Position | None = None
+        match model:
+            case HoldShortPosition() | NodePosition() | RunwayPosition():
+                position = model
+            case HoldingShort(runway=runway, taxiway=taxiway):
+                position = HoldShortPosition(type="hold_short", runway=runway, taxiway=taxiway)
+            case _:
+                ident = getattr(model, "runway", None)
+                if ident is None:
+                    continue
+                position = RunwayPosition(type="runway", runway=ident, along_m=0.0)
+        try:
+            setting.place(position)
+        except AirhiltError as error:
+            yield Problem(path, str(error))
+    for index, actor in enumerate(scenario.actors):
+        if not isinstance(actor.initial, Standing):
+            continue
+        try:
+            away_m = distance_m(
+                setting.place(actor.initial.position), setting.place(setting.centre)
+            )
+        except AirhiltError:
+            continue  # Named above.
+        if setting.layout is None or away_m > GREATEST_SURFACE_DISTANCE_M:
+            yield Problem(
+                f"actors/{index}/initial/position",
+                f"found a place {away_m / 1000.0:.1f} km from the centre of "
+                f"{'an airport' if setting.layout else 'airspace without an airport'}; expected "
+                f"an airport, and at most {GREATEST_SURFACE_DISTANCE_M / 1000.0:g} km",
+            )
+
+
+def _models_of(value: Any, path: str) -> Iterator[tuple[str, BaseModel]]:
+    """Yield all models inside a value, with their paths."""
+    if isinstance(value, BaseModel):
+        yield path, value
+        for name in type(value).model_fields:
+            yield from _models_of(getattr(value, name), f"{path}/{name}".strip("/"))
+    elif isinstance(value, tuple):
+        for index, entry in enumerate(value):
+            yield from _models_of(entry, f"{path}/{index}")
+
+
+def _told(scenario: Scenario) -> Iterator[tuple[str, str, Command]]:
+    """Yield what each actor is told, with its path, in the order of the file."""
+    for index, actor in enumerate(scenario.actors):
+        if not isinstance(actor, WildlifeActor):
+            for number, command in enumerate(actor.commands):
+                yield f"actors/{index}/commands/{number}", actor.callsign, command
+    for index, line in enumerate(scenario.radio.lines):
+        for number, scripted in enumerate(line.commands):
+            path = f"radio/lines/{index}/commands/{number}/command"
+            yield path, scripted.actor, scripted.command
+
+
+def _misfits(scenario: Scenario) -> Iterator[Problem]:
+    """Yield commands that are nothing for who gets them."""
+    fitting = {
+        "aircraft": typing.get_args(AircraftCommand),
+        "vehicle": typing.get_args(VehicleCommand),
+        "wildlife": (),
+    }
+    kinds = {actor.callsign: actor.type for actor in scenario.actors}
+    for path, callsign, command in _told(scenario):
+        kind = kinds.get(callsign)
+        if kind is not None and not isinstance(command, fitting[kind]):
+            known = ", ".join(
+                str(typing.get_args(model.model_fields["action"].annotation)[0])
+                for model in fitting[kind]
+            )
+            yield Problem(
+                f"{path}/action",
+                f"found {command.action!r}, which no {kind} does; expected "
+                f"{known or 'nothing: nobody tells an animal what to do'}",
+            )
+
+
+def _ways(scenario: Scenario, setting: Setting, layout: Layout) -> Iterator[Problem]:
+    """Yield taxi commands without a way, and aircraft that stand off the taxiways.
+
+    After a takeoff or a landing nobody knows where a way begins; then it is one from a stand.
+    """
+    somewhere = layout.node(layout.stands[0]) if layout.stands else None
+    begins: dict[str, Place | None] = {}
+    for index, actor in enumerate(scenario.actors):
+        begins[actor.callsign] = here = _stands_at(actor.initial, setting)
+        if here is None or somewhere is None or not isinstance(actor, AircraftActor):
+            continue
+        try:
+            layout.taxi_route(here, somewhere)
+        except AirhiltError as error:
+            yield Problem(f"actors/{index}/initial", str(error))
+    for path, callsign, command in _told(scenario):
+        if isinstance(command, TaxiCommand):
+            end = _place(setting, command.to)
+            if end is None:
+                continue  # Named elsewhere.
+            try:
+                if not command.off_taxiways:
+                    layout.taxi_route(begins.get(callsign) or somewhere or end, end, command.via)
+            except AirhiltError as error:
+                yield Problem(path, str(error))
+            begins[callsign] = end
+        elif not isinstance(command, HoldPositionCommand | ContinueCommand):
+            begins[callsign] = None
+
+
+def _stands_at(initial: AircraftStart, setting: Setting) -> Place | None:
+    """Return where an actor begins on the ground, None if it does not or nobody knows."""
+    match initial:
+        case Standing(position=position):
+            return _place(setting, position)
+        case HoldingShort(runway=runway, taxiway=taxiway):
+            hold = HoldShortPosition(type="hold_short", runway=runway, taxiway=taxiway)
+            return _place(setting, hold)
+        case LinedUp(runway=runway):
+            return _place(setting, RunwayPosition(type="runway", runway=runway, along_m=0.0))
+    return None
+
+
+def _place(setting: Setting, position: Position) -> Place | None:
+    """Return where a position is, None if it refers to nothing."""
+    try:
+        return setting.place(position)
+    except AirhiltError:
+        return None
+
+
+def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
+    """Yield failures of lines that do not exist, or of which nothing would be different."""
+    lines = {line.id: line for line in scenario.radio.lines}
+    for index, failure in enumerate(scenario.failures):
+        path = f"failures/{index}"
+        if isinstance(failure, EngineFailure):
+            continue
+        if failure.line not in lines:
+            yield Problem(
+                f"{path}/line",
+                f"no radio line {failure.line!r}{library.nearest(failure.line, line_ids)}",
+            )
+            continue
+        told = [scripted.actor for scripted in lines[failure.line].commands]
+        field = next((name for name in ("actor", "meant") if hasattr(failure, name)), None)
+        if field is not None and getattr(failure, field) not in told:
+            yield Problem(
+                f"{path}/{field}",
+                f"found {getattr(failure, field)!r}, whom line {failure.line!r} tells nothing; "
+                f"expected {' or '.join(told) or 'a line with commands'}",
+            )
+        if isinstance(failure, Dropped) and any(
+            getattr(other, "line", None) == failure.line
+            for number, other in enumerate(scenario.failures)
+            if number != index
+        ):
+            yield Problem(f"{path}/line", f"line {failure.line!r} is dropped and fails otherwise")
 
 
 def _envelope(
@@ -314,38 +553,23 @@ def _references(scenario: Scenario, callsigns: list[str], line_ids: list[str]) -
 
 
 def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
-    for index, line in enumerate(scenario.radio.lines):
-        for number, scripted in enumerate(line.commands):
-            yield f"radio/lines/{index}/commands/{number}/actor", scripted.actor
-    for index, camera in enumerate(scenario.cameras):
-        if isinstance(camera.mount, ActorMount):
-            yield f"cameras/{index}/mount/actor", camera.mount.actor
-    if scenario.conflict is not None:
-        for number, callsign in enumerate(scenario.conflict.actors):
-            yield f"conflict/actors/{number}", callsign
-    for path, condition in _conditions(scenario):
-        match condition:
-            case BoundForAltitude(actor=callsign):
-                yield f"{path}/actor", callsign
-            case LineEnded() | TimeReached() | AllOf() | AnyOf():
-                pass
-            case pairwise:
-                for number, callsign in enumerate(pairwise.actors):
-                    yield f"{path}/actors/{number}", callsign
+    """Yield every callsign that refers to an actor."""
+    for path, model in _models_of(scenario, ""):
+        if isinstance(model, AircraftActor | VehicleActor | WildlifeActor):
+            continue
+        for field in ("actor", "meant", "taken_by"):
+            callsign = getattr(model, field, None)
+            if callsign is not None:
+                yield f"{path}/{field}", callsign
+        if model is not scenario:
+            for number, callsign in enumerate(getattr(model, "actors", ())):
+                yield f"{path}/actors/{number}", callsign
 
 
 def _conditions(scenario: Scenario) -> Iterator[tuple[str, Condition]]:
-    if scenario.conflict is not None:
-        yield from _nested("conflict/opens_when", scenario.conflict.opens_when)
-    for index, condition in enumerate(scenario.end_when):
-        yield from _nested(f"end_when/{index}", condition)
-
-
-def _nested(path: str, condition: Condition) -> Iterator[tuple[str, Condition]]:
-    yield path, condition
-    if isinstance(condition, AllOf | AnyOf):
-        for index, inner in enumerate(condition.conditions):
-            yield from _nested(f"{path}/conditions/{index}", inner)
+    for path, model in _models_of(scenario, ""):
+        if isinstance(model, typing.get_args(typing.get_args(Condition)[0])):
+            yield path, typing.cast(Condition, model)
 
 
 def _perturbations(scenario: Scenario) -> Iterator[Problem]:

@@ -6,13 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.commands import Command
+from airhilt.commands import AircraftCommand, Command, VehicleCommand, WildlifeCommand
+from airhilt.positions import (
+    Bearing,
+    GeodeticPosition,
+    Position,
+    RunwayIdent,
+    TaxiwayName,
+)
 
 Callsign = Annotated[str, Field(pattern=r"^[A-Z0-9]{2,8}$", examples=["AAL123"])]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,40}$")]
-Latitude = Annotated[float, Field(ge=-90.0, le=90.0)]
-Longitude = Annotated[float, Field(ge=-180.0, le=180.0)]
-Bearing = Annotated[float, Field(ge=0.0, le=360.0, description="degrees from true north")]
 
 
 class _Model(BaseModel):
@@ -20,29 +24,6 @@ class _Model(BaseModel):
 
 
 # --- where --------------------------------------------------------------------------------
-
-
-class GeodeticPosition(_Model):
-    """A WGS84 latitude and longitude."""
-
-    type: Literal["geodetic"]
-    lat_deg: Latitude
-    lon_deg: Longitude
-
-
-class RelativePosition(_Model):
-    """A bearing and a distance from the scene's centre, then an offset to the right of it.
-
-    ``offset_nm`` is across the line from the centre: positive is clockwise, seen from the centre.
-    """
-
-    type: Literal["from_centre"]
-    bearing_deg: Bearing
-    distance_nm: float = Field(ge=0.0, le=500.0)
-    offset_nm: float = Field(default=0.0, ge=-100.0, le=100.0)
-
-
-Position = Annotated[GeodeticPosition | RelativePosition, Field(discriminator="type")]
 
 
 class EnRouteScene(_Model):
@@ -53,15 +34,26 @@ class EnRouteScene(_Model):
     terrain_elevation_ft: float = Field(default=0.0, ge=-1500.0, le=29_000.0)
 
 
-Scene = Annotated[EnRouteScene, Field()]
+class AirportScene(_Model):
+    """An airport and the airspace around it; its reference point is the scene's centre.
+
+    The ground is flat, at the airport's elevation.
+    """
+
+    type: Literal["airport"]
+    airport: str = Field(min_length=1, max_length=10, examples=["KDCA"])
+
+
+Scene = Annotated[EnRouteScene | AirportScene, Field(discriminator="type")]
 
 
 # --- who ----------------------------------------------------------------------------------
 
 
-class InitialState(_Model):
-    """Where and how an aircraft begins. It begins in unaccelerated flight."""
+class Airborne(_Model):
+    """In unaccelerated flight."""
 
+    type: Literal["airborne"]
     position: Position
     altitude_ft: float = Field(ge=-1500.0, le=60_000.0)
     cas_kt: float = Field(gt=0.0, le=500.0, description="calibrated airspeed")
@@ -70,8 +62,46 @@ class InitialState(_Model):
     )
 
 
-class Pilot(_Model):
-    """How the crew reacts to an advisory; times are drawn from a lognormal distribution.
+class OnFinal(_Model):
+    """On final approach to a runway, on the glide path, configured to land."""
+
+    type: Literal["final"]
+    runway: RunwayIdent
+    distance_nm: float = Field(ge=1.0, le=15.0, description="to the landing threshold")
+
+
+class LinedUp(_Model):
+    """Standing on a runway, lined up."""
+
+    type: Literal["lined_up"]
+    runway: RunwayIdent
+
+
+class HoldingShort(_Model):
+    """Standing at a hold-short position, or so many metres before it."""
+
+    type: Literal["hold_short"]
+    runway: RunwayIdent
+    taxiway: TaxiwayName
+    before_m: float = Field(default=0.0, ge=0.0, le=2000.0)
+
+
+class Standing(_Model):
+    """Standing on the ground."""
+
+    type: Literal["standing"]
+    position: Position
+    heading_deg: Bearing = Field(default=0.0, description="true")
+
+
+AircraftStart = Annotated[
+    Airborne | OnFinal | LinedUp | HoldingShort | Standing, Field(discriminator="type")
+]
+GroundStart = Annotated[LinedUp | HoldingShort | Standing, Field(discriminator="type")]
+
+
+class Reactions(_Model):
+    """How a crew or a driver reacts to an advisory; times are drawn lognormally.
 
     The default median of 5 s is the response to a first resolution advisory in the standard pilot
     model of ICAO Annex 10, volume IV.
@@ -92,6 +122,11 @@ class Transponder(_Model):
     nacv: int = Field(default=2, ge=0, le=4)
 
 
+AircraftAction = Annotated[AircraftCommand, Field(discriminator="action")]
+VehicleAction = Annotated[VehicleCommand, Field(discriminator="action")]
+WildlifeAction = Annotated[WildlifeCommand, Field(discriminator="action")]
+
+
 class AircraftActor(_Model):
     """An aircraft, with its crew."""
 
@@ -99,34 +134,78 @@ class AircraftActor(_Model):
     callsign: Callsign
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
     aircraft: str = Field(description="name of a file in aircraft/, such as 737")
-    initial: InitialState
+    initial: AircraftStart
     route: tuple[Position, ...] = Field(
         default=(), max_length=100, description="flown in order, then straight on"
     )
-    commands: tuple[Command, ...] = Field(default=(), description="carried out at the start")
-    pilot: Pilot = Pilot()
+    commands: tuple[AircraftAction, ...] = Field(default=(), description="carried out at the start")
+    pilot: Reactions = Reactions()
     transponder: Transponder = Transponder()
+    on_roster: bool = Field(
+        default=True, description="false: nobody expects it, and it is on no frequency"
+    )
 
 
-Actor = Annotated[AircraftActor, Field()]
+class VehicleActor(_Model):
+    """A ground vehicle, with its driver."""
+
+    type: Literal["vehicle"]
+    callsign: Callsign
+    icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
+    kind: str = Field(description="such as follow_me", examples=["fire_truck"])
+    initial: GroundStart
+    commands: tuple[VehicleAction, ...] = Field(default=(), description="carried out at the start")
+    driver: Reactions = Reactions(reaction_median_s=2.5)
+    transponder: Transponder = Transponder(equipped=False)
+
+
+class Cue(_Model):
+    """What an animal does once a condition is true."""
+
+    when: Condition
+    command: WildlifeAction
+
+
+class WildlifeActor(_Model):
+    """An animal, or a flock; nobody tells it what to do."""
+
+    type: Literal["wildlife"]
+    callsign: Callsign = Field(description="its name in this scenario", examples=["DEER1"])
+    kind: str = Field(description="such as deer", examples=["flock"])
+    initial: Standing
+    height_ft: float = Field(
+        default=0.0, ge=0.0, le=20_000.0, description="above the ground, for what flies at first"
+    )
+    plan: tuple[Cue, ...] = Field(default=(), max_length=20)
+    startles_within_m: float = Field(
+        default=0.0, ge=0.0, le=1000.0, description="flees what comes nearer; 0: never"
+    )
+
+
+Actor = Annotated[AircraftActor | VehicleActor | WildlifeActor, Field(discriminator="type")]
 
 
 # --- what is said -------------------------------------------------------------------------
 
 
 class ScriptedCommand(_Model):
-    """What an actor does because of a line, ``delay_s`` after the line has ended."""
+    """What a line means for an actor: carried out ``delay_s`` after the line has ended.
+
+    With a condition, once that is true as well: "behind the landing traffic, line up".
+    """
 
     actor: Callsign
     command: Command
     delay_s: float = Field(default=2.0, ge=0.0, le=600.0)
+    when: Condition | None = None
 
 
 class RadioLine(_Model):
     """One call on a frequency. If the frequency is busy, the call waits until it is free."""
 
     id: Identifier
-    at_s: float = Field(ge=0.0)
+    at_s: float = Field(default=0.0, ge=0.0, description="not before this time")
+    when: Condition | None = Field(default=None, description="and not before this is true")
     speaker: str = Field(min_length=1, max_length=40, description="a callsign, or a unit's name")
     to: str | None = Field(default=None, description="addressed callsign or unit")
     frequency_khz: int = Field(ge=117_975, le=137_000)
@@ -265,6 +344,70 @@ class BoundForAltitude(_Model):
     within_ft: float = Field(default=50.0, gt=0.0)
 
 
+class InPhase(_Model):
+    """True while an actor is in one of some phases, such as ``takeoff_roll`` or ``standing``."""
+
+    type: Literal["in_phase"]
+    actor: Callsign
+    phases: tuple[str, ...] = Field(min_length=1)
+
+
+class BoundForRunway(_Model):
+    """True while the runway that a crew really means to land on or take off from is this one."""
+
+    type: Literal["bound_for_runway"]
+    actor: Callsign
+    runway: RunwayIdent
+
+
+class OnRunway(_Model):
+    """True while an actor is on the ground in the protected area of a runway."""
+
+    type: Literal["on_runway"]
+    actor: Callsign
+    runway: RunwayIdent
+
+
+class ThresholdWithin(_Model):
+    """True while an airborne aircraft bound for a runway is within a time of its threshold."""
+
+    type: Literal["threshold_within"]
+    actor: Callsign
+    runway: RunwayIdent
+    within_s: float = Field(gt=0.0, le=1200.0)
+
+
+class SpeedAbove(_Model):
+    """True while an actor's ground speed is above a value."""
+
+    type: Literal["speed_above"]
+    actor: Callsign
+    speed_kt: float = Field(ge=0.0)
+
+
+class HeightBelow(_Model):
+    """True while an actor is lower above the ground than a value."""
+
+    type: Literal["height_below"]
+    actor: Callsign
+    height_ft: float = Field(gt=0.0)
+
+
+class DistanceBelow(_Model):
+    """True while two actors are nearer to each other over the ground than a distance."""
+
+    type: Literal["distance_below"]
+    actors: Pair
+    distance_m: float = Field(gt=0.0)
+
+
+class Collided(_Model):
+    """True once two actors have touched."""
+
+    type: Literal["collided"]
+    actors: Pair
+
+
 class LineEnded(_Model):
     """True once a radio line has ended."""
 
@@ -292,6 +435,14 @@ Condition = Annotated[
     | SeparationBelow
     | ClosestApproachPassed
     | BoundForAltitude
+    | InPhase
+    | BoundForRunway
+    | OnRunway
+    | ThresholdWithin
+    | SpeedAbove
+    | HeightBelow
+    | DistanceBelow
+    | Collided
     | LineEnded
     | AllOf
     | AnyOf,
@@ -299,11 +450,17 @@ Condition = Annotated[
 ]
 
 
+UnassistedOutcome = Literal["collision", "nmac", "runway_incursion", "loss_of_separation"]
+
+
 class Conflict(_Model):
     """The annotation: who is in conflict, and on what condition of the true state it begins."""
 
     actors: Pair
     opens_when: Condition
+    unassisted: UnassistedOutcome = Field(
+        default="loss_of_separation", description="what happens at least if nobody is warned"
+    )
 
 
 class Separation(_Model):
@@ -316,6 +473,74 @@ class Separation(_Model):
     horizontal_nm: float = Field(default=5.0, gt=0.0, le=100.0)
     vertical_ft: float = Field(default=1000.0, gt=0.0, le=10_000.0)
     level_tolerance_ft: float = Field(default=100.0, ge=0.0, le=300.0)
+
+
+# --- what goes wrong ----------------------------------------------------------------------
+
+
+class ReadbackWrong(_Model):
+    """A crew or driver reads back, and does, something else than it was told."""
+
+    type: Literal["readback_wrong"]
+    line: Identifier = Field(description="the readback")
+    text: str = Field(min_length=1, max_length=500, description="what is said instead")
+    commands: tuple[ScriptedCommand, ...] = Field(description="what is done instead")
+
+
+class NotReceived(_Model):
+    """An actor does not hear a line."""
+
+    type: Literal["not_received"]
+    line: Identifier
+    actor: Callsign
+
+
+class CallsignConfused(_Model):
+    """What a line means for one actor is taken by another."""
+
+    type: Literal["callsign_confused"]
+    line: Identifier
+    meant: Callsign
+    taken_by: Callsign
+    text: str | None = Field(default=None, description="what is said, if that is the confusion")
+
+
+class Delayed(_Model):
+    """A line comes late."""
+
+    type: Literal["delayed"]
+    line: Identifier
+    by_s: float = Field(gt=0.0, le=600.0)
+
+
+class Dropped(_Model):
+    """A line is never said."""
+
+    type: Literal["dropped"]
+    line: Identifier
+
+
+class Ignored(_Model):
+    """An actor hears a line and does not do what it says."""
+
+    type: Literal["ignored"]
+    line: Identifier
+    actor: Callsign
+
+
+class EngineFailure(_Model):
+    """An engine stops."""
+
+    type: Literal["engine_failure"]
+    actor: Callsign
+    engine: int = Field(ge=0, le=7, description="from the left, beginning with 0")
+    when: Condition
+
+
+Failure = Annotated[
+    ReadbackWrong | NotReceived | CallsignConfused | Delayed | Dropped | Ignored | EngineFailure,
+    Field(discriminator="type"),
+]
 
 
 # --- what varies --------------------------------------------------------------------------
@@ -365,6 +590,9 @@ class Scenario(_Model):
     cameras: tuple[Camera, ...] = ()
     weather: Weather = Weather()
     separation: Separation = Separation()
+    failures: tuple[Failure, ...] = Field(
+        default=(), description="all that goes wrong; everything else is as it should be"
+    )
     conflict: Conflict | None = Field(
         default=None, description="null in a nominal scenario: any CAUTION is a nuisance there"
     )
@@ -372,5 +600,17 @@ class Scenario(_Model):
     perturbations: tuple[Perturbation, ...] = ()
 
 
-AllOf.model_rebuild()
-AnyOf.model_rebuild()
+for _model in (
+    AllOf,
+    AnyOf,
+    Cue,
+    WildlifeActor,
+    VehicleActor,
+    AircraftActor,
+    ScriptedCommand,
+    RadioLine,
+    Radio,
+    EngineFailure,
+    Scenario,
+):
+    _model.model_rebuild()

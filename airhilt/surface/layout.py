@@ -149,6 +149,8 @@ class Layout:
             node.name: self.frame.to_local(node.place) for node in airport.taxiways.nodes
         }
         self._graph = self._taxiway_graph()
+        self._exits: dict[str, list[Exit]] = {}
+        """Of each direction, once they were asked for."""
         self.holds = {given.node: self._hold(given) for given in airport.holds}
 
     # --- runways --------------------------------------------------------------------------
@@ -303,12 +305,14 @@ class Layout:
             There is no such runway.
         """
         strip, end = self.strip_of(runway_ident), self.runway(runway_ident)
-        found = [
-            way
-            for hold in self.holds.values()
-            if hold.runway == strip.name and (way := self._exit(hold, end)) is not None
-        ]
-        return sorted(found, key=lambda way: (way.along_m, way.taxiway))
+        if end.ident not in self._exits:
+            found = [
+                way
+                for hold in self.holds.values()
+                if hold.runway == strip.name and (way := self._exit(hold, end)) is not None
+            ]
+            self._exits[end.ident] = sorted(found, key=lambda way: (way.along_m, way.taxiway))
+        return self._exits[end.ident]
 
     @cached_property
     def stands(self) -> tuple[str, ...]:

@@ -1,6 +1,8 @@
-"""Compact position reporting of airborne ADS-B positions (RTCA DO-260B, appendix A.1.7).
+"""Compact position reporting of ADS-B positions (RTCA DO-260B, appendix A.1.7).
 
-Latitude and longitude in degrees, as the standard writes them. 17 bits give steps of about 5 m.
+Latitude and longitude in degrees, as the standard writes them. 17 bits give steps of about 5 m in
+the airborne format. In the surface format the zones, and so the steps, are a quarter of that, and
+a position is known only to within a multiple of 90 degrees.
 """
 
 from __future__ import annotations
@@ -19,6 +21,16 @@ class CprPosition(NamedTuple):
     latitude: int
     longitude: int
     odd: bool
+    surface: bool = False
+
+    @property
+    def span_deg(self) -> float:
+        """What the zones of its format divide."""
+        return _span_deg(self.surface)
+
+
+def _span_deg(surface: bool) -> float:
+    return 90.0 if surface else 360.0
 
 
 def longitude_zones(latitude_deg: float) -> int:
@@ -30,30 +42,39 @@ def longitude_zones(latitude_deg: float) -> int:
     return math.floor(2.0 * math.pi / math.acos(1.0 - a / b))
 
 
-def _zone_sizes(latitude_deg: float, odd: bool) -> tuple[float, float]:
+def _zone_sizes(latitude_deg: float, odd: bool, span_deg: float) -> tuple[float, float]:
     """Return the size in degrees of a latitude zone, and of a longitude zone at a latitude."""
     zones = max(longitude_zones(latitude_deg) - int(odd), 1)
-    return 360.0 / (4 * LATITUDE_ZONES - int(odd)), 360.0 / zones
+    return span_deg / (4 * LATITUDE_ZONES - int(odd)), span_deg / zones
 
 
-def encode(latitude_deg: float, longitude_deg: float, odd: bool) -> CprPosition:
-    """Encode a position (A.1.7.3)."""
-    d_lat, _ = _zone_sizes(latitude_deg, odd)
+def encode(
+    latitude_deg: float, longitude_deg: float, odd: bool, surface: bool = False
+) -> CprPosition:
+    """Encode a position (A.1.7.3).
+
+    The surface format's low 17 of 19 bits are 17 bits of zones a quarter the size.
+    """
+    span_deg = _span_deg(surface)
+    d_lat, _ = _zone_sizes(latitude_deg, odd, span_deg)
     zone = math.floor(latitude_deg / d_lat)
     yz = math.floor(BITS * (latitude_deg / d_lat - zone) + 0.5)
     rounded_lat = d_lat * (yz / BITS + zone)
-    _, d_lon = _zone_sizes(rounded_lat, odd)
+    _, d_lon = _zone_sizes(rounded_lat, odd, span_deg)
     xz = math.floor(BITS * (longitude_deg % d_lon) / d_lon + 0.5)
-    return CprPosition(yz % BITS, xz % BITS, odd)
+    return CprPosition(yz % BITS, xz % BITS, odd, surface)
 
 
 def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple[float, float]:
-    """Decode with a reference position within 180 NM (A.1.7); latitude, longitude in degrees."""
-    latitude = _near(position.latitude / BITS, _zone_sizes(0.0, position.odd)[0], reference[0])
-    longitude = _near(
-        position.longitude / BITS, _zone_sizes(latitude, position.odd)[1], reference[1]
-    )
-    return latitude, _wrap(longitude)
+    """Decode with a reference position; latitude, longitude in degrees.
+
+    The reference must lie within 180 NM of it, in the surface format within 45 NM (A.1.7).
+    """
+    span_deg, odd = position.span_deg, position.odd
+    d_lat, _ = _zone_sizes(0.0, odd, span_deg)
+    latitude = _near(position.latitude / BITS, d_lat, reference[0])
+    _, d_lon = _zone_sizes(latitude, odd, span_deg)
+    return latitude, _wrap(_near(position.longitude / BITS, d_lon, reference[1]))
 
 
 def _near(fraction: float, zone: float, reference: float) -> float:
@@ -62,16 +83,23 @@ def _near(fraction: float, zone: float, reference: float) -> float:
 
 
 def decode_global(
-    even: CprPosition, odd: CprPosition, newest_is_odd: bool
+    even: CprPosition,
+    odd: CprPosition,
+    newest_is_odd: bool,
+    receiver: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[float, float] | None:
-    """Decode a pair without a reference (A.1.7.7); latitude, longitude in degrees.
+    """Decode a pair of one format (A.1.7.7, A.1.7.8); latitude, longitude in degrees.
 
+    On the surface there are eight solutions, and the one nearest to the receiver is meant.
     Returns None when the two lie either side of a change of NL, which the standard calls for
     waiting on.
     """
+    span_deg = even.span_deg
     j = math.floor((59 * even.latitude - 60 * odd.latitude) / BITS + 0.5)
-    lat_even = _signed(360.0 / 60 * (j % 60 + even.latitude / BITS))
-    lat_odd = _signed(360.0 / 59 * (j % 59 + odd.latitude / BITS))
+    lat_even, lat_odd = (
+        _solution(span_deg / count * (j % count + position.latitude / BITS), span_deg, receiver[0])
+        for count, position in ((60, even), (59, odd))
+    )
     zones = longitude_zones(lat_even)
     if zones != longitude_zones(lat_odd):
         return None
@@ -80,11 +108,13 @@ def decode_global(
         return None
     count = max(zones - int(newest_is_odd), 1)
     m = math.floor((even.longitude * (zones - 1) - odd.longitude * zones) / BITS + 0.5)
-    return latitude, _wrap(360.0 / count * (m % count + newest.longitude / BITS))
+    longitude = span_deg / count * (m % count + newest.longitude / BITS)
+    return latitude, _wrap(_solution(longitude, span_deg, receiver[1]))
 
 
-def _signed(latitude_deg: float) -> float:
-    return latitude_deg - 360.0 if latitude_deg >= 270.0 else latitude_deg
+def _solution(angle_deg: float, span_deg: float, reference_deg: float) -> float:
+    """Return the angle that lies nearest to a reference, of those a multiple of a span apart."""
+    return angle_deg + span_deg * round((reference_deg - angle_deg) / span_deg)
 
 
 def _wrap(longitude_deg: float) -> float:

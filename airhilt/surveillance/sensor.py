@@ -6,22 +6,32 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
-from airhilt.actors import Flight
-from airhilt.flight.state import AircraftState
+from airhilt.actors.performer import Performer
 from airhilt.messages import AdsbReport, DeclaredLatency
-from airhilt.scenario.geometry import Site, resolve
-from airhilt.scenario.models import AdsbReceiver, RelativePosition, Scenario
+from airhilt.positions import RelativePosition
+from airhilt.scenario.geometry import Setting, Site
+from airhilt.scenario.models import (
+    AdsbReceiver,
+    AircraftActor,
+    Scenario,
+    VehicleActor,
+    WildlifeActor,
+)
 from airhilt.sim import Director, LatencySpec, Priority, StepRecord
 from airhilt.sim.streams import stream
+from airhilt.surface.mover import Motion, Mover
 from airhilt.surveillance.adsb import (
     IDENTIFICATION_INTERVAL_S,
     POSITION_INTERVAL_S,
+    STATIONARY_IDENTIFICATION_INTERVAL_S,
+    STATIONARY_POSITION_INTERVAL_S,
     VELOCITY_INTERVAL_S,
-    IdentificationSquitter,
     Receiver,
     Reception,
     Squitter,
+    SurfaceRate,
     Transponder,
 )
 from airhilt.surveillance.kinematics import curvature_radii_m
@@ -30,10 +40,14 @@ from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 STAGE = "adsb"
 DECLARED_LATENCY = DeclaredLatency(median_s=0.05, sigma=0.3)
 """Of a receiver from the end of a squitter to its report, where it is not measured."""
+LOOK_NS = SECOND_NS // 2
+"""How often a transponder that stands on the ground looks whether it has begun to move."""
+
+M = TypeVar("M", bound=Motion)
 
 
 class AdsbSensor:
-    """Schedules the squitters of all equipped aircraft and gives out what is received.
+    """Schedules the squitters of all that are equipped and gives out what is received.
 
     Parameters
     ----------
@@ -47,7 +61,8 @@ class AdsbSensor:
         self,
         director: Director,
         scenario: Scenario,
-        flights: Mapping[str, Flight],
+        setting: Setting,
+        performers: Mapping[str, Performer],
         latency: LatencySpec,
         seed: int,
         state_at_ns: Callable[[], int],
@@ -64,56 +79,78 @@ class AdsbSensor:
         self._seq = 0
         self._in_flight: dict[int, StepRecord] = {}
         self._reception = Reception(
-            [_receiver(declared, scenario) for declared in _declared(scenario)],
+            [_receiver(declared, setting) for declared in _declared(scenario)],
             scenario.adsb.loss_probability,
             [(seconds_to_ns(a), seconds_to_ns(b)) for a, b in scenario.adsb.outages_s],
         )
-        for flight in flights.values():
-            if flight.actor.transponder.equipped:
-                self._equip(flight, seed)
+        for performer in performers.values():
+            actor = performer.actor
+            if not isinstance(actor, WildlifeActor) and actor.transponder.equipped:
+                self._equip(performer, actor, seed)
 
-    def _equip(self, flight: Flight, seed: int) -> None:
-        actor = flight.actor
+    def _equip(self, performer: Performer, actor: AircraftActor | VehicleActor, seed: int) -> None:
         transponder = Transponder(
             actor.icao24,
             actor.callsign,
             actor.transponder.nacp,
             actor.transponder.nacv,
             stream(seed, f"adsb/{actor.icao24}"),
+            performer.emitter_category,
         )
+        body, rate, uniform = performer.body, SurfaceRate(), transponder.generator.uniform
+        position_due_ns = 0
 
-        def position(state: AircraftState) -> Squitter:
-            return transponder.position(state, self._director.now_ns)
+        def is_stationary(state: Motion) -> bool:
+            return body.on_ground and rate.is_stationary(state, self._director.now_ns)
 
-        def identification(_: AircraftState) -> Squitter:
-            return IdentificationSquitter(actor.callsign)
+        def position(state: Motion) -> int:
+            """Squitter if it is time to; who begins to move is not silent for seconds."""
+            nonlocal position_due_ns
+            now_ns, stationary = self._director.now_ns, is_stationary(state)
+            if now_ns >= position_due_ns or not stationary:
+                make = transponder.surface_position if body.on_ground else transponder.position
+                self._receive(transponder, make(state, now_ns), state)
+                interval_s = STATIONARY_POSITION_INTERVAL_S if stationary else POSITION_INTERVAL_S
+                position_due_ns = now_ns + seconds_to_ns(uniform(*interval_s))
+            return (
+                min(position_due_ns - now_ns, LOOK_NS) if stationary else position_due_ns - now_ns
+            )
 
-        self._repeat(flight, transponder, position, POSITION_INTERVAL_S)
-        self._repeat(flight, transponder, transponder.velocity, VELOCITY_INTERVAL_S)
-        self._repeat(flight, transponder, identification, IDENTIFICATION_INTERVAL_S)
+        def velocity(state: Motion) -> int:
+            if not body.on_ground:
+                self._receive(transponder, transponder.velocity(state), state)
+            return seconds_to_ns(uniform(*VELOCITY_INTERVAL_S))
 
-    def _repeat(
-        self,
-        flight: Flight,
-        transponder: Transponder,
-        make: Callable[[AircraftState], Squitter],
-        interval_s: tuple[float, float],
-    ) -> None:
-        """Squitter at random intervals until the flight ends; the first within one interval."""
-        uniform = transponder.generator.uniform
+        def identification(state: Motion) -> int:
+            self._receive(transponder, transponder.identification(), state)
+            return seconds_to_ns(
+                uniform(
+                    *STATIONARY_IDENTIFICATION_INTERVAL_S
+                    if is_stationary(state)
+                    else IDENTIFICATION_INTERVAL_S
+                )
+            )
 
-        def squitter() -> None:
-            if flight.aircraft.ended is not None:
+        for squitter, (first_s, _) in (
+            (position, POSITION_INTERVAL_S),
+            (velocity, VELOCITY_INTERVAL_S),
+            (identification, IDENTIFICATION_INTERVAL_S),
+        ):
+            self._repeat(body, squitter, seconds_to_ns(uniform(0.0, first_s)))
+
+    def _repeat(self, body: Mover, squitter: Callable[[Motion], int], first_ns: int) -> None:
+        """Call ``squitter``, which says after how many nanoseconds again, until the body ends."""
+
+        def call() -> None:
+            if body.ended is not None:
                 return
             now_ns = self._director.now_ns
-            state = carried_on(flight.aircraft.state, (now_ns - self._state_at_ns()) / SECOND_NS)
-            self._receive(transponder, make(state), state)
-            after_ns = seconds_to_ns(uniform(*interval_s))
-            self._director.at(now_ns + after_ns, squitter, Priority.SENSOR)
+            state = carried_on(body.state, (now_ns - self._state_at_ns()) / SECOND_NS)
+            self._director.at(now_ns + squitter(state), call, Priority.SENSOR)
 
-        self._director.at(seconds_to_ns(uniform(0.0, interval_s[0])), squitter, Priority.SENSOR)
+        self._director.at(first_ns, call, Priority.SENSOR)
 
-    def _receive(self, sender: Transponder, squitter: Squitter, state: AircraftState) -> None:
+    def _receive(self, sender: Transponder, squitter: Squitter, state: Motion) -> None:
         now_ns, begun = self._director.now_ns, time.perf_counter()
         decoded = self._reception.receive(sender, squitter, state, now_ns)
         compute_s = time.perf_counter() - begun
@@ -138,13 +175,13 @@ class AdsbSensor:
         return [replace(step, outputs=0, finished=False) for step in self._in_flight.values()]
 
 
-def carried_on(state: AircraftState, elapsed_s: float) -> AircraftState:
-    """Return a state a fraction of a tick later, flying straight on."""
+def carried_on(state: M, elapsed_s: float) -> M:
+    """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
     if elapsed_s == 0.0:
         return state
     meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
     height = state.altitude_m
-    return state._replace(
+    moved: M = state._replace(  # type: ignore[attr-defined]
         latitude_rad=state.latitude_rad
         + state.velocity_north_m_s * elapsed_s / (meridional + height),
         longitude_rad=state.longitude_rad
@@ -153,6 +190,7 @@ def carried_on(state: AircraftState, elapsed_s: float) -> AircraftState:
         / ((prime_vertical + height) * math.cos(state.latitude_rad)),
         altitude_m=height - state.velocity_down_m_s * elapsed_s,
     )
+    return moved
 
 
 def _declared(scenario: Scenario) -> tuple[AdsbReceiver, ...]:
@@ -161,10 +199,10 @@ def _declared(scenario: Scenario) -> tuple[AdsbReceiver, ...]:
     return scenario.adsb.receivers or (AdsbReceiver(name="centre", position=centre),)
 
 
-def _receiver(declared: AdsbReceiver, scenario: Scenario) -> Receiver:
-    ground_m = scenario.scene.terrain_elevation_ft * FOOT
+def _receiver(declared: AdsbReceiver, setting: Setting) -> Receiver:
     site = Site(
-        *resolve(declared.position, scenario.scene.centre),
-        altitude_m=ground_m + declared.antenna_height_ft * FOOT,
+        *setting.place(declared.position),
+        altitude_m=setting.ground_m + declared.antenna_height_ft * FOOT,
     )
-    return Receiver(declared.name, site, declared.range_nm * NAUTICAL_MILE)
+    range_m = declared.range_nm * NAUTICAL_MILE
+    return Receiver(declared.name, site, range_m, ground_m=setting.ground_m)

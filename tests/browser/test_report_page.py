@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import re
 import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from pydantic import TypeAdapter
 
+from airhilt import load
+from airhilt.commands import Command
 from airhilt.cosim import Options, run
 from airhilt.metrics.report import write_report
 from airhilt.record import RunFolder
@@ -49,6 +54,25 @@ def folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Pat
 @pytest.fixture(scope="module")
 def report(folder: Path) -> Path:
     return write_report(folder)
+
+
+@pytest.fixture(scope="module")
+def incursion(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of a landing on which a vehicle drives in the way, with nobody to warn."""
+    out = tmp_path_factory.mktemp("incursion") / "run"
+    scenario = load("s01b_delayed_hold")
+    run(scenario, Options(latency="fixed", assistant="none", out=out))
+    return write_report(out)
+
+
+def pressed(page: Page) -> str:
+    return page.evaluate("document.querySelector('#views [aria-pressed=true]').textContent")
+
+
+def texts(page: Page, chart: str) -> list[str]:
+    return page.evaluate(
+        f"[...document.querySelectorAll('#{chart} svg text')].map((text) => text.textContent)"
+    )
 
 
 def cursors(page: Page) -> list[float]:
@@ -108,9 +132,186 @@ def test_a_filter_hides_the_rows_of_its_kind(page: Page, report: Path) -> None:
 
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("width", [360, 768, 1600])
-def test_the_page_fits_its_window(page: Page, report: Path, width: int, dark: bool) -> None:
-    page.open(report, width=width, dark=dark)
+@pytest.mark.parametrize("which", ["report", "incursion"])
+def test_the_page_fits_its_window(
+    page: Page, request: pytest.FixtureRequest, which: str, width: int, dark: bool
+) -> None:
+    page.open(request.getfixturevalue(which), width=width, dark=dark)
     assert page.evaluate("document.scrollingElement.scrollWidth") <= width
+
+
+# --- at an airport --------------------------------------------------------------------------
+
+
+def test_en_route_there_is_no_airport_no_runway_and_one_view(page: Page, report: Path) -> None:
+    page.open(report)
+    assert page.evaluate("document.querySelectorAll('#views button').length") == 0
+    assert page.evaluate("document.querySelectorAll('#plan .runway').length") == 0
+    assert page.evaluate("document.getElementById('runways-figure').hidden")
+    assert page.evaluate("document.getElementById('phases-figure').hidden")
+
+
+def test_the_airport_lies_under_the_traffic(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    for part, least in (("runway", 3), ("protected", 3), ("taxiway", 20), ("hold", 10)):
+        assert page.evaluate(f"document.querySelectorAll('#plan .{part}').length") >= least
+    assert page.evaluate("document.querySelectorAll('#plan .body').length") == 3
+
+
+def test_the_plan_begins_at_the_conflict_and_keys_change_the_view(
+    page: Page, incursion: Path
+) -> None:
+    page.open(incursion)
+    assert pressed(page) == "Conflict"
+    assert "East (m)" in texts(page, "plan")
+    page.evaluate("document.querySelector('#views button').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", text="\r")
+    assert pressed(page) == "All traffic"
+    assert "East (NM)" in texts(page, "plan")
+    assert "1 NM" in texts(page, "plan")
+    page.open(incursion)
+    assert pressed(page) == "Conflict"
+
+
+def test_the_airport_as_a_whole_has_its_runways_named(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    page.evaluate("document.querySelectorAll('#views button')[1].click()")
+    assert pressed(page) == "Airport"
+    assert {"01", "19", "04", "22", "15", "33"} <= set(texts(page, "plan"))
+    assert any(re.fullmatch(r"\d+ m", text) for text in texts(page, "plan"))
+
+
+def test_who_is_out_of_view_is_pointed_to(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    page.evaluate("clock.set(0)")
+    assert any(re.fullmatch(r"AAL123, [\d.,]+ k?m off", text) for text in texts(page, "plan"))
+    page.evaluate("clock.set(endS)")
+    assert not any("off" in text for text in texts(page, "plan"))
+
+
+def test_runway_lanes_show_occupants_the_approach_and_the_incursion(
+    page: Page, incursion: Path
+) -> None:
+    page.open(incursion)
+    assert page.evaluate("document.querySelectorAll('#runways .occupied').length") >= 2
+    assert page.evaluate("document.querySelectorAll('#runways .approach').length") == 1
+    assert page.evaluate("document.querySelectorAll('#runways .threshold').length") == 1
+    (badge,) = page.evaluate(
+        "[...document.querySelectorAll('#runways .incursion')].map((mark) => mark.textContent)"
+    )
+    assert badge == "!"
+    assert page.evaluate("document.querySelectorAll('#runways .window').length") == 1
+
+
+def test_each_actor_has_a_strip_of_its_phases(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    spells = page.evaluate("run.phases.flatMap((lane) => lane.spells).length")
+    assert page.evaluate("document.querySelectorAll('#phases .phase').length") == spells
+    assert {"glide", "flare", "driving", "standing"} <= set(texts(page, "phases"))
+
+
+def test_all_charts_over_time_have_one_cursor(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    before = cursors(page)
+    page.evaluate("clock.set(clock.t + 10)")
+    after = cursors(page)
+    assert len(before) == 4
+    assert all(later > earlier for earlier, later in zip(before, after, strict=True))
+
+
+def test_separation_on_a_runway_is_in_metres_without_a_minimum(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    assert {"Horizontal (m)", "Vertical (ft)", "1,000"} <= set(texts(page, "separation"))
+    assert page.evaluate("document.querySelectorAll('#separation .minimum').length") == 0
+    assert page.evaluate("document.querySelectorAll('#plan .ring').length") == 0
+
+
+def test_tiles_say_how_severe_the_incursion_was_and_what_had_failed(
+    page: Page, incursion: Path
+) -> None:
+    page.open(incursion)
+    tiles = page.evaluate("document.getElementById('tiles').textContent")
+    for text in ("accident", "OPS1 on 01/19, in the way of AAL123", "it comes 32 s late"):
+        assert text in tiles
+    assert "TCAS" not in tiles
+    assert "AAL123 and OPS1 touched" in page.evaluate(
+        "document.getElementById('outcome').textContent"
+    )
+
+
+def test_an_incursion_without_a_summary_is_told_without_a_category(
+    page: Page, incursion: Path, tmp_path: Path
+) -> None:
+    copy = shutil.copytree(incursion.parent, tmp_path / "run")
+    (copy / "summary.json").unlink()
+    log = copy / "log.mcap"
+    log.write_bytes(log.read_bytes()[: int(log.stat().st_size * 0.8)])
+    page.open(write_report(copy))
+    assert "How severe it was is not known" in page.evaluate(
+        "document.getElementById('outcome').textContent"
+    )
+    assert page.evaluate("document.querySelectorAll('#runways .incursion').length") == 1
+
+
+def test_every_command_is_put_in_words(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    schema = TypeAdapter(Command).json_schema()
+    assert len(schema["discriminator"]["mapping"]) >= 19
+    examples = {
+        "altitude_ft": 3000, "track_deg": 5, "degrees": -30, "cas_kt": 210, "route": 2,
+        "runway": "01", "climb_to_ft": 3000, "to": {"type": "node", "node": "J/A"},
+        "gait": "walk",
+    }  # fmt: skip
+    for action, reference in schema["discriminator"]["mapping"].items():
+        fields = schema["$defs"][reference.rsplit("/", 1)[1]]["properties"]
+        command = {"action": action} | {k: v for k, v in examples.items() if k in fields}
+        said = page.evaluate(f"instruction({json.dumps(command)})")
+        assert not re.search(r"[{}_]|undefined|null|NaN", said), said
+    for action, said in (
+        ({"action": "go_around", "runway": "01"}, "go around from runway 01"),
+        ({"action": "cancel_takeoff", "runway": "01"}, "cancel the takeoff on runway 01"),
+        ({"action": "hold_position", "runway": "01"}, "hold position short of runway 01"),
+    ):
+        assert page.evaluate(f"instruction({json.dumps(action)})") == said
+    rows = page.evaluate("document.getElementById('timeline').textContent")
+    assert "land on runway 01" in rows
+    assert "drive to 01/19 at D at 14 kt" in rows
+
+
+def test_every_position_is_put_in_words(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    for position, said in (
+        ({"type": "node", "node": "J/A"}, "J/A"),
+        (
+            {"type": "hold_short", "runway": "01", "taxiway": "J"},
+            "the hold short of runway 01 on J",
+        ),
+        (
+            {"type": "runway", "runway": "01", "along_m": -900, "offset_m": 20},
+            "900 m before the threshold of runway 01, 20 m right of its centre line",
+        ),
+        ({"type": "geodetic", "lat_deg": 38.5, "lon_deg": -77}, "38.5000° N, 77.0000° W"),
+        (
+            {"type": "from_centre", "bearing_deg": 0, "distance_nm": 3},
+            "3.00 NM from the centre, bearing 360°",
+        ),
+    ):
+        assert page.evaluate(f"place({json.dumps(position)})") == said
+
+
+def test_hostile_names_at_an_airport_stay_text(page: Page, incursion: Path, tmp_path: Path) -> None:
+    hostile = "<img src=x onerror='document.title=1'><b id=planted>"
+    html = incursion.read_text()
+    escaped = json.dumps(hostile)[1:-1].replace("<", "\\u003c").replace(">", "\\u003e")
+    for name in ("follow_me", "glide", "01/19", "AAL123", "Ops one"):
+        assert name in html
+        html = html.replace(name, escaped)
+    planted = tmp_path / "page.html"
+    planted.write_text(html)
+    page.open(planted)
+    assert page.evaluate("document.getElementById('planted')") is None
+    assert page.evaluate("document.title") != "1"
+    assert any(hostile in text for text in texts(page, "phases"))
 
 
 @pytest.mark.parametrize("dark", [False, True])

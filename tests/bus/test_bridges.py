@@ -29,6 +29,11 @@ def test_a_report_becomes_a_basestation_line() -> None:
         "MSG,3,1,1,A1B2C3,1,1970/01/01,00:00:01.500,1970/01/01,00:00:01.500,AAL123,35000,450,90,"
         "38.90000,-77.00000,-64,,0,0,0,0"
     )
+    on_ground = report.model_copy(update={"altitude_ft": None, "on_ground": True})
+    assert bridge["line"](on_ground) == (
+        "MSG,2,1,1,A1B2C3,1,1970/01/01,00:00:01.500,1970/01/01,00:00:01.500,AAL123,,450,90,"
+        "38.90000,-77.00000,-64,,0,0,0,-1"
+    )
 
 
 def test_a_client_of_the_feed_hears_both_aircraft(encounter: Scenario, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from geographiclib.geodesic import Geodesic
 from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript
 from airhilt.scenario.geometry import Site
 from airhilt.sim import Input
-from airhilt.surveillance.adsb import IdentificationSquitter, Receiver, Transponder
+from airhilt.surveillance.adsb import Receiver, Transponder
 from airhilt.surveillance.kinematics import relative
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.workers.decision import DecisionWorker
@@ -26,6 +26,7 @@ CAPTURE_PER_S = 0.12
 @dataclass(frozen=True)
 class State(Site):
     velocity_down_m_s: float = 0.0
+    heading_rad: float = 0.0
 
 
 @dataclass
@@ -135,7 +136,7 @@ class Encounter:
         for flight in self.flights:
             state, sender = flight.state(t_ns / SECOND_NS), flight.transponder
             if step <= 0:
-                station.decode(sender, IdentificationSquitter(flight.callsign), t_ns)
+                station.decode(sender, sender.identification(), t_ns)
             station.decode(sender, sender.velocity(state), t_ns)
             decoded = station.decode(sender, sender.position(state, t_ns), t_ns)
             if decoded is not None:

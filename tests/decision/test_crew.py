@@ -6,10 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.actors.crew import Crew, ReactionTime
+from airhilt.actors.crew import Crew
+from airhilt.actors.reactions import Person
 from airhilt.commands import AltitudeCommand, SpeedCommand, TrackCommand
 from airhilt.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
+from airhilt.positions import GeodeticPosition
+from airhilt.scenario.geometry import Setting
+from airhilt.scenario.models import Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 
 CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
@@ -35,7 +39,9 @@ def as_it_began(aircraft):
 
 
 def crew_of(aircraft, compliance=1.0, median_s=5.0, sigma=0.0, seed=1):
-    return Crew("AAL123", aircraft, ReactionTime(median_s, sigma, compliance), seed)
+    reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
+    centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
+    return Crew(Person("AAL123", reactions, seed), aircraft, Setting(centre, 0.0))
 
 
 def advisory(recommendation=CLIMB, severity="CAUTION", active=True, revision=0, name="s-1"):

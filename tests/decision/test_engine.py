@@ -252,9 +252,9 @@ def test_the_engine_declares_what_it_listens_to_and_never_truth():
 def test_a_spike_is_told_at_the_level_that_has_held():
     """A glimpse of a WARNING in the second in which an ADVISORY becomes certain is not one yet."""
     encounter = head_on(300.0)
-    worker = encounter.worker
+    watch = encounter.worker.separation
     levels = iter([Severity.ADVISORY, Severity.ADVISORY, Severity.WARNING, Severity.WARNING])
-    worker._grade = lambda time_to_loss: next(levels, Severity.ADVISORY)
+    watch._grade = lambda time_to_loss: next(levels, Severity.ADVISORY)
     encounter.fly()
     assert encounter.severities("ATC") == ["ADVISORY"]
 
@@ -279,6 +279,6 @@ def test_a_report_that_is_older_than_the_track_changes_nothing():
         ground_speed_kt=450, track_deg=90, vertical_rate_fpm=0, nacp=9, nacv=2, receiver="r",
         t_adsb_in_ns=10, t_adsb_out_ns=10,
     )  # fmt: skip
-    track = Track.of(report)
-    track.update(report.model_copy(update={"t_adsb_in_ns": 9, "altitude_ft": 1000.0}))
-    assert track == Track.of(report)
+    track = Track.of(report, 35_000.0)
+    track.update(report.model_copy(update={"t_adsb_in_ns": 9}), 1_000.0)
+    assert track == Track.of(report, 35_000.0)

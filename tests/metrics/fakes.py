@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from airhilt.flight import AircraftState, AircraftType, load_aircraft_type
 from airhilt.metrics.monitor import ConflictMonitor
+from airhilt.scenario.geometry import Site
 from airhilt.surveillance.kinematics import Minima
 from airhilt.surveillance.sensor import carried_on
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
@@ -30,6 +31,8 @@ class Straight:
     target_ft: float | None = None
     kind: AircraftType = B737
     ended: str | None = None
+    on_ground: bool = False
+    phase: str = "en_route"
 
     def __post_init__(self) -> None:
         altitude_m = self.altitude_ft * FOOT
@@ -54,6 +57,10 @@ class Straight:
         )
 
     @property
+    def dimensions(self):
+        return self.kind.dimensions
+
+    @property
     def target_altitude_m(self) -> float:
         return self.state.altitude_m if self.target_ft is None else self.target_ft * FOOT
 
@@ -62,7 +69,8 @@ class Straight:
         return self.rate_fpm * FOOT_PER_MINUTE
 
     def advance(self, step_s: float) -> None:
-        self.state = carried_on(self.state, step_s)
+        moved = carried_on(self.state, step_s)
+        self.state = moved._replace(height_agl_m=moved.altitude_m)
 
 
 class Watch:
@@ -70,19 +78,22 @@ class Watch:
 
     def __init__(
         self, *aircraft: Straight, tick_s: float = 0.05, minima: Minima = MINIMA,
-        always: bool = True, ground_m: float = 0.0,
+        always: bool = True, ground_m: float = 0.0, zone: Site | None = None,
+        names: Sequence[str] = "ABCDEF",
     ) -> None:  # fmt: skip
-        self.aircraft = dict(zip("ABCDEF", aircraft, strict=False))
+        self.aircraft = dict(zip(names, aircraft, strict=False))
         self.tick_s = tick_s
         self.told: dict[str, float] = {}
         self.distances: dict[str, tuple[float, float]] = {}
         self.now_ns = 0
         self.monitor = ConflictMonitor(
             self.aircraft,
+            {},
             minima,
             ground_m,
+            zone,
             tick_s,
-            frozenset({("A", "B")} if always else ()),
+            frozenset({(names[0], names[1])} if always else ()),
             self._became_true,
         )
 
@@ -110,3 +121,12 @@ class Watch:
     @property
     def truth(self):
         return self.monitor.pairs[("A", "B")]
+
+
+@dataclass
+class Performing:
+    """A performer with a body that flies straight."""
+
+    body: Straight
+    bound_runway: str | None = None
+    category: str = "aircraft"

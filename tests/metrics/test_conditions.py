@@ -1,7 +1,7 @@
 """Conditions on the true state, each when it is true and when it is not."""
 
 import pytest
-from fakes import Straight, Watch
+from fakes import Performing, Straight, Watch
 from pydantic import TypeAdapter
 
 from airhilt.metrics.conditions import ConditionCompiler
@@ -17,12 +17,10 @@ class Case:
             Straight(-15_000.0, east_m_s=250.0),
             Straight(15_000.0, east_m_s=-250.0),
         )
-        self.watch = Watch(*pair)
+        self.watch = Watch(*pair, names=("AA", "BB"))
         self.ended_lines = set()
-        callsigns = {"AA": self.watch.aircraft["A"], "BB": self.watch.aircraft["B"]}
-        self.watch.aircraft.clear()
-        self.watch.aircraft.update(callsigns)
-        compiler = ConditionCompiler(callsigns, self.watch.monitor, self.ended_lines)
+        self.cast = {name: Performing(body) for name, body in self.watch.aircraft.items()}
+        compiler = ConditionCompiler(self.cast, self.watch.monitor, None, self.ended_lines)
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
     def __call__(self):

@@ -12,6 +12,7 @@ from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.radio.script import RadioScript
 from airhilt.scenario import load
+from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sim import Director, StepRecord, Virtual
 from airhilt.surveillance.kinematics import VerticalProfile
@@ -56,18 +57,22 @@ def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name=
     )  # fmt: skip
 
 
+def script(lines):
+    nothing = lambda *_: None  # noqa: E731
+    return RadioScript(Director(Virtual()), lines, 160.0, nothing, nothing, nothing)
+
+
 class Told:
     """A collector over a head-on encounter that meets after 60 s."""
 
     def __init__(self, scenario=SCENARIO):
         self.watch = Watch(
-            Straight(-15_000.0, east_m_s=250.0), Straight(15_000.0, east_m_s=-250.0), always=False
+            Straight(-15_000.0, east_m_s=250.0),
+            Straight(15_000.0, east_m_s=-250.0),
+            always=False,
+            names=(FIRST, SECOND),
         )
-        aircraft = self.watch.aircraft
-        for new, old in ((FIRST, "A"), (SECOND, "B")):
-            aircraft[new] = aircraft.pop(old)
-        plans = Plans([], RadioScript(Director(Virtual()), [], 160.0, lambda _: None))
-        self.collector = Collector(scenario, self.watch.monitor, plans)
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], script([])))
 
     def take(self, message):
         self.collector.take("", message, b"")
@@ -177,7 +182,8 @@ def plans(*climbs):
         )
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
-    return Plans(lines, RadioScript(Director(Virtual()), lines, 160.0, lambda _: None))
+    happening = [HappeningLine(line, line, 0.0, (), frozenset()) for line in lines]
+    return Plans(happening, script(happening))
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)

@@ -13,7 +13,7 @@ from airhilt.messages import (
     WORKER_OUTPUTS,
     AdsbReport,
     Advisory,
-    AircraftTruth,
+    ActorTruth,
     Climb,
     Event,
     MaintainLevel,
@@ -55,8 +55,9 @@ EXAMPLES = {
         "evidence": {"sources": ["adsb"], "time_to_loss_s": 61.5},
     },
     "ActorCommand": {"command": {"action": "turn", "degrees": -30.0}},
-    "AircraftTruth": {
-        "actor": "AAL1", "icao24": "a1b2c3", "latitude_deg": 1.0, "longitude_deg": 2.0,
+    "ActorTruth": {
+        "actor": "AAL1", "category": "aircraft", "icao24": "a1b2c3", "phase": "glide",
+        "on_ground": False, "latitude_deg": 1.0, "longitude_deg": 2.0,
         "altitude_m": 3.0, "height_agl_m": 3.0, "velocity_north_m_s": 4.0,
         "velocity_east_m_s": 5.0, "velocity_down_m_s": 6.0, "roll_deg": 7.0, "pitch_deg": 8.0,
         "heading_deg": 9.0, "true_airspeed_m_s": 10.0, "calibrated_airspeed_m_s": 11.0,
@@ -67,6 +68,10 @@ EXAMPLES = {
         "t_tx_ns": 1, "t_end_ns": 2,
     },
     "ConflictTruth": {"phase": "nmac", "actors": ["AAL1", "DAL2"], "horizontal_m": 100.5},
+    "RunwayTruth": {
+        "runway": "01-19", "occupants": ["OPS1"],
+        "arrivals": [{"actor": "AAL1", "runway": "01", "time_to_threshold_s": 31.5}],
+    },
     "Event": {"kind": "command", "subject": "AAL1", "text": "climb"},
     "WorkerDescription": {
         "name": "asr", "modality": "speech", "inputs": [{"key": "radio/*/tx", "policy": "latest"}],
@@ -118,7 +123,7 @@ def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(model
 @pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])
 @pytest.mark.parametrize(
     ("model", "field"),
-    [(AdsbReport, "latitude_deg"), (AdsbReport, "altitude_ft"), (AircraftTruth, "altitude_m"),
+    [(AdsbReport, "latitude_deg"), (AdsbReport, "altitude_ft"), (ActorTruth, "altitude_m"),
      (Transcript, "confidence")],
 )  # fmt: skip
 def test_a_number_that_is_none_is_refused(model, field, value):

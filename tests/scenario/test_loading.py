@@ -76,7 +76,7 @@ def test_what_is_wrong_with_a_field_is_told_with_its_path(path, value, where, wh
             "actors/0/initial/position/type",
             "geodetik",
             "actors/0/initial/position/type",
-            "found 'geodetik', expected geodetic, from_centre; did you mean 'geodetic'?",
+            "expected geodetic, from_centre, runway, hold_short, node; did you mean 'geodetic'?",
         ),
         ("end_when/0/type", "tim", "end_when/0/type", "did you mean 'time'?"),
         ("conflict/opens_when/type", ..., "conflict/opens_when", "'type' is missing"),

@@ -8,15 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
+from airhilt.positions import GeodeticPosition, Position, RelativePosition
 from airhilt.scenario import Scenario, geometry, load
-from airhilt.scenario.models import (
-    AircraftActor,
-    Condition,
-    EnRouteScene,
-    GeodeticPosition,
-    Position,
-    RelativePosition,
-)
+from airhilt.scenario.models import AircraftActor, Condition, EnRouteScene
 from airhilt.units import DEGREE, NAUTICAL_MILE
 
 bearings = st.floats(0.0, 360.0)
@@ -47,7 +41,12 @@ actors = st.builds(
             "callsign": callsign,
             "icao24": f"{address:06x}",
             "aircraft": "737",
-            "initial": {"position": position.model_dump(), "altitude_ft": 30_000, "cas_kt": 280},
+            "initial": {
+                "type": "airborne",
+                "position": position.model_dump(),
+                "altitude_ft": 30_000,
+                "cas_kt": 280,
+            },
             "commands": told,
             "transponder": {"equipped": equipped},
         }
@@ -116,13 +115,14 @@ def test_a_scenario_cannot_be_changed():
 
 
 CENTRE = GeodeticPosition(type="geodetic", lat_deg=38.9, lon_deg=-77.0)
+SETTING = geometry.Setting(CENTRE, 0.0)
 
 
 @settings(deadline=None)
 @given(bearings, st.floats(1.0, 200.0))
 def test_a_position_lies_where_its_bearing_and_distance_lead(bearing, distance):
     place = RelativePosition(type="from_centre", bearing_deg=bearing, distance_nm=distance)
-    latitude, longitude = geometry.resolve(place, CENTRE)
+    latitude, longitude = SETTING.place(place)
     line = Geodesic.WGS84.Inverse(38.9, -77.0, latitude / DEGREE, longitude / DEGREE)
     assert line["s12"] == pytest.approx(distance * NAUTICAL_MILE, abs=0.01)
     assert math.cos(line["azi1"] * DEGREE - bearing * DEGREE) == pytest.approx(1.0)
@@ -133,8 +133,8 @@ def test_an_offset_is_to_the_right_of_the_line_from_the_centre(offset_nm, lat_si
     place = RelativePosition(
         type="from_centre", bearing_deg=90.0, distance_nm=10.0, offset_nm=offset_nm
     )
-    straight = geometry.resolve(place.model_copy(update={"offset_nm": 0.0}), CENTRE)
-    aside = geometry.resolve(place, CENTRE)
+    straight = SETTING.place(place.model_copy(update={"offset_nm": 0.0}))
+    aside = SETTING.place(place)
     assert (aside[0] - straight[0]) * lat_sign > 0.0
     line = Geodesic.WGS84.Inverse(*(x / DEGREE for x in (*straight, *aside)))
     assert line["s12"] == pytest.approx(2.0 * NAUTICAL_MILE, abs=0.01)

@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 from airhilt.scenario.geometry import Site
 from airhilt.surveillance.adsb import (
     NACP_95_PERCENT_M,
-    IdentificationSquitter,
+    STATIONARY_AFTER_NS,
     Receiver,
     Reception,
+    SurfaceRate,
     Transponder,
+    movement_kt,
     quantise,
 )
 from airhilt.surveillance.kinematics import relative
@@ -26,13 +28,14 @@ EVERYWHERE = 500.0 * NAUTICAL_MILE
 @dataclass(frozen=True)
 class Flying(Site):
     velocity_down_m_s: float = 0.0
+    heading_rad: float = 0.0
 
 
 HERE = Flying(47.0 * DEGREE, 8.0 * DEGREE, 10_000.0, 150.0, -200.0, velocity_down_m_s=-5.0)
 
 
 def transponder(nacp=9, nacv=2, seed=1):
-    return Transponder("a1b2c3", "AAL123", nacp, nacv, np.random.default_rng(seed))
+    return Transponder("a1b2c3", "AAL123", nacp, nacv, np.random.default_rng(seed), "A3")
 
 
 def receiver(name="site", range_m=EVERYWHERE, height_m=1_000.0):
@@ -130,7 +133,8 @@ def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity():
     assert station.decode(sender, sender.position(HERE, 1), 1) is None
     assert station.decode(sender, sender.velocity(HERE), 2) is None
     report = station.decode(sender, sender.position(HERE, 3), 3).report(9)
-    assert report.callsign is None
+    assert (report.callsign, report.emitter_category) == (None, None)
+    assert (report.altitude_ft is None, report.on_ground) == (False, False)
     assert (report.t_adsb_in_ns, report.t_adsb_out_ns, report.t_ns) == (3, 9, 9)
     assert report.latitude_deg == pytest.approx(47.0, abs=1e-3)
     assert report.longitude_deg == pytest.approx(8.0, abs=1e-3)
@@ -154,12 +158,13 @@ def test_positions_more_than_ten_seconds_apart_are_not_decoded_together():
     assert station.decode(sender, sender.position(HERE, late + 1), late + 1) is not None
 
 
-def test_the_callsign_is_known_once_an_identification_came_through():
+def test_callsign_and_category_are_known_once_an_identification_came_through():
     sender, station = transponder(), receiver()
-    station.decode(sender, IdentificationSquitter("AAL123"), 0)
+    station.decode(sender, sender.identification(), 0)
     station.decode(sender, sender.velocity(HERE), 0)
     station.decode(sender, sender.position(HERE, 0), 0)
-    assert station.decode(sender, sender.position(HERE, 1), 1).callsign == "AAL123"
+    report = station.decode(sender, sender.position(HERE, 1), 1).report(2)
+    assert (report.callsign, report.emitter_category) == ("AAL123", "A3")
 
 
 def test_a_receiver_hears_within_its_range_and_not_beyond():
@@ -178,6 +183,149 @@ def test_a_receiver_hears_what_is_above_the_radio_horizon(altitude_ft, horizon_n
         away = nautical_miles * NAUTICAL_MILE / 6.37e6
         state = replace(HERE, latitude_rad=HERE.latitude_rad + away, altitude_m=altitude_ft * FOOT)
         assert station.in_view(state) == heard
+
+
+# --- on the surface -------------------------------------------------------------------------
+
+STANDING = Flying(47.0 * DEGREE, 8.0 * DEGREE, 400.0, heading_rad=1.0)
+
+
+def taxiing(speed_m_s, heading_rad=1.0):
+    north, east = speed_m_s * math.cos(heading_rad), speed_m_s * math.sin(heading_rad)
+    return replace(
+        STANDING, velocity_north_m_s=north, velocity_east_m_s=east, heading_rad=heading_rad
+    )
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 175.0))
+def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt):
+    steps_kt = {0.125: 0.125, 1: 0.146, 2: 0.25, 15: 0.5, 70: 1, 100: 2, 175: 5}
+    step_kt = next(step for top, step in steps_kt.items() if speed_kt <= top)
+    assert abs(movement_kt(speed_kt) - speed_kt) <= step_kt / 2 + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("speed_kt", "movement"),
+    [
+        (0.0, 0.0),
+        (0.1, 0.0625),
+        (0.125, 0.0625),
+        (0.13, 0.125 + 0.875 / 12),
+        (1.0, 1.0 - 0.875 / 12),
+        (1.1, 1.125),
+        (2.0, 1.875),
+        (2.1, 2.25),
+        (15.0, 14.75),
+        (20.3, 20.5),
+        (70.0, 69.5),
+        (81.0, 81.0),
+        (100.0, 99.0),
+        (142.0, 142.5),
+        (175.0, 172.5),
+        (200.0, 175.0),
+    ],
+)
+def test_movements_are_those_of_the_table_in_do_260b(speed_kt, movement):
+    assert movement_kt(speed_kt) == pytest.approx(movement)
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 2 * math.pi))
+def test_on_the_surface_the_heading_comes_in_steps_of_a_128th_of_a_circle(heading_rad):
+    track = transponder().surface_position(taxiing(5.0, heading_rad), 0).movement.track_deg
+    assert 0.0 <= track < 360.0
+    assert track % (360.0 / 128.0) == 0.0
+    off = (track - heading_rad / DEGREE + 180.0) % 360.0 - 180.0
+    assert abs(off) <= 360.0 / 256.0 + 1e-9
+
+
+def test_a_speed_on_the_surface_is_as_uncertain_as_the_accuracy_category_says():
+    sender = transponder(nacv=1)
+    speeds = [
+        sender.surface_position(taxiing(30.0), 0).movement.ground_speed_kt * KNOT
+        for _ in range(2000)
+    ]
+    assert np.mean(speeds) == pytest.approx(30.0, abs=0.4)
+    assert np.std(speeds) == pytest.approx(10.0 / 2.4477, rel=0.1)
+
+
+def test_who_stands_says_so_and_keeps_its_heading():
+    squitter = transponder(nacv=0).surface_position(STANDING, 0)
+    assert squitter.movement.ground_speed_kt == 0.0
+    assert squitter.movement.track_deg == pytest.approx(1.0 / DEGREE, abs=1.41)
+
+
+def test_a_surface_report_needs_no_velocity_squitter_and_has_no_altitude():
+    sender, station = transponder(nacp=11), receiver()
+    assert station.decode(sender, sender.surface_position(taxiing(8.0), 0), 0) is None
+    report = station.decode(sender, sender.surface_position(taxiing(8.0), 1), 1).report(2)
+    assert (report.on_ground, report.altitude_ft, report.vertical_rate_fpm) == (True, None, 0.0)
+    assert report.ground_speed_kt * KNOT == pytest.approx(8.0, abs=4.0)
+    assert report.latitude_deg == pytest.approx(47.0, abs=1e-4)
+    assert report.longitude_deg == pytest.approx(8.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("seconds", [20, 30])
+def test_surface_positions_are_decoded_together_up_to_25_s_apart(seconds):
+    sender, station = transponder(), receiver()
+    station.decode(sender, sender.surface_position(STANDING, 0), 0)
+    t_ns = seconds * SECOND_NS
+    decoded = station.decode(sender, sender.surface_position(STANDING, t_ns), t_ns)
+    assert (decoded is not None) == (seconds <= 25)
+
+
+def test_an_airborne_and_a_surface_position_are_not_decoded_together():
+    sender, station = transponder(), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    station.decode(sender, sender.position(HERE, 0), 0)
+    assert station.decode(sender, sender.surface_position(STANDING, 1), 1) is None
+    assert station.decode(sender, sender.surface_position(STANDING, 2), 2) is not None
+
+
+def test_a_landing_goes_on_from_the_last_airborne_position():
+    sender, station = transponder(nacp=11), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    for n in range(2):
+        station.decode(sender, sender.position(HERE, n), n)
+    report = station.decode(sender, sender.surface_position(taxiing(60.0), 2), 2).report(3)
+    assert report.on_ground
+    assert report.latitude_deg == pytest.approx(47.0, abs=1e-4)
+    airborne = station.decode(sender, sender.position(HERE, 4), 4).report(5)
+    assert not airborne.on_ground
+    assert airborne.ground_speed_kt * KNOT == pytest.approx(60.0, abs=4.0)
+
+
+@pytest.mark.parametrize(("kilometres", "heard"), [(3, True), (15, True), (30, False)])
+def test_an_antenna_of_15_m_hears_who_stands_on_the_airport_but_not_behind_the_horizon(
+    kilometres, heard
+):
+    station = Receiver("field", Site(47.0 * DEGREE, 8.0 * DEGREE, 415.0), EVERYWHERE, 400.0)
+    there = replace(STANDING, latitude_rad=STANDING.latitude_rad + kilometres * 1e3 / 6.37e6)
+    assert station.in_view(there) == heard
+
+
+def stationary(rate, north_m, t_s):
+    state = replace(STANDING, latitude_rad=STANDING.latitude_rad + north_m / 6.37e6)
+    return rate.is_stationary(state, round(t_s * SECOND_NS))
+
+
+def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m():
+    rate, after_s = SurfaceRate(), STATIONARY_AFTER_NS / SECOND_NS
+    assert not any(stationary(rate, 0.1 * t, t) for t in np.arange(0.0, after_s, 0.5))
+    assert stationary(rate, 3.0, after_s)
+    assert stationary(rate, 9.0, after_s + 5.0)
+    assert not stationary(rate, 11.0, after_s + 5.5)
+    assert not stationary(rate, 11.0, 2 * after_s)
+    assert stationary(rate, 11.0, 2 * after_s + 6.0)
+
+
+def test_who_creeps_on_is_not_stationary():
+    rate = SurfaceRate()
+    assert not any(stationary(rate, 0.4 * t, t) for t in np.arange(0.0, 200.0, 0.5))
+
+
+# --- losses and outages ---------------------------------------------------------------------
 
 
 def heard_of(reception, squitters, t_ns=0):

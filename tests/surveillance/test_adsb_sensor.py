@@ -1,14 +1,15 @@
 """ADS-B in a run: when squitters go out, and how late their reports are."""
 
 import itertools
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass, field, replace
 
 import pytest
 
 from airhilt import load
-from airhilt.actors import Flight
 from airhilt.flight import AircraftState
-from airhilt.scenario.models import Scenario
+from airhilt.scenario.geometry import Setting
+from airhilt.scenario.models import AircraftActor, Scenario
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.surveillance.sensor import AdsbSensor, carried_on
 from airhilt.units import DEGREE, SECOND_NS
@@ -28,6 +29,16 @@ class Gliding:
 
     state: AircraftState = STATE
     ended: str | None = None
+    on_ground: bool = False
+
+
+@dataclass
+class Acting:
+    """All that the sensor reads of a performer."""
+
+    actor: AircraftActor
+    body: Gliding = field(default_factory=Gliding)
+    emitter_category: str = "A3"
 
 
 class Run:
@@ -39,13 +50,10 @@ class Run:
         scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
         self.reports, self.steps = [], []
-        self.aircraft = {actor.callsign: Gliding() for actor in scenario.actors}
-        flights = {
-            actor.callsign: Flight(actor, self.aircraft[actor.callsign], None)
-            for actor in scenario.actors
-        }
+        performers = {actor.callsign: Acting(actor) for actor in scenario.actors}
+        self.aircraft = {callsign: acting.body for callsign, acting in performers.items()}
         self.sensor = AdsbSensor(
-            self.director, scenario, flights, parse_latency(latency), seed,
+            self.director, scenario, Setting.of(scenario), performers, parse_latency(latency), seed,
             state_at_ns=lambda: self.director.now_ns,
             publish=self.reports.append, done=self.steps.append,
         )  # fmt: skip
@@ -125,10 +133,10 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter():
     for keep in (1, 2):
         part = replace_actors(document, keep)
         director, reports = Director(Virtual()), []
-        flights = {a.callsign: Flight(a, Gliding(), None) for a in part.actors}
+        performers = {actor.callsign: Acting(actor) for actor in part.actors}
         AdsbSensor(
-            director, part, flights, parse_latency("fixed:0.05"), 1, lambda d=director: d.now_ns,
-            reports.append, lambda _: None,
+            director, part, Setting.of(part), performers, parse_latency("fixed:0.05"), 1,
+            lambda d=director: d.now_ns, reports.append, lambda _: None,
         )  # fmt: skip
         director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)
         director.run()
@@ -164,3 +172,120 @@ def test_a_gliding_aircraft_is_reported_where_it_is(run):
         assert report.latitude_deg == pytest.approx(38.9, abs=2e-3)
         assert report.altitude_ft == 35_000.0
     assert replace(run.steps[0], seq=0) == run.steps[0]
+
+
+# --- on the ground --------------------------------------------------------------------------
+
+
+def on_the_ground(speed_m_s=0.0):
+    return STATE._replace(
+        altitude_m=0.0, height_agl_m=0.0, velocity_north_m_s=0.0, velocity_east_m_s=speed_m_s
+    )
+
+
+def grounded(seconds=120.0, state=None, **rest):
+    run = Run(seconds, **rest)
+    for body in run.aircraft.values():
+        body.on_ground, body.state = True, state or on_the_ground()
+    return run
+
+
+def driving(run, callsign, speed_m_s, from_s=0.0):
+    """Let a body drive east from a time on."""
+    body = run.aircraft[callsign]
+    run.director.at(
+        round(from_s * SECOND_NS),
+        lambda: setattr(body, "state", on_the_ground(speed_m_s)),
+        Priority.PHYSICS,
+    )
+
+    def tick():
+        body.state = carried_on(body.state, 0.05)
+        run.director.at(run.director.now_ns + SECOND_NS // 20, tick, Priority.PHYSICS)
+
+    run.director.at(round(from_s * SECOND_NS) + SECOND_NS // 20, tick, Priority.PHYSICS)
+
+
+def intervals_s(reports, from_s=0.0):
+    times = [r.t_adsb_in_ns / SECOND_NS for r in reports if r.t_adsb_in_ns >= from_s * SECOND_NS]
+    return [b - a for a, b in itertools.pairwise(times)]
+
+
+def test_who_stands_for_half_a_minute_squitters_every_five_seconds():
+    run = grounded(seconds=200.0).go()
+    for actor in {report.icao24 for report in run.reports}:
+        reports = run.of(actor)
+        assert max(intervals_s(reports[:50])) <= 0.6
+        slow = intervals_s(reports, from_s=36.0)
+        assert len(slow) > 25
+        assert min(slow) >= 4.8
+        assert max(slow) <= 5.2
+
+
+def test_who_drives_squitters_twice_a_second():
+    run = grounded(seconds=90.0)
+    for callsign in run.aircraft:
+        driving(run, callsign, 8.0)
+    run.go()
+    assert len(run.reports) > 320
+    for actor in {report.icao24 for report in run.reports}:
+        assert min(intervals_s(run.of(actor))) >= 0.4
+        assert max(intervals_s(run.of(actor))) <= 0.6
+
+
+def test_who_begins_to_move_is_heard_of_within_two_seconds():
+    run = grounded(seconds=70.0)
+    callsign = next(iter(run.aircraft))
+    driving(run, callsign, 8.0, from_s=60.0)
+    run.go()
+    moving = [r for r in run.reports if r.callsign == callsign and r.ground_speed_kt > 5.0]
+    assert moving[0].t_adsb_in_ns < 62 * SECOND_NS
+    assert max(intervals_s(moving[1:])) <= 0.6
+
+
+def test_reports_from_the_ground_have_no_altitude_and_reports_from_the_air_do():
+    run = Run(seconds=40.0)
+    body = next(iter(run.aircraft.values()))
+
+    def lift_off():
+        body.on_ground = False
+        body.state = STATE
+
+    body.on_ground, body.state = True, on_the_ground(60.0)
+    run.director.at(20 * SECOND_NS, lift_off, Priority.PHYSICS)
+    run.go()
+    callsign = next(iter(run.aircraft))
+    named = [report for report in run.reports if report.callsign == callsign]
+    for report in named:
+        assert report.on_ground == (report.t_adsb_in_ns < 20 * SECOND_NS)
+        assert (report.altitude_ft is None) == report.on_ground
+        assert report.emitter_category == "A3"
+    assert {report.on_ground for report in named} == {True, False}
+
+
+def test_callsigns_of_those_who_stand_come_every_ten_seconds(monkeypatch):
+    run = grounded(seconds=200.0)
+    sent = []
+    receive = run.sensor._receive
+
+    def record(sender, squitter, state):
+        sent.append((type(squitter).__name__, sender.icao24, run.director.now_ns / SECOND_NS))
+        receive(sender, squitter, state)
+
+    monkeypatch.setattr(run.sensor, "_receive", record)
+    run.go()
+    assert {name for name, _, _ in sent} == {"SurfacePositionSquitter", "IdentificationSquitter"}
+    for icao24 in {icao24 for _, icao24, _ in sent}:
+        times = [t for name, who, t in sent if "Ident" in name and who == icao24 and t > 45.0]
+        gaps = [b - a for a, b in itertools.pairwise(times)]
+        assert len(gaps) > 10
+        assert min(gaps) >= 9.8
+        assert max(gaps) <= 10.2
+
+
+def test_a_standing_position_is_reported_to_within_its_accuracy():
+    for report in grounded(seconds=30.0).go().reports:
+        north_m = (report.latitude_deg - 38.9) * 111_000.0
+        east_m = (report.longitude_deg + 77.0) * 111_000.0 * math.cos(38.9 * DEGREE)
+        assert math.hypot(north_m, east_m) < 60.0
+        assert report.ground_speed_kt == 0.0

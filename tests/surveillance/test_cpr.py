@@ -147,3 +147,67 @@ def test_the_published_example_decodes_to_where_it_is_published_to_be():
     assert longitude == pytest.approx(3.91937, abs=1e-4)
     assert cpr.decode_local(even, (52.258, 3.918)) == pytest.approx((latitude, longitude))
     assert math.isclose(cpr.decode_local(odd, (52.258, 3.918))[0], 52.26578, abs_tol=1e-4)
+
+
+# --- the surface format ---------------------------------------------------------------------
+
+
+@thoroughly
+@given(latitudes, longitudes, st.booleans())
+@example(90.0, 0.0, False)
+@example(0.0, 180.0, True)
+@example(0.0, -180.0, False)
+@example(87.0, 179.99999, True)
+def test_a_surface_position_decoded_near_itself_is_four_times_as_exact(latitude, longitude, odd):
+    encoded = cpr.encode(latitude, longitude, odd, surface=True)
+    assert 0 <= encoded.latitude < 2**17
+    assert 0 <= encoded.longitude < 2**17
+    decoded = cpr.decode_local(encoded, (latitude, longitude))
+    assert off_m(decoded, (latitude, longitude)) < resolution_m(latitude) / 4.0
+
+
+@thoroughly
+@given(st.floats(-70.0, 70.0), longitudes, st.booleans(), bearings, st.floats(0.0, 60_000.0))
+def test_on_the_surface_a_reference_within_32_nm_is_near_enough(
+    latitude, longitude, odd, bearing, distance_m
+):
+    away = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
+    encoded = cpr.encode(latitude, longitude, odd, surface=True)
+    decoded = cpr.decode_local(encoded, (away["lat2"], away["lon2"]))
+    assert off_m(decoded, (latitude, longitude)) < resolution_m(latitude) / 4.0
+
+
+@thoroughly
+@given(st.floats(-80.0, 80.0), longitudes, bearings, st.floats(0.0, 100_000.0), st.booleans())
+@example(0.0, 180.0, 90.0, 1_000.0, True)
+@example(-45.0, -180.0, 270.0, 1_000.0, False)
+@example(0.001, 8.0, 180.0, 50_000.0, False)
+def test_a_surface_pair_is_where_it_was_if_the_receiver_is_near(
+    latitude, longitude, bearing, distance_m, newest_is_odd
+):
+    even, odd = (cpr.encode(latitude, longitude, odd, surface=True) for odd in (False, True))
+    site = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
+    decoded = cpr.decode_global(even, odd, newest_is_odd, (site["lat2"], site["lon2"]))
+    if decoded is None:
+        near = {cpr.longitude_zones(abs(latitude) + step) for step in (-1e-4, 1e-4)}
+        assert len(near) == 2
+        return
+    assert off_m(decoded, (latitude, longitude)) < resolution_m(latitude) / 4.0
+    assert -180.0 <= decoded[1] <= 180.0
+
+
+def test_a_surface_pair_alone_leaves_90_degrees_open():
+    even, odd = (cpr.encode(38.85, -77.04, odd, surface=True) for odd in (False, True))
+    there = cpr.decode_global(even, odd, True, (38.0, -78.0))
+    elsewhere = cpr.decode_global(even, odd, True, (38.0, 12.0))
+    assert there == pytest.approx((38.85, -77.04), abs=1e-4)
+    assert elsewhere == pytest.approx((38.85, 12.96), abs=1e-4)
+
+
+def test_published_surface_messages_decode_to_where_they_are_published_to_be():
+    """Of pyModeS's test data: 8C4841753AAB238733C8CD4020B1 and 8C4841753A8A35323FAEBDAC702D."""
+    even = cpr.CprPosition(115609, 116941, odd=False, surface=True)
+    odd = cpr.CprPosition(39199, 110269, odd=True, surface=True)
+    near = (51.990, 4.375)
+    assert cpr.decode_global(even, odd, False, near) == pytest.approx((52.32304, 4.73047), abs=2e-5)
+    assert cpr.decode_local(odd, near) == pytest.approx((52.32061, 4.73473), abs=2e-5)

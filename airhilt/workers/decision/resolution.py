@@ -60,12 +60,16 @@ def resolve(
     It aims at ``standard``; separation counts as lost below ``infringed``, which is a tolerance
     less. A candidate that brings either into conflict with ``others`` is a last resort.
 
+    Who is in distress is told nothing: the other one gives way.
+
     Candidates are coordinated: of two that move vertically, the higher one climbs (of two at the
     same level the one with the higher address, so that the choice never flips).
     """
     rate_fpm = STRONG_VERTICAL_RATE_FPM if strong else VERTICAL_RATE_FPM
     best: tuple[float, Manoeuvre, Manoeuvre] | None = None
     for own, other in _candidates(first, second, standard, rate_fpm * FOOT_PER_MINUTE):
+        if (first.in_distress and own != NONE) or (second.in_distress and other != NONE):
+            continue
         margin = _least_margin(first, second, own, other, infringed)
         if _threatens(first, own, others, infringed) or _threatens(
             second, other, others, infringed

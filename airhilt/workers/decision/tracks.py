@@ -1,4 +1,4 @@
-"""What the assistant believes of each aircraft, from ADS-B and from what was said."""
+"""What the assistant believes of each aircraft in flight, from ADS-B and from what was said."""
 
 from __future__ import annotations
 
@@ -33,9 +33,11 @@ class Track:
     vertical_rate_m_s: float
     cleared_m: float | None = None
     """Level that it was last cleared to and read back, or read back otherwise."""
+    in_distress: bool = False
+    """It goes where it can, not where it is told."""
 
     @classmethod
-    def of(cls, report: AdsbReport) -> Track:
+    def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
         """Return a new track."""
         north, east = _velocity(report)
         return cls(
@@ -44,13 +46,13 @@ class Track:
             report.t_adsb_in_ns,
             report.latitude_deg * DEGREE,
             report.longitude_deg * DEGREE,
-            report.altitude_ft * FOOT,
+            altitude_ft * FOOT,
             north,
             east,
             report.vertical_rate_fpm * FOOT_PER_MINUTE,
         )
 
-    def update(self, report: AdsbReport) -> None:
+    def update(self, report: AdsbReport, altitude_ft: float) -> None:
         """Take in a newer report; an older one is ignored."""
         if report.t_adsb_in_ns < self.t_ns:
             return
@@ -60,7 +62,7 @@ class Track:
         self.t_ns = report.t_adsb_in_ns
         self.latitude_rad = report.latitude_deg * DEGREE
         self.longitude_rad = report.longitude_deg * DEGREE
-        self.altitude_m = report.altitude_ft * FOOT
+        self.altitude_m = altitude_ft * FOOT
         self.velocity_north_m_s = keep * self.velocity_north_m_s + (1.0 - keep) * north
         self.velocity_east_m_s = keep * self.velocity_east_m_s + (1.0 - keep) * east
         rate = report.vertical_rate_fpm * FOOT_PER_MINUTE
@@ -84,6 +86,7 @@ class Track:
             self.velocity_east_m_s,
             self.vertical_rate_m_s,
             self.cleared_m,
+            self.in_distress,
         )
 
     def profile(self) -> VerticalProfile:

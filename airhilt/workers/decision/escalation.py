@@ -1,0 +1,47 @@
+"""When an alert is told: a severity that has held, only higher ones after it, and its end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from airhilt.messages import Severity
+from airhilt.units import SECOND_NS
+
+
+@dataclass(slots=True)
+class Escalation:
+    """The severity of one conflict from first suspicion to its end."""
+
+    severity: Severity | None = None
+    """Told last; None before the first advisory."""
+    _rising: Severity | None = None
+    _rising_since_ns: int = 0
+    _quiet_since_ns: int | None = None
+
+    def rises(self, level: Severity, t_ns: int, persistence_s: float) -> bool:
+        """Take in how severe it is now; return whether a higher severity is to be told.
+
+        It is, once all levels for so long were higher than the one told last; ``severity`` is the
+        least of them.
+        """
+        self._quiet_since_ns = None
+        if self.severity is not None and level.rank <= self.severity.rank:
+            self._rising = None
+            return False
+        if self._rising is None or level.rank < self._rising.rank:
+            self._rising, self._rising_since_ns = level, t_ns
+        if t_ns - self._rising_since_ns < persistence_s * SECOND_NS:
+            return False
+        self.severity, self._rising = self._rising, None
+        return True
+
+    def stays(self) -> None:
+        """Take in that nothing is wrong now, but that it is not over."""
+        self._rising = self._quiet_since_ns = None
+
+    def is_over(self, t_ns: int, release_s: float) -> bool:
+        """Take in that nothing is wrong now; return whether that has held for long enough."""
+        self._rising = None
+        if self._quiet_since_ns is None:
+            self._quiet_since_ns = t_ns
+        return t_ns - self._quiet_since_ns >= release_s * SECOND_NS

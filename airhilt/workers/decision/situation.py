@@ -1,0 +1,132 @@
+"""What is known of an airport's runways now: who uses them, who is on them, what was said."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from airhilt.messages import AdsbReport, AirportBriefing, RosterEntry, Transcript
+from airhilt.radio.phraseology import Call, parse_call
+from airhilt.units import SECOND_NS
+from airhilt.workers.decision.aerodrome import Aerodrome, Strip, Way, way_through
+from airhilt.workers.decision.clearances import Clearances
+from airhilt.workers.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
+
+STALE_NS = 15 * SECOND_NS
+"""Age at which somebody is forgotten."""
+STALE_STANDING_NS = 30 * SECOND_NS
+"""Likewise who stands, and squitters every five seconds."""
+WILDLIFE_NS = 120 * SECOND_NS
+"""How long wildlife stays where it was reported."""
+
+
+class Obstacle(NamedTuple):
+    """Somebody on the ground whose way straight on leads through a protected area."""
+
+    mobile: Mobile
+    way: Way
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether it is in the area now."""
+        return self.way.entry_m <= 0.0
+
+
+class Situation:
+    """The runways of an airport, and everybody near them."""
+
+    def __init__(self, airport: AirportBriefing, roster: tuple[RosterEntry, ...]) -> None:
+        self.aerodrome = Aerodrome(airport)
+        self.clearances = Clearances()
+        self.uses: dict[str, Use] = {}
+        """By address."""
+        self._roster = {entry.callsign: entry.category == "vehicle" for entry in roster}
+        """Whether it is a vehicle, by callsign."""
+        self._mobiles: dict[str, Mobile] = {}
+        self._obstacles: dict[str, dict[str, Obstacle]] = {
+            strip.name: {} for strip in self.aerodrome.strips
+        }
+        """By runway and address."""
+        self._wildlife_ns: dict[str, int] = {}
+        """When it was last reported, by runway."""
+
+    def mobile(self, callsign: str) -> Mobile | None:
+        """Return who has a callsign, if it is seen."""
+        return next((m for m in self._mobiles.values() if m.callsign == callsign), None)
+
+    def use(self, mobile: Mobile) -> Use | None:
+        """Return how somebody uses a runway, if it does."""
+        return self.uses.get(mobile.icao24)
+
+    def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
+        """Yield who is on a runway, or has it straight ahead."""
+        yield from self._obstacles[strip.name].values()
+
+    def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
+        """Return whether wildlife was reported on a runway a short while ago."""
+        reported_ns = self._wildlife_ns.get(strip.name)
+        return reported_ns is not None and t_ns - reported_ns <= WILDLIFE_NS
+
+    def take_report(self, report: AdsbReport) -> None:
+        """Take in where an aircraft or a vehicle is."""
+        point = self.aerodrome.locate(report.latitude_deg, report.longitude_deg)
+        mobile = self._mobiles.get(report.icao24)
+        if mobile is None:
+            mobile = self._mobiles[report.icao24] = Mobile.of(report, point)
+        elif report.t_adsb_in_ns < mobile.t_ns:
+            return
+        else:
+            mobile.update(report, point)
+        mobile.is_vehicle = mobile.is_vehicle or self._roster.get(mobile.callsign, False)
+        self._place(mobile)
+
+    def _place(self, mobile: Mobile) -> None:
+        """Work out which runways somebody is on, is heading for, or uses."""
+        for strip in self.aerodrome.strips:
+            obstacles, core = self._obstacles[strip.name], strip.core(mobile.nacp)
+            way = way_through(core, mobile.point, mobile.heading_rad) if mobile.on_ground else None
+            if way is None:
+                obstacles.pop(mobile.icao24, None)
+            else:
+                obstacles[mobile.icao24] = Obstacle(mobile, way)
+        if not mobile.on_ground:
+            self.clearances.finish(mobile.callsign, "cleared_for_takeoff", "line_up")
+        elif mobile.landed and not any(s.contains(mobile.point) for s in self.aerodrome.strips):
+            mobile.landed = False
+            self.clearances.finish(mobile.callsign, "cleared_to_land")
+        use = use_of(mobile, self.aerodrome.strips)
+        if use is None:
+            self.uses.pop(mobile.icao24, None)
+        else:
+            self.uses[mobile.icao24] = use
+
+    def forget(self, t_ns: int) -> None:
+        """Forget those of whom nothing was heard for a while."""
+        for icao24, mobile in list(self._mobiles.items()):
+            standing = mobile.on_ground and mobile.speed_m_s < STANDING_M_S
+            if t_ns - mobile.t_ns > (STALE_STANDING_NS if standing else STALE_NS):
+                del self._mobiles[icao24]
+                self.uses.pop(icao24, None)
+                for obstacles in self._obstacles.values():
+                    obstacles.pop(icao24, None)
+
+    def take_transcript(self, transcript: Transcript) -> None:
+        """Take in a call."""
+        known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
+        call = parse_call(transcript.text, sorted(known))
+        for said in call.instructions:
+            if said.action == "wildlife":
+                for strip in self._reported_on(said.runway, call):
+                    self._wildlife_ns[strip.name] = transcript.t_end_ns
+            elif said.action == "wildlife_gone":
+                for strip in self._reported_on(said.runway, call):
+                    self._wildlife_ns.pop(strip.name, None)
+        self.clearances.take(call, transcript)
+
+    def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
+        """Return the runway named, or that of whose call it is, or all: "deer on the runway"."""
+        strip = self.aerodrome.strip_of(runway)
+        if strip is not None:
+            return (strip,)
+        used = [use.strip for use in self.uses.values() if use.mobile.callsign == call.callsign]
+        return tuple(used) or self.aerodrome.strips

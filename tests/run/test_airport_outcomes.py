@@ -1,0 +1,102 @@
+"""What comes of the scenarios at an airport and of the emergencies, with nobody to warn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from airhilt import library, load, run
+from airhilt.metrics.summary import Summary
+
+SCENARIOS = [name for name in library.names("scenarios") if not name.startswith("s02a")]
+NOMINAL = [name for name in SCENARIOS if name.endswith("_nominal")]
+CONFLICTS = [name for name in SCENARIOS if name not in NOMINAL]
+
+
+def alone(name: str, out: Path, seed: int = 0) -> Summary:
+    return run(load(name), out=out, latency="fixed", assistant="none", seed=seed).summary
+
+
+def happened(summary: Summary, outcome: str) -> bool:
+    match outcome:
+        case "runway_incursion":
+            return summary.runway_incursion_category in ("A", "B", "accident")
+        case "collision":
+            return summary.collision
+        case "nmac":
+            return summary.nmac or summary.collision
+        case _:
+            return summary.loss_of_separation
+
+
+@pytest.mark.parametrize("name", CONFLICTS)
+def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
+    name: str, tmp_path: Path
+) -> None:
+    conflict = load(name).conflict
+    assert conflict is not None
+    summary = alone(name, tmp_path / "run")
+    assert summary.t_conflict_s is not None
+    assert happened(summary, conflict.unassisted)
+    assert summary.avoided is False
+    assert summary.t_first_warning_s is None
+
+
+@pytest.mark.parametrize("name", NOMINAL)
+def test_a_nominal_twin_comes_to_its_end_without_incident(name: str, tmp_path: Path) -> None:
+    summary = alone(name, tmp_path / "run")
+    assert not summary.collision
+    assert not summary.nmac
+    assert not summary.loss_of_separation
+    assert summary.runway_incursions == []
+    assert summary.ended_actors == {}
+
+
+UNSEEN = ("s01b_dropped_hold",)
+"""A silent vehicle, which only a camera could see."""
+REPORTED = ("s01c_deer_delayed_warning", "s02b_engine_out_driftdown")
+SEEN = [name for name in CONFLICTS if name.startswith(("s01a", "s01b")) and name not in UNSEEN]
+
+
+@pytest.mark.parametrize("name", [*SEEN, *REPORTED])
+def test_the_assistant_prevents_what_its_senses_show(name: str, tmp_path: Path) -> None:
+    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+    assert summary.avoided is True
+    assert not summary.collision
+    assert summary.t_first_warning_s is not None
+    assert summary.nuisance_alerts == 0
+
+
+@pytest.mark.parametrize(
+    "name", [name for name in CONFLICTS if name.startswith("s02c") or "undetected" in name]
+)
+def test_of_what_nobody_senses_it_says_nothing(name: str, tmp_path: Path) -> None:
+    """Without a transponder, a report or a camera there is nothing to go by."""
+    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+    assert summary.advisories == []
+    assert summary.avoided is False
+
+
+@pytest.mark.parametrize("name", NOMINAL)
+def test_the_assistant_keeps_quiet_about_nominal_traffic(name: str, tmp_path: Path) -> None:
+    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+    assert summary.nuisance_alerts == 0
+    assert summary.ended_actors == {}
+
+
+def test_every_family_has_its_variants_and_a_nominal_twin() -> None:
+    families = {load(name).family for name in SCENARIOS} | {"S02A"}
+    assert families == {"S01A", "S01B", "S01C", "S02A", "S02B", "S02C"}
+    assert {load(name).family for name in NOMINAL} | {"S02A"} == families
+    assert all(load(name).perturbations for name in SCENARIOS)
+
+
+@pytest.mark.parametrize("name", [name for name in CONFLICTS if load(name).failures])
+def test_without_its_failures_a_conflict_does_not_arise(name: str, tmp_path: Path) -> None:
+    """The lines say how everything should go; only the failures make it go wrong."""
+    scenario = load(name).model_copy(update={"failures": (), "end_when": ()})
+    summary = run(scenario, out=tmp_path / "run", latency="fixed", assistant="none").summary
+    assert summary.avoided is not False
+    assert summary.runway_incursion_category in (None, "C", "D")
+    assert {actor for actor in summary.ended_actors if not actor.startswith("FLOCK")} == set()
