@@ -99,6 +99,8 @@ TICK_S = 0.05
 TRUTH_PERIOD_NS = SECOND_NS // 5
 CONDITION_PERIOD_NS = SECOND_NS // 10
 """How often the conflict window is looked at."""
+RUNWAY_PERIOD_NS = SECOND_NS // 5
+"""How often runways are."""
 END_PERIOD_NS = SECOND_NS // 2
 """How often the conditions that end the run are."""
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
@@ -523,6 +525,9 @@ class Simulation:
         tick_ns = seconds_to_ns(TICK_S)
         every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
         every(TRUTH_PERIOD_NS, self._publish_truth, Priority.SENSOR)
+        if self._runways is not None:
+            runways = self._runways
+            every(RUNWAY_PERIOD_NS, lambda: runways.look(director.now_ns), Priority.OBSERVE)
         every(CONDITION_PERIOD_NS, self._look_around, Priority.OBSERVE)
         every(END_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
         every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
@@ -563,8 +568,6 @@ class Simulation:
                     performer.attend()
                 except Unable as unable:
                     self._event("unable", performer.actor.callsign, str(unable))
-        if self._runways is not None:
-            self._runways.look(now_ns)
         self._cues.look(now_ns)
         self._watch_window()
 

@@ -20,8 +20,10 @@ HOLD_REACH_M = 150.0
 """From a hold-short position, an aircraft within this can line up by it."""
 TOUCHDOWN_M = 450.0
 """Past the threshold, where a normal landing has touched down."""
-BRAKING_M_S2 = 1.5
-"""Of a normal rollout."""
+BRAKING_M_S2 = 2.0
+"""Of a firm rollout."""
+EXIT_SPEED_M_S = 8.0
+"""At which a taxiway is turned on to."""
 
 
 def taxi_path(setting: Setting, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
@@ -96,8 +98,17 @@ def exit_for(
             known = ", ".join(dict.fromkeys(each.position for each in exits)) or "none"
             raise Unable(f"unable, runway {runway.ident} has no exit {name}; there are: {known}")
         return named[-1]
-    needed_m = TOUCHDOWN_M + speed_m_s**2 / (2.0 * BRAKING_M_S2)
-    return next((each for each in exits if each.along_m >= needed_m), None)
+    needed_m = TOUCHDOWN_M + (speed_m_s**2 - EXIT_SPEED_M_S**2) / (2.0 * BRAKING_M_S2)
+    made = [each for each in exits if each.along_m >= needed_m]
+    if not made:
+        return None
+    # Where a taxiway crosses the runway, to the side of the stands.
+    stands = [setting.airport.node(stand) for stand in setting.airport.stands]
+    both_sides = [each for each in made if each.along_m < made[0].along_m + 1.0]
+    return min(
+        both_sides,
+        key=lambda way: min((distance_m(way.path[-1], stand) for stand in stands), default=0.0),
+    )
 
 
 class FinalApproach:

@@ -1,0 +1,290 @@
+"""What crews do about runways when told, at KDCA, and what they say when they cannot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cache
+
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt.actors.crew import Crew
+from airhilt.actors.performer import Unable
+from airhilt.actors.reactions import Person
+from airhilt.commands import Command
+from airhilt.flight import load_aircraft_type
+from airhilt.messages import Advisory, CancelTakeoff, Evidence, GoAround, HoldPosition, Severity
+from airhilt.positions import RunwayPosition
+from airhilt.scenario import load
+from airhilt.scenario.geometry import Setting
+from airhilt.scenario.models import Reactions
+from airhilt.surface.mover import SurfaceState
+from airhilt.units import FOOT, KNOT
+
+B737 = load_aircraft_type("737")
+COMMAND = TypeAdapter(Command)
+
+
+@cache
+def kdca() -> Setting:
+    return Setting.of(load("s01a_nominal"))
+
+
+@dataclass
+class State(SurfaceState):
+    pass
+
+
+@dataclass
+class Plane:
+    """Takes down what it is told; the test says where it is and what it does."""
+
+    phase: str = "standing"
+    place: tuple[float, float] = (0.0, 0.0)
+    height_m: float = 0.0
+    speed_kt: float = 0.0
+    heading_deg: float = 355.5
+    told: list[tuple[object, ...]] = field(default_factory=list)
+    refuses: str = ""
+    kind = B737
+    ended = None
+
+    @property
+    def on_ground(self) -> bool:
+        return self.height_m == 0.0
+
+    @property
+    def target_altitude_m(self) -> float:
+        return 1_000.0
+
+    @property
+    def state(self):
+        heading, speed = math.radians(self.heading_deg), self.speed_kt * KNOT
+
+        class Now:
+            latitude_rad, longitude_rad = self.place
+            height_agl_m = self.height_m
+            altitude_m = self.height_m
+            track_rad = heading
+            calibrated_airspeed_m_s = speed
+
+        return Now
+
+    def _tell(self, name: str, *arguments: object) -> None:
+        if self.refuses == name:
+            raise ValueError(f"{name} in phase {self.phase}; expected something else")
+        self.told.append((name, *arguments))
+
+    def taxi(self, path, speed_m_s=None, *, then="standing"):
+        self._tell("taxi", tuple(path), then)
+        self.phase = "line_up" if then == "lined_up" else "taxi"
+
+    def take_off(self, runway, climb_to_m):
+        self._tell("take_off", runway.ident, round(climb_to_m / FOOT))
+        self.phase = "takeoff_roll"
+
+    def land(self, runway, exit_path=()):
+        self._tell("land", runway.ident, bool(exit_path))
+        self.phase = "glide"
+
+    def go_around(self, climb_to_m):
+        self._tell("go_around", round(climb_to_m / FOOT))
+        self.phase = "go_around"
+
+    def reject_takeoff(self):
+        self._tell("reject_takeoff")
+        self.phase = "rejected_takeoff"
+
+    def hold_position(self):
+        self._tell("hold_position")
+
+    def resume_taxi(self):
+        self._tell("resume_taxi")
+
+    def fly_route(self, places):
+        self._tell("fly_route", len(places))
+
+    def resume_route(self):
+        self._tell("resume_route")
+
+    def hold_track(self, track_rad):
+        self._tell("hold_track")
+
+    @property
+    def names(self) -> list[object]:
+        return [name for name, *_ in self.told]
+
+
+def crew_of(plane: Plane) -> Crew:
+    return Crew(Person("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
+
+
+def tell(crew: Crew, action: str, **arguments: object) -> None:
+    crew.command(COMMAND.validate_python({"action": action, **arguments}))
+
+
+def at_hold(taxiway: str = "A") -> Plane:
+    hold = kdca().airport.hold("01", taxiway)
+    return Plane(place=hold.place)
+
+
+def on_final(distance_m: float, height_m: float = 300.0, **kw: object) -> Plane:
+    place = kdca().place(RunwayPosition(type="runway", runway="01", along_m=-distance_m))
+    return Plane("glide", place, height_m, 140.0, **kw)
+
+
+def advisory(recommendation: object) -> Advisory:
+    return Advisory(
+        id="r-1", revision=0, recipient="AAL1", recipients=("AAL1",), kind="runway_conflict",
+        severity=Severity.WARNING, traffic=("AAL1", "OPS1"), message="",
+        recommendation=recommendation, evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
+    )  # fmt: skip
+
+
+# --- departures -----------------------------------------------------------------------------
+
+
+def test_from_a_hold_it_lines_up_along_the_way_in():
+    plane = at_hold()
+    crew = crew_of(plane)
+    tell(crew, "line_up", runway="01")
+    assert crew.runway_work.bound_runway == "01"
+    ((name, path, then),) = plane.told
+    assert (name, then) == ("taxi", "lined_up")
+    assert len(path) > 10
+
+
+def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then():
+    plane = at_hold()
+    crew = crew_of(plane)
+    tell(crew, "take_off", runway="01", climb_to_ft=4000)
+    crew.attend()
+    assert plane.names == ["taxi"]
+    plane.phase = "lined_up"
+    crew.attend()
+    crew.attend()
+    assert plane.told[1:] == [("take_off", "01", 4000)]
+
+
+def test_away_from_every_hold_it_is_unable_to_line_up():
+    plane = Plane(place=kdca().airport.node("gate_b12"))
+    with pytest.raises(Unable, match="not at a hold-short position of runway 01"):
+        tell(crew_of(plane), "line_up", runway="01")
+
+
+def test_a_takeoff_is_cancelled_before_it_rolls():
+    plane = at_hold()
+    crew = crew_of(plane)
+    tell(crew, "take_off", runway="01")
+    tell(crew, "cancel_takeoff")
+    plane.phase = "lined_up"
+    crew.attend()
+    assert "take_off" not in plane.names
+    assert plane.names[-1] == "hold_position"
+
+
+@pytest.mark.parametrize(("speed_kt", "rejects"), [(100.0, True), (133.0, False)])
+def test_rolling_it_rejects_below_decision_speed_only(speed_kt, rejects):
+    plane = Plane("takeoff_roll", speed_kt=speed_kt)
+    assert crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act() is rejects
+    assert ("reject_takeoff" in plane.names) is rejects
+
+
+def test_once_it_climbs_out_it_is_bound_for_no_runway():
+    plane = at_hold()
+    crew = crew_of(plane)
+    tell(crew, "line_up", runway="01")
+    plane.phase = "climb_out"
+    crew.attend()
+    assert crew.runway_work.bound_runway is None
+
+
+# --- arrivals -------------------------------------------------------------------------------
+
+
+def test_without_a_landing_clearance_it_goes_around_at_200_ft():
+    plane = on_final(2_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    crew.attend()
+    assert plane.names == ["land"]
+    plane.height_m = 190 * FOOT
+    crew.attend()
+    assert plane.names == ["land", "go_around"]
+    assert crew.runway_work.bound_runway is None
+
+
+def test_with_one_it_goes_on():
+    plane = on_final(2_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    tell(crew, "land", runway="01")
+    plane.height_m = 100 * FOOT
+    crew.attend()
+    assert plane.names == ["land", "land"]
+    assert plane.told[1] == ("land", "01", True)
+
+
+def test_over_a_circuit_it_lands_once_it_is_on_final():
+    away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
+    plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
+    crew = crew_of(plane)
+    via = [{"type": "runway", "runway": "01", "along_m": -13_000, "offset_m": 0}]
+    tell(crew, "land", runway="01", via=via, vacate=False)
+    crew.attend()
+    assert plane.told == [("fly_route", 2)]
+    final = on_final(10_000.0)
+    plane.place, plane.heading_deg = final.place, 350.0
+    crew.attend()
+    assert plane.told[1:] == [("land", "01", False)]
+
+
+def test_over_the_threshold_and_far_too_high_it_goes_around():
+    plane = on_final(4_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    tell(crew, "land", runway="01")
+    plane.place = on_final(-100.0).place
+    crew.attend()
+    assert plane.names[-1] == "go_around"
+
+
+def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not():
+    flying, landed = on_final(2_000.0), Plane("rollout")
+    assert crew_of(flying).hear(advisory(GoAround(runway="01"))).act()
+    assert not crew_of(landed).hear(advisory(GoAround(runway="01"))).act()
+    assert flying.names == ["go_around"]
+    assert landed.names == []
+
+
+def test_an_exit_that_does_not_exist_is_named_with_those_that_do():
+    with pytest.raises(Unable, match="has no exit Z; there are: B_"):
+        tell(crew_of(on_final(5_000.0)), "land", runway="01", exit="Z")
+
+
+# --- taxiing --------------------------------------------------------------------------------
+
+
+def test_taxiing_to_a_hold_its_nose_stops_short_of_the_line():
+    plane = Plane(place=kdca().airport.node("gate_b12"))
+    hold = {"type": "hold_short", "runway": "01", "taxiway": "E"}
+    tell(crew_of(plane), "taxi", to=hold)
+    (_, path, _) = plane.told[0]
+    frame, line = kdca().airport.frame, kdca().airport.hold("01", "E").place
+    short = math.dist(frame.to_local(path[-1]), frame.to_local(line))
+    assert short == pytest.approx(B737.dimensions.length_m / 2 + 3.0, abs=0.1)
+
+
+def test_it_holds_its_position_when_advised_and_when_told():
+    plane = Plane("taxi")
+    assert crew_of(plane).hear(advisory(HoldPosition(runway="01"))).act()
+    tell(crew_of(plane), "hold_position")
+    tell(crew_of(plane), "continue")
+    assert plane.names == ["hold_position", "hold_position", "resume_taxi"]
+
+
+def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run():
+    plane = Plane("takeoff_roll", refuses="hold_position")
+    with pytest.raises(Unable, match="unable, hold_position in phase takeoff_roll"):
+        tell(crew_of(plane), "hold_position")

@@ -1,0 +1,139 @@
+"""Drivers and animals of real scenarios, told, advised and startled."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt import load
+from airhilt.actors import Performer, Unable, build_cast
+from airhilt.actors.cues import Cues
+from airhilt.commands import Command
+from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
+from airhilt.scenario.geometry import Setting, distance_m
+
+COMMAND = TypeAdapter(Command)
+
+
+def cast_of(name: str, **changed: object) -> dict[str, Performer]:
+    scenario = load(name)
+    actors = tuple(
+        actor.model_copy(update=changed) if actor.callsign in ("OPS1", "DEER1") else actor
+        for actor in scenario.actors
+        if actor.type != "aircraft"
+    )
+    scenario = scenario.model_copy(update={"actors": actors})
+    return build_cast(scenario, Setting.of(scenario), 0, 0.05)
+
+
+def tell(performer: Performer, action: str, **arguments: object) -> None:
+    performer.command(COMMAND.validate_python({"action": action, **arguments}))
+
+
+def advance(performer: Performer, seconds: float) -> None:
+    for _ in range(round(seconds * 20)):
+        performer.body.advance()
+
+
+def advisory(recommendation: object, active: bool = True) -> Advisory:
+    return Advisory(
+        id="r-1", revision=0, recipient="OPS1", recipients=("OPS1",), kind="runway_conflict",
+        severity=Severity.WARNING, active=active, traffic=("AAL1", "OPS1"), message="",
+        recommendation=recommendation, evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def driver() -> Performer:
+    return cast_of("s01b_nominal")["OPS1"]
+
+
+def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver):
+    setting = driver.setting
+    tell(driver, "taxi", to={"type": "hold_short", "runway": "01", "taxiway": "D"})
+    assert driver.body.phase == "driving"
+    advance(driver, 120.0)
+    state, line = driver.body.state, setting.airport.hold("01", "D").place
+    away = distance_m((state.latitude_rad, state.longitude_rad), line)
+    assert driver.body.phase == "standing"
+    assert away == pytest.approx(driver.body.dimensions.length_m / 2 + 3.0, abs=0.1)
+
+
+def test_a_driver_stops_when_advised_to_hold_and_goes_on_when_told(driver):
+    tell(driver, "taxi", to={"type": "node", "node": "01/19 at D"})
+    advance(driver, 3.0)
+    reaction = driver.hear(advisory(HoldPosition(runway="01")))
+    assert 0.5 < reaction.delay_s < 15.0
+    assert reaction.act()
+    advance(driver, 10.0)
+    assert driver.body.phase == "standing"
+    assert not reaction.act()
+    tell(driver, "continue")
+    assert driver.body.phase == "driving"
+
+
+def test_a_driver_takes_no_notice_of_what_is_not_for_drivers(driver):
+    assert driver.hear(advisory(GoAround(runway="01"))) is None
+    assert driver.hear(advisory(HoldPosition(runway="01"), active=False)) is None
+
+
+def test_a_driver_who_never_complies_does_not(driver):
+    never = load("s01b_nominal").actors[1].driver.model_copy(update={"compliance": 0.0})
+    stubborn = cast_of("s01b_nominal", driver=never)["OPS1"]
+    assert stubborn.hear(advisory(HoldPosition(runway="01"))) is None
+
+
+def test_a_driver_says_what_it_cannot_do(driver):
+    with pytest.raises(Unable, match="a driver does not take off"):
+        tell(driver, "take_off", runway="01")
+    with pytest.raises(Unable, match="no taxi route"):
+        tell(driver, "taxi", to={"type": "node", "node": "01/19 at D"}, via=["H"])
+
+
+def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
+    deer = cast_of("s01c_deer_undetected")["DEER1"]
+    assert deer.hear(advisory(HoldPosition(runway="01"))) is None
+    cue = deer.actor.plan[0]
+    before = deer.body.state
+    deer.command(cue.command)
+    advance(deer, 20.0)
+    after = deer.body.state
+    walked = distance_m(
+        (before.latitude_rad, before.longitude_rad), (after.latitude_rad, after.longitude_rad)
+    )
+    assert 10.0 < walked < 40.0
+    with pytest.raises(Unable, match="animals do not land"):
+        tell(deer, "land", runway="01")
+
+
+def test_a_deer_that_startles_flees_what_comes_near_and_moves():
+    cast = cast_of("s01b_nominal")
+    wild = cast_of("s01c_nominal", startles_within_m=60.0)["DEER1"]
+    car = cast["OPS1"]
+    wild.others["OPS1"] = car
+    wild.attend()
+    assert not wild.body.startled
+    state = car.body.state
+    car.body.state = state._replace(
+        latitude_rad=wild.body.state.latitude_rad + math.radians(0.0003),
+        longitude_rad=wild.body.state.longitude_rad,
+    )
+    wild.attend()
+    assert not wild.body.startled  # It stands.
+    car.body.state = car.body.state._replace(velocity_north_m_s=-8.0)
+    wild.attend()
+    assert wild.body.startled
+
+
+def test_what_waits_is_done_once_as_soon_as_it_is_true():
+    done: list[str] = []
+    cues = Cues()
+    cues.once(lambda now_ns: now_ns >= 5, lambda: done.append("a"))
+    cues.once(
+        lambda now_ns: now_ns >= 3, lambda: cues.once(lambda _: True, lambda: done.append("b"))
+    )
+    for now_ns in range(8):
+        cues.look(now_ns)
+    assert done == ["b", "a"]

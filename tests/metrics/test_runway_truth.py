@@ -1,0 +1,236 @@
+"""Who is on a runway, who comes, and who is in whose way: at KDCA, runway 01 and its crossings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cache
+
+import pytest
+
+from airhilt.flight import load_aircraft_type
+from airhilt.metrics.runways import RunwayMonitor
+from airhilt.surface.airport import load_airport
+from airhilt.surface.layout import Layout
+from airhilt.surface.mover import Dimensions, SurfaceState
+from airhilt.units import FOOT, KNOT, SECOND_NS
+
+B737 = load_aircraft_type("737")
+CAR = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
+
+
+@cache
+def kdca() -> Layout:
+    return Layout(load_airport("KDCA"))
+
+
+@dataclass
+class Body:
+    """Something beside a runway, ``along_m`` past its threshold, moving along it."""
+
+    along_m: float
+    right_m: float = 0.0
+    height_m: float = 0.0
+    speed_kt: float = 0.0
+    runway: str = "01"
+    phase: str = "standing"
+    on_ground: bool = True
+    dimensions: object = CAR
+    ended: str | None = None
+    turned_deg: float = 0.0
+
+    @property
+    def state(self) -> SurfaceState:
+        end = kdca().runway(self.runway)
+        east, north = kdca().frame.to_local(end.threshold)
+        sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
+        east += self.along_m * sin + self.right_m * cos
+        north += self.along_m * cos - self.right_m * sin
+        speed = self.speed_kt * KNOT
+        return SurfaceState(
+            *kdca().frame.to_place(east, north),
+            altitude_m=self.height_m,
+            height_agl_m=self.height_m,
+            velocity_north_m_s=speed * cos,
+            velocity_east_m_s=speed * sin,
+            velocity_down_m_s=0.0,
+            heading_rad=(end.course_rad + math.radians(self.turned_deg)) % (2 * math.pi),
+        )
+
+
+@dataclass
+class Performing:
+    body: Body
+    bound_runway: str | None = None
+    category: str = "aircraft"
+
+
+def airliner(along_m: float, phase: str, *, runway: str = "01", **kw: object) -> Performing:
+    body = Body(along_m, runway=runway, phase=phase, dimensions=B737.dimensions, **kw)
+    body.kind = B737
+    return Performing(body, runway)
+
+
+def arrival(time_s: float, runway: str = "01") -> Performing:
+    """An airliner so far from its threshold, on the glide path."""
+    away = time_s * 140 * KNOT
+    height = (away + 180.0) * math.tan(math.radians(3.0))
+    return airliner(-away, "glide", runway=runway, speed_kt=140.0, height_m=height, on_ground=False)
+
+
+def vehicle(along_m: float, right_m: float = 0.0, runway: str = "01") -> Performing:
+    return Performing(Body(along_m, right_m, runway=runway), category="vehicle")
+
+
+@dataclass
+class Watch:
+    """A monitor over some performers, and what it has told."""
+
+    cast: dict[str, Performing]
+    misled: set[str] = field(default_factory=set)
+    now_ns: int = 0
+
+    def __post_init__(self) -> None:
+        self.occupied: list[tuple[str, tuple[str, ...]]] = []
+        self.incurred: list[tuple[str | None, str]] = []
+        self.monitor = RunwayMonitor(
+            kdca(),
+            self.cast,
+            self.misled,
+            lambda key, truth: self.occupied.append((key, truth.occupants)),
+            lambda incursion: self.incurred.append((incursion.user, incursion.intruder)),
+        )
+
+    def look(self) -> Watch:
+        self.now_ns += SECOND_NS // 5
+        self.monitor.look(self.now_ns)
+        return self
+
+    @property
+    def categories(self) -> list[str]:
+        return [incursion.category for incursion in self.monitor.incursions.values()]
+
+
+# --- occupancy ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("nose_past_line_m", "inside"), [(-1.0, False), (1.0, True)])
+def test_a_nose_beyond_the_hold_line_occupies_the_runway(
+    nose_past_line_m: float, inside: bool
+) -> None:
+    half = kdca().strip_of("01").hold_distance_m
+    away = half + B737.dimensions.length_m / 2.0 - nose_past_line_m
+    waiting = Performing(
+        Body(900.0, right_m=-away, turned_deg=90.0, dimensions=B737.dimensions, phase="standing")
+    )
+    watch = Watch({"A": waiting}).look()
+    assert watch.monitor.is_on("A", "01") is inside
+    assert watch.monitor.is_on("A", "19") is inside
+
+
+def test_who_is_in_the_air_occupies_nothing_but_low_birds_do() -> None:
+    plane = airliner(500.0, "climb_out", height_m=5.0, on_ground=False)
+    bird = Performing(Body(500.0, height_m=10.0, on_ground=False), category="wildlife")
+    high = Performing(Body(500.0, height_m=20.0, on_ground=False), category="wildlife")
+    watch = Watch({"A": plane, "B": bird, "C": high}).look()
+    assert [watch.monitor.is_on(name, "01") for name in "ABC"] == [False, True, False]
+
+
+def test_occupancy_is_told_when_it_changes_and_not_again() -> None:
+    car = vehicle(500.0, right_m=-300.0)
+    watch = Watch({"OPS": car}).look().look()
+    car.body.right_m = 0.0
+    watch.look().look()
+    car.body.ended = "collision with A"
+    watch.look()
+    told = [occupants for key, occupants in watch.occupied if key == "truth/runway/01-19"]
+    assert told == [("OPS",), ()]
+
+
+def test_at_an_intersection_both_runways_are_occupied() -> None:
+    watch = Watch({"OPS": vehicle(609.0)}).look()
+    assert watch.monitor.is_on("OPS", "01")
+    assert watch.monitor.is_on("OPS", "22")
+    assert not watch.monitor.is_on("OPS", "33")
+
+
+@pytest.mark.parametrize("time_s", [10.0, 60.0])
+def test_the_time_to_the_threshold_is_distance_over_speed(time_s: float) -> None:
+    watch = Watch({"A": arrival(time_s)})
+    assert watch.monitor.time_to_threshold_s("A", "01") == pytest.approx(time_s, rel=1e-4)
+    assert watch.monitor.time_to_threshold_s("A", "19") is None
+
+
+# --- incursions -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("time_s", "incursions"), [(60.0, []), (29.0, [("A", "OPS")])])
+def test_a_vehicle_in_the_way_counts_once_the_arrival_is_near(
+    time_s: float, incursions: list[tuple[str, str]]
+) -> None:
+    watch = Watch({"A": arrival(time_s), "OPS": vehicle(800.0)}).look().look()
+    assert watch.incurred == incursions
+
+
+def test_what_lies_behind_a_landing_is_not_in_its_way() -> None:
+    rolling = airliner(1_200.0, "rollout", speed_kt=60.0)
+    assert Watch({"A": rolling, "OPS": vehicle(300.0)}).look().incurred == []
+    assert Watch({"A": rolling, "OPS": vehicle(1_700.0)}).look().incurred == [("A", "OPS")]
+
+
+def test_who_crosses_while_nobody_uses_the_runway_does_no_wrong() -> None:
+    watch = Watch({"OPS": vehicle(800.0), "A": airliner(0.0, "lined_up")}).look()
+    assert watch.incurred == []
+
+
+def test_a_departure_ahead_of_an_arrival_counts_from_the_threshold_on() -> None:
+    leaving = airliner(900.0, "takeoff_roll", speed_kt=110.0)
+    assert Watch({"A": arrival(8.0), "D": leaving}).look().incurred == []
+    over = airliner(30.0, "flare", speed_kt=135.0, height_m=8.0, on_ground=False)
+    assert ("A", "D") in Watch({"A": over, "D": leaving}).look().incurred
+
+
+def test_head_on_the_other_is_in_the_way_at_once() -> None:
+    leaving = airliner(200.0, "takeoff_roll", speed_kt=60.0)
+    landing = arrival(20.0, runway="19")
+    assert Watch({"A": landing, "D": leaving}).look().incurred == [("A", "D")]
+
+
+def test_on_a_crossing_runway_who_rolls_through_the_intersection_is_in_the_way() -> None:
+    crossing = airliner(1_505.0, "rollout", speed_kt=80.0)
+    leaving = airliner(300.0, "takeoff_roll", runway="33", speed_kt=70.0)
+    assert ("D", "A") in Watch({"A": crossing, "D": leaving}).look().incurred
+
+
+def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:
+    deer = Performing(Body(1_000.0), category="wildlife")
+    assert Watch({"DEER": deer}).look().categories == ["D"]
+    assert Watch({"OPS": vehicle(1_000.0)}).look().categories == []
+    assert Watch({"OPS": vehicle(1_000.0)}, misled={"OPS"}).look().categories == ["D"]
+
+
+@pytest.mark.parametrize(("above_ft", "category"), [(60.0, "A"), (300.0, "B"), (700.0, "C")])
+def test_the_closest_distance_makes_the_category(above_ft: float, category: str) -> None:
+    """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
+    plane, car = arrival(25.0), vehicle(800.0)
+    watch = Watch({"A": plane, "OPS": car}).look()
+    plane.body.phase = "go_around"
+    for along_m in (0.0, 800.0, 2_000.0):
+        plane.body.along_m = along_m
+        plane.body.height_m = above_ft * FOOT + CAR.height_m
+        watch.look()
+    assert watch.categories == [category]
+
+
+def test_once_the_user_has_stopped_nothing_comes_nearer() -> None:
+    plane, car = airliner(500.0, "rollout", speed_kt=60.0), vehicle(1_400.0)
+    watch = Watch({"A": plane, "OPS": car}).look()
+    plane.body.phase, plane.body.along_m = "vacate", 1_380.0
+    watch.look()
+    assert watch.categories == ["C"]
+
+
+def test_a_collision_is_an_accident() -> None:
+    watch = Watch({"A": arrival(5.0), "OPS": vehicle(300.0)}).look()
+    watch.monitor.collided("OPS", "A")
+    assert watch.categories == ["accident"]

@@ -1,0 +1,89 @@
+"""A failure changes what it names, and nothing else."""
+
+from __future__ import annotations
+
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt import load
+from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.models import Failure
+
+SCENARIO = load("s01b_noncompliance")
+FAILURES = TypeAdapter(tuple[Failure, ...])
+HOLD = next(line for line in SCENARIO.radio.lines if line.id == "hold")
+
+
+def happening(*failures, line="hold"):
+    scenario = SCENARIO.model_copy(update={"failures": FAILURES.validate_python(failures)})
+    lines = {happens.declared.id: happens for happens in as_it_happens(scenario)}
+    others = [happens for name, happens in lines.items() if name != line]
+    assert all(happens.line is happens.declared and not happens.failures for happens in others)
+    return lines[line]
+
+
+def test_without_failures_all_happens_as_it_is_written():
+    hold = happening()
+    assert hold.line is hold.declared
+    assert (hold.late_s, hold.failures, hold.misled) == (0.0, (), frozenset())
+
+
+@pytest.mark.parametrize("kind", ["not_received", "ignored"])
+def test_who_does_not_hear_or_heed_a_line_does_nothing(kind):
+    hold = happening({"type": kind, "line": "hold", "actor": "OPS1"})
+    assert hold.line.commands == ()
+    assert hold.line.text == HOLD.text
+    assert hold.misled == {"OPS1"}
+
+
+def test_a_line_taken_by_another_makes_the_other_act():
+    hold = happening(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
+    )
+    assert [scripted.actor for scripted in hold.line.commands] == ["OPS2"]
+    assert hold.line.commands[0].command == HOLD.commands[0].command
+    assert hold.misled == {"OPS1", "OPS2"}
+    assert hold.line.text == HOLD.text
+
+
+def test_the_wrong_callsign_may_be_said():
+    hold = happening(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
+         "text": "Ops two, stop."}
+    )  # fmt: skip
+    assert hold.line.text == "Ops two, stop."
+
+
+def test_a_late_line_is_late_by_the_sum_of_its_delays():
+    hold = happening(
+        {"type": "delayed", "line": "hold", "by_s": 5.0},
+        {"type": "delayed", "line": "hold", "by_s": 2.5},
+    )
+    assert hold.late_s == 7.5
+    assert hold.line is hold.declared
+    assert len(hold.failures) == 2
+
+
+def test_a_dropped_line_is_never_said():
+    hold = happening({"type": "dropped", "line": "hold"})
+    assert hold.line is None
+    assert hold.misled == {"OPS1"}
+
+
+def test_a_wrong_readback_has_other_words_and_other_deeds():
+    wrong = happening(
+        {"type": "readback_wrong", "line": "hold_readback", "text": "Proceeding, Ops one.",
+         "commands": [{"actor": "OPS1", "command": {"action": "continue"}}]},
+        line="hold_readback",
+    )  # fmt: skip
+    assert wrong.line.text == "Proceeding, Ops one."
+    assert [scripted.command.action for scripted in wrong.line.commands] == ["continue"]
+    assert wrong.misled == {"OPS1"}
+
+
+def test_an_engine_failure_is_no_matter_of_lines():
+    failure = {
+        "type": "engine_failure", "actor": "AAL123", "engine": 0,
+        "when": {"type": "time", "at_s": 5.0},
+    }  # fmt: skip
+    assert happening(failure).failures == ()
