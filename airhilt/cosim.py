@@ -708,11 +708,16 @@ class Simulation:
             self._once(scripted.when, action)
 
     def _do(self, callsign: str, command: Command) -> None:
+        """Let an actor do what a line or its plan says."""
+        if self._cast[callsign].body.ended is None:
+            self._event("command", callsign, command.model_dump_json(exclude_none=True))
+            self._obey(callsign, command)
+
+    def _obey(self, callsign: str, command: Command) -> None:
         """Let an actor do as it was told, or say that it cannot."""
         performer = self._cast[callsign]
         if performer.body.ended is not None:
             return
-        self._event("command", callsign, command.model_dump_json(exclude_none=True))
         try:
             performer.command(command)
         except Unable as unable:
@@ -731,8 +736,14 @@ class Simulation:
             return
 
         def react() -> None:
-            if performer.body.ended is None and reaction.act():
-                self._event("pilot_reacts", message.recipient, f"{reaction.text} ({message.id})")
+            if performer.body.ended is not None:
+                return
+            try:
+                if reaction.act():
+                    text = f"{reaction.text} ({message.id})"
+                    self._event("pilot_reacts", message.recipient, text)
+            except Unable as unable:
+                self._event("unable", message.recipient, str(unable))
 
         due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
         self._director.at(due_ns, react, Priority.SCRIPT)
@@ -822,7 +833,7 @@ class Simulation:
         if isinstance(stamped, ActorCommand):
             callsign = key.split("/")[1]
             if callsign in self._cast:
-                self._do(callsign, stamped.command)
+                self._obey(callsign, stamped.command)
 
     # --- what is told -----------------------------------------------------------------------
 

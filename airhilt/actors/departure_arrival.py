@@ -34,6 +34,8 @@ DECISION_HEIGHT_M = 200.0 * FOOT
 """Without a landing clearance here, the crew goes around (the usual minimum of category I)."""
 GO_AROUND_CLIMB_M = 3000.0 * FOOT
 """Above the airport, where nothing else was said."""
+LEAST_CLIMB_M = 500.0 * FOOT
+"""Of a go-around that begins above that."""
 TOO_HIGH_M = 150.0 * FOOT
 """Over the threshold; 50 ft is normal (ICAO Annex 10 volume I, 3.1.5.1.4)."""
 CAPTURE_ANGLE_RAD = math.radians(40.0)
@@ -126,7 +128,8 @@ class DepartureArrival:
         if following is not None and not following() and self._next is None:
             self._next = following
         phase = self._aircraft.phase
-        if phase in ("climb_out", "vacate"):
+        has_left = phase == "en_route" and self._next is None
+        if phase in ("climb_out", "vacate") or has_left:
             self._final = None
         elif phase == "glide" and self._final is not None:
             self._go_around_if_too_high(self._final)
@@ -135,9 +138,11 @@ class DepartureArrival:
 
     def go_around(self) -> bool:
         """Break the approach off, if there is one; return whether there was."""
-        if self._aircraft.phase not in ("glide", "flare"):
+        aircraft = self._aircraft
+        if aircraft.phase not in ("glide", "flare") or aircraft.on_ground:
             return False
-        self._break_off(self._setting.ground_m + GO_AROUND_CLIMB_M)
+        usual_m = self._setting.ground_m + GO_AROUND_CLIMB_M
+        self._break_off(max(usual_m, aircraft.state.altitude_m + LEAST_CLIMB_M))
         return True
 
     def cancel_takeoff(self) -> bool:
@@ -160,9 +165,9 @@ class DepartureArrival:
 
     def hold_position(self) -> bool:
         """Stop taxiing; return whether there was anything to stop."""
-        self._next = None
         if self._aircraft.phase not in ("taxi", "line_up"):
             return False
+        self._next = None
         self._aircraft.hold_position()
         return True
 
@@ -180,15 +185,18 @@ class DepartureArrival:
         self._aircraft.taxi(path, speed)
 
     def _line_up(self, runway: str) -> None:
-        airport, aircraft = self._setting.airport, self._aircraft
-        self.bind(runway)
-        if aircraft.phase in ("lined_up", "line_up"):
-            return
+        aircraft, here = self._aircraft, self._here()
+        final = FinalApproach(self._setting.airport, self._setting.runway(runway))
         if aircraft.phase == "taxi":
             self._next = partial(self._line_up_once_standing, runway)
-            return
-        hold = hold_beside(self._setting, self._here(), runway)
-        aircraft.taxi([self._here(), *airport.entry_path(hold, runway)], then="lined_up")
+        elif aircraft.phase not in ("lined_up", "line_up"):
+            hold = hold_beside(self._setting, here, runway)
+            path = self._setting.airport.entry_path(hold, runway)
+            # Held on its way in, it goes on from there, and not back to the hold line.
+            aside_m = abs(final.right_m(here))
+            ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
+            aircraft.taxi([here, *(ahead or path[-1:])], then="lined_up")
+        self._final = final
 
     def _line_up_once_standing(self, runway: str) -> bool:
         if self._aircraft.phase != "standing":
@@ -215,6 +223,8 @@ class DepartureArrival:
         if aircraft.on_ground:
             raise Unable("unable, on the ground")
         runway = setting.runway(command.runway)
+        if aircraft.phase in ("glide", "flare") and not command.via:
+            self._require_final_of(runway)
         exit_path: Sequence[Place] = ()
         if command.vacate:
             speed_m_s = aircraft.kind.speeds.approach_kt * KNOT
@@ -228,6 +238,10 @@ class DepartureArrival:
         self._next = partial(self._land_once_on_final, exit_path)
         if not command.via:
             self.attend()
+
+    def _require_final_of(self, runway: RunwayEnd) -> None:
+        if self._final is not None and self._final.runway.ident != runway.ident:
+            raise Unable(f"unable, on final approach to runway {self._final.runway.ident}")
 
     def _land_once_on_final(self, exit_path: Sequence[Place]) -> bool:
         final, state = self._final, self._aircraft.state

@@ -41,16 +41,19 @@ class Driver:
         Unable
             There is no way there, or it is nothing that a driver does.
         """
+        try:
+            self._carry_out(command)
+        except ValueError as error:
+            raise Unable(f"unable, {error}") from None
+
+    def _carry_out(self, command: Command) -> None:
         match command:
             case TaxiCommand(speed_kt=speed):
                 state = self.body.state
                 here = (state.latitude_rad, state.longitude_rad)
                 nose_m = self.body.dimensions.length_m / 2.0
                 path = taxi_path(self.setting, here, command, nose_m)
-                try:
-                    self.body.drive(path, None if speed is None else speed * KNOT)
-                except ValueError as error:
-                    raise Unable(f"unable, {error}") from None
+                self.body.drive(path, None if speed is None else speed * KNOT)
             case HoldPositionCommand():
                 self.body.stop()
             case ContinueCommand():

@@ -24,7 +24,8 @@ class Reaction:
 
     delay_s: float
     act: Callable[[], bool]
-    """Does it; tells whether there still was anything to do."""
+    """Does it; tells whether there still was anything to do. Raises `Unable` for what an advisory
+    has put off and cannot be done any more."""
     text: str
 
 

@@ -8,6 +8,7 @@ from typing import Literal
 
 from airhilt.actors.performer import Performer, Reaction, Unable
 from airhilt.commands import Command, MoveCommand, StandCommand
+from airhilt.errors import ScenarioError
 from airhilt.messages import Advisory
 from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import WildlifeActor
@@ -36,16 +37,15 @@ class Beast:
         Raises
         ------
         Unable
-            It is nothing that an animal does.
+            It is nothing that an animal does, or there is no such place.
         """
         match command:
             case StandCommand():
                 self.body.stand()
             case MoveCommand(gait=gait, to=to, height_ft=height):
-                there = self.setting.place(to)
                 try:
-                    self._move(gait, there, height * FOOT)
-                except ValueError as error:
+                    self._move(gait, self.setting.place(to), height * FOOT)
+                except (ValueError, ScenarioError) as error:
                     raise Unable(str(error)) from None
             case _:
                 raise Unable(f"animals do not {command.action.replace('_', ' ')}")

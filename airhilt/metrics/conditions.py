@@ -113,7 +113,7 @@ class ConditionCompiler:
                 case InPhase(phases=phases):
                     return performer.body.phase in phases
                 case BoundForRunway(runway=runway):
-                    return performer.bound_runway == runway
+                    return runways is not None and runways.is_bound_for(name, runway)
                 case OnRunway(runway=runway):
                     return runways is not None and runways.is_on(name, runway)
                 case ThresholdWithin(runway=runway, within_s=within_s):

@@ -152,13 +152,17 @@ class RunwayMonitor:
         """Return whether an actor is in the protected area of a runway."""
         return callsign in self._occupants[self._layout.strip_of(runway).name]
 
+    def is_bound_for(self, callsign: str, runway: str) -> bool:
+        """Return whether an actor means to use a runway, in that direction."""
+        return self._cast[callsign].bound_runway == self._layout.runway(runway).ident
+
     def time_to_threshold_s(self, callsign: str, runway: str) -> float | None:
         """Return how long an airborne aircraft bound for a runway is from its threshold."""
         performer = self._cast[callsign]
-        if performer.bound_runway != runway or performer.body.on_ground:
+        if performer.body.on_ground or not self.is_bound_for(callsign, runway):
             return None
-        east_m, north_m = self._local(performer)
-        along_m, closing_m_s = self._along(performer, runway, east_m, north_m)
+        ident = self._layout.runway(runway).ident
+        along_m, closing_m_s = self._along(performer, ident, *self._local(performer))
         if along_m > 0.0 or closing_m_s <= 1.0:
             return None
         return -along_m / closing_m_s
@@ -268,21 +272,23 @@ class RunwayMonitor:
         )
 
     def _incur(self, now_ns: int, name: str, user: str | None, intruder: str) -> None:
-        key = (name, user, intruder)
-        if key in self.incursions or (name, intruder, user) in self.incursions:
-            return
-        incursion = self.incursions[key] = Incursion(now_ns, name, user, intruder)
+        for key in ((name, user, intruder), (name, intruder, user)):
+            if key in self.incursions:
+                self.incursions[key].over = False
+                return
+        incursion = Incursion(now_ns, name, user, intruder)
+        self.incursions[name, user, intruder] = incursion
         if user is not None:
             incursion.closest = gap(self._cast[user].body, self._cast[intruder].body)
         self._incurred(incursion)
 
     def _follow(self) -> None:
-        """Keep the closest distance of each incursion as long as both go on."""
+        """Keep the closest distance of each incursion as long as one of both uses the runway."""
         for incursion in self.incursions.values():
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
             user, intruder = self._cast[incursion.user].body, self._cast[incursion.intruder].body
-            if user.ended or intruder.ended or user.phase not in USING:
+            if user.ended or intruder.ended or {user.phase, intruder.phase}.isdisjoint(USING):
                 incursion.over = True
                 continue
             now = gap(user, intruder)

@@ -18,6 +18,7 @@ from airhilt.commands import (
     Command,
     ContinueCommand,
     HoldPositionCommand,
+    LandCommand,
     TaxiCommand,
     VehicleCommand,
 )
@@ -29,19 +30,21 @@ from airhilt.scenario.models import (
     Airborne,
     AircraftActor,
     AircraftStart,
-    AirportScene,
+    CallsignConfused,
     Condition,
     Dropped,
     EngineFailure,
     HoldingShort,
     LinedUp,
     LineEnded,
+    ReadbackWrong,
     Scenario,
     Standing,
     VehicleActor,
     WildlifeActor,
 )
 from airhilt.scenario.perturbation import PathError, locate
+from airhilt.surface.frame import onward
 from airhilt.surface.kinds import load_kind
 from airhilt.surface.runway import Place
 from airhilt.units import FOOT
@@ -271,6 +274,7 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     yield from _references(scenario, callsigns, line_ids)
     yield from _misfits(scenario)
     if setting.layout is not None:
+        yield from _wind(scenario)
         yield from _ways(scenario, setting, setting.layout)
     yield from _failures(scenario, line_ids)
     yield from _perturbations(scenario)
@@ -304,7 +308,7 @@ def _actors(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
     for index, actor in enumerate(scenario.actors):
         path = f"actors/{index}"
         if isinstance(actor, AircraftActor):
-            yield from _aircraft(path, actor, setting, scenario)
+            yield from _aircraft(path, actor, setting)
         else:
             yield from _kind(path, actor)
 
@@ -316,9 +320,7 @@ def _kind(path: str, actor: VehicleActor | WildlifeActor) -> Iterator[Problem]:
         yield Problem(f"{path}/kind", str(error))
 
 
-def _aircraft(
-    path: str, actor: AircraftActor, setting: Setting, scenario: Scenario
-) -> Iterator[Problem]:
+def _aircraft(path: str, actor: AircraftActor, setting: Setting) -> Iterator[Problem]:
     try:
         kind = load_aircraft_type(actor.aircraft)
     except AirhiltError as error:
@@ -326,14 +328,9 @@ def _aircraft(
         return
     initial, ground_ft = actor.initial, setting.ground_m / FOOT
     if not isinstance(initial, Airborne):
-        yield from _wind(scenario)
         return
     if initial.altitude_ft <= ground_ft:
-        where = (
-            "the airport"
-            if isinstance(scenario.scene, AirportScene)
-            else "scene/terrain_elevation_ft"
-        )
+        where = "the airport" if setting.layout else "scene/terrain_elevation_ft"
         yield Problem(
             f"{path}/initial/altitude_ft",
             f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
@@ -413,6 +410,11 @@ def _told(scenario: Scenario) -> Iterator[tuple[str, str, Command]]:
         for number, scripted in enumerate(line.commands):
             path = f"radio/lines/{index}/commands/{number}/command"
             yield path, scripted.actor, scripted.command
+    for index, failure in enumerate(scenario.failures):
+        if isinstance(failure, ReadbackWrong):
+            for number, scripted in enumerate(failure.commands):
+                path = f"failures/{index}/commands/{number}/command"
+                yield path, scripted.actor, scripted.command
 
 
 def _misfits(scenario: Scenario) -> Iterator[Problem]:
@@ -465,6 +467,18 @@ def _ways(scenario: Scenario, setting: Setting, layout: Layout) -> Iterator[Prob
             begins[callsign] = end
         elif not isinstance(command, HoldPositionCommand | ContinueCommand):
             begins[callsign] = None
+        if isinstance(command, LandCommand) and command.exit is not None:
+            yield from _exit(path, command.runway, command.exit, layout)
+
+
+def _exit(path: str, runway: str, name: str, layout: Layout) -> Iterator[Problem]:
+    try:
+        exits = layout.exits(runway)
+    except AirhiltError:
+        return  # Named elsewhere.
+    if not any(name in (way.taxiway, way.position) for way in exits):
+        known = ", ".join(dict.fromkeys(way.position for way in exits)) or "none"
+        yield Problem(f"{path}/exit", f"runway {runway} has no exit {name!r}; there are: {known}")
 
 
 def _stands_at(initial: AircraftStart, setting: Setting) -> Place | None:
@@ -472,9 +486,12 @@ def _stands_at(initial: AircraftStart, setting: Setting) -> Place | None:
     match initial:
         case Standing(position=position):
             return _place(setting, position)
-        case HoldingShort(runway=runway, taxiway=taxiway):
-            hold = HoldShortPosition(type="hold_short", runway=runway, taxiway=taxiway)
-            return _place(setting, hold)
+        case HoldingShort(runway=runway, taxiway=taxiway, before_m=before_m):
+            try:
+                hold = setting.airport.hold(runway, taxiway)
+            except AirhiltError:
+                return None
+            return onward(hold.place, hold.heading_rad, -before_m)
         case LinedUp(runway=runway):
             return _place(setting, RunwayPosition(type="runway", runway=runway, along_m=0.0))
     return None
@@ -494,6 +511,7 @@ def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
     for index, failure in enumerate(scenario.failures):
         path = f"failures/{index}"
         if isinstance(failure, EngineFailure):
+            yield from _engine(path, failure, scenario)
             continue
         if failure.line not in lines:
             yield Problem(
@@ -509,12 +527,33 @@ def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
                 f"found {getattr(failure, field)!r}, whom line {failure.line!r} tells nothing; "
                 f"expected {' or '.join(told) or 'a line with commands'}",
             )
+        if isinstance(failure, CallsignConfused) and failure.taken_by == failure.meant:
+            yield Problem(f"{path}/taken_by", f"found {failure.meant!r} twice; expected two actors")
         if isinstance(failure, Dropped) and any(
             getattr(other, "line", None) == failure.line
             for number, other in enumerate(scenario.failures)
             if number != index
         ):
             yield Problem(f"{path}/line", f"line {failure.line!r} is dropped and fails otherwise")
+
+
+def _engine(path: str, failure: EngineFailure, scenario: Scenario) -> Iterator[Problem]:
+    actor = next((one for one in scenario.actors if one.callsign == failure.actor), None)
+    if actor is None:
+        return  # Named elsewhere.
+    if not isinstance(actor, AircraftActor):
+        yield Problem(f"{path}/actor", f"found a {actor.type}; expected an aircraft")
+        return
+    try:
+        engines = len(load_aircraft_type(actor.aircraft).mesh.engines_m)
+    except AirhiltError:
+        return  # Named elsewhere.
+    if failure.engine >= engines:
+        yield Problem(
+            f"{path}/engine",
+            f"found {failure.engine}; expected 0 to {engines - 1}, the engines of a "
+            f"{actor.aircraft}",
+        )
 
 
 def _envelope(

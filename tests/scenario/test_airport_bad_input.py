@@ -97,3 +97,118 @@ def test_a_runway_en_route_is_refused():
     document["perturbations"] = []
     with pytest.raises(ScenarioError, match="the scene is en route"):
         parse(json.dumps(document), "test.json")
+
+
+WRONG_READBACK = {
+    "type": "readback_wrong", "line": "proceed_readback", "text": "Via Hotel, Ops one.",
+    "commands": [
+        {"actor": "OPS1", "command": {
+            "action": "taxi", "to": {"type": "node", "node": "01/19 at D"}, "via": ["H"]}},
+    ],
+}  # fmt: skip
+CONFUSED = {"type": "callsign_confused", "line": "proceed", "meant": "OPS1", "taken_by": "OPS1"}
+AT_ONCE = {"type": "time", "at_s": 5.0}
+
+
+@pytest.mark.parametrize(
+    ("change", "where", "what"),
+    [
+        (put("failures", [WRONG_READBACK]), "failures/0/commands/0/command", "no taxi route"),
+        (put("failures", [CONFUSED]), "failures/0/taken_by", "found 'OPS1' twice"),
+        (
+            put("failures", [{"type": "engine_failure", "actor": "AAL123", "engine": 2,
+                              "when": AT_ONCE}]),
+            "failures/0/engine", "found 2; expected 0 to 1, the engines of a 737",
+        ),
+        (
+            put("failures", [{"type": "engine_failure", "actor": "OPS1", "engine": 0,
+                              "when": AT_ONCE}]),
+            "failures/0/actor", "found a vehicle; expected an aircraft",
+        ),
+        (
+            put("radio", "lines", 0, "commands", 0, "command", "exit", "Z"),
+            "radio/lines/0/commands/0/command/exit", "runway 01 has no exit 'Z'; there are: B_",
+        ),
+        (
+            put("conflict", {"actors": ["AAL123", "OPS1"], "opens_when": {
+                "type": "on_runway", "actor": "OPS1", "runway": "36"}}),
+            "conflict/opens_when", "no runway '36'; it has 01",
+        ),
+        (
+            put("actors", 0, "initial", {"type": "hold_short", "runway": "01", "taxiway": "E",
+                                         "before_m": 1500.0}),
+            "actors/0/initial", "nearest taxiway",
+        ),
+    ],
+)  # fmt: skip
+def test_what_would_only_show_in_the_middle_of_a_run_is_named_before(change, where, what):
+    message = complaint(change)
+    assert f"{where}: " in message
+    assert what in message
+
+
+def test_a_storm_is_refused_once_for_all_that_land():
+    document = copy.deepcopy(load("s01a_bad_readback").model_dump(mode="json"))
+    document["weather"]["wind"] = {"from_deg": 0, "speed_kt": 90}
+    with pytest.raises(ScenarioError) as caught:
+        parse(json.dumps(document), "test.json")
+    (problem,) = caught.value.problems
+    assert "weather/wind/speed_kt: found 90; expected at most 40" in problem
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        {"action": "land", "runway": "01"},
+        {"action": "line_up", "runway": "01"},
+        {"action": "route", "route": [{"type": "runway", "runway": "01", "along_m": 0}]},
+        {"action": "taxi", "to": {"type": "node", "node": "gate_b12"}},
+    ],
+    ids=lambda command: command["action"],
+)
+def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command):
+    document = load("s02a_headon").model_dump(mode="json")
+    document["actors"][0]["commands"] = [command]
+    with pytest.raises(ScenarioError, match="the scene is en route") as caught:
+        parse(json.dumps(document), "test.json")
+    assert "actors/0/commands/0" in str(caught.value)
+
+
+def invalid_file(tmp_path, change):
+    document = copy.deepcopy(BASE)
+    change(document)
+    path = tmp_path / "mine.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        (lambda d: taxi(d).update(via=["H"]), "no taxi route"),
+        (put("scene", "airport", "KDCX"), "did you mean"),
+        (
+            put("actors", 1, "commands", [{"action": "continue"}]),
+            "actors/OPS1: cannot begin like that: unable, there is no path to go on with",
+        ),
+        (
+            put("actors", 0, "commands", [{"action": "line_up", "runway": "01"}]),
+            "actors/AAL123: cannot begin like that: unable, not at a hold-short position",
+        ),
+        (
+            lambda d: d["actors"].append(
+                {"type": "wildlife", "callsign": "DEER1", "kind": "deer", "height_ft": 60,
+                 "initial": {"type": "standing", "position": {"type": "node", "node": "J/D"}}}
+            ),
+            "actors/DEER1: cannot begin like that: a deer does not fly",
+        ),
+    ],
+    ids=["no way", "no airport", "nothing to continue", "no hold", "flying deer"],
+)  # fmt: skip
+def test_on_the_command_line_it_is_told_in_words_with_exit_code_2(
+    airhilt_command, tmp_path, change, what
+):
+    told = airhilt_command("validate", invalid_file(tmp_path, change))
+    assert told.returncode == 2
+    assert what in told.stderr
+    assert "Traceback" not in told.stderr + told.stdout

@@ -87,3 +87,36 @@ def test_an_engine_failure_is_no_matter_of_lines():
         "when": {"type": "time", "at_s": 5.0},
     }  # fmt: skip
     assert happening(failure).failures == ()
+
+
+def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left():
+    hold = happening(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"},
+        {"type": "not_received", "line": "hold", "actor": "OPS2"},
+        {"type": "delayed", "line": "hold", "by_s": 3.0},
+    )
+    assert hold.line.commands == ()
+    assert hold.late_s == 3.0
+    assert hold.misled == {"OPS1", "OPS2"}
+    assert [text.split()[0] for text in hold.failures] == ["OPS2", "OPS2", "it"]
+
+
+@pytest.mark.parametrize("kind", ["not_received", "ignored"])
+def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind):
+    both = tuple(HOLD.commands[0].model_copy(update={"actor": actor}) for actor in ("OPS1", "OPS2"))
+    line = HOLD.model_copy(update={"commands": both})
+    radio = SCENARIO.radio.model_copy(update={"lines": (line,)})
+    failures = FAILURES.validate_python([{"type": kind, "line": "hold", "actor": "OPS1"}])
+    scenario = SCENARIO.model_copy(update={"radio": radio, "failures": failures})
+    (hold,) = as_it_happens(scenario)
+    assert hold.line == line.model_copy(update={"commands": both[1:]})
+    assert hold.misled == {"OPS1"}
+
+
+def test_a_confusion_leaves_when_and_after_how_long_a_line_acts():
+    hold = happening(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
+    )
+    meant = HOLD.commands[0]
+    assert hold.line.commands == (meant.model_copy(update={"actor": "OPS2"}),)
+    assert hold.line.model_copy(update={"commands": HOLD.commands}) == HOLD
