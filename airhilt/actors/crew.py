@@ -123,6 +123,8 @@ class Crew:
                 aircraft.drift_down()
             case EmergencyDescentCommand(altitude_ft=altitude):
                 aircraft.emergency_descent(altitude * FOOT)
+            case _:
+                raise Unable(f"unable to {command.action.replace('_', ' ')}")
 
     # --- advisories -------------------------------------------------------------------------
 
@@ -150,30 +152,30 @@ class Crew:
     def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return False
-        match recommendation:
-            case GoAround():
-                return self.runway_work.go_around()
-            case CancelTakeoff():
-                return self.runway_work.cancel_takeoff()
-            case HoldPosition():
-                return self.runway_work.hold_position()
-            case Climb() | MaintainLevel() | Turn():
-                return self._avoid(advisory, recommendation)
+        try:
+            match recommendation:
+                case GoAround():
+                    return self.runway_work.go_around()
+                case CancelTakeoff():
+                    return self.runway_work.cancel_takeoff()
+                case HoldPosition():
+                    return self.runway_work.hold_position()
+                case Climb() | MaintainLevel() | Turn():
+                    return self._avoid(advisory, recommendation)
+        except ValueError as error:
+            raise Unable(f"unable, {error}") from None
 
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if not self._followed:
             self._altitude_before_m = self.aircraft.target_altitude_m
-        try:
-            match recommendation:
-                case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
-                    self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
-                case MaintainLevel(altitude_ft=altitude):
-                    self.aircraft.hold_altitude(altitude * FOOT)
-                case Turn(degrees=degrees):
-                    self.aircraft.turn_by(degrees * DEGREE)
-                    self._has_turned = True
-        except ValueError:  # It is on the ground by now.
-            return False
+        match recommendation:
+            case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
+                self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+            case MaintainLevel(altitude_ft=altitude):
+                self.aircraft.hold_altitude(altitude * FOOT)
+            case Turn(degrees=degrees):
+                self.aircraft.turn_by(degrees * DEGREE)
+                self._has_turned = True
         self._followed[advisory.id] = advisory.revision
         return True
 

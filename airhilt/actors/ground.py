@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from airhilt.actors.performer import Unable
 from airhilt.commands import TaxiCommand
@@ -10,9 +11,11 @@ from airhilt.errors import ScenarioError
 from airhilt.positions import HoldShortPosition
 from airhilt.scenario.geometry import Setting, azimuth, distance_m
 from airhilt.surface.frame import onward
-from airhilt.surface.layout import Exit, Hold, Layout
 from airhilt.surface.runway import Place, RunwayEnd
 from airhilt.units import wrap_angle
+
+if TYPE_CHECKING:
+    from airhilt.surface.layout import Exit, Hold, Layout
 
 NOSE_MARGIN_M = 3.0
 """Kept between the nose and a hold line."""

@@ -19,7 +19,6 @@ from airhilt.positions import RunwayPosition
 from airhilt.scenario import load
 from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import Reactions
-from airhilt.surface.mover import SurfaceState
 from airhilt.units import FOOT, KNOT
 
 B737 = load_aircraft_type("737")
@@ -29,11 +28,6 @@ COMMAND = TypeAdapter(Command)
 @cache
 def kdca() -> Setting:
     return Setting.of(load("s01a_nominal"))
-
-
-@dataclass
-class State(SurfaceState):
-    pass
 
 
 @dataclass
@@ -288,3 +282,154 @@ def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run():
     plane = Plane("takeoff_roll", refuses="hold_position")
     with pytest.raises(Unable, match="unable, hold_position in phase takeoff_roll"):
         tell(crew_of(plane), "hold_position")
+
+
+# --- what went wrong once, or nearly ----------------------------------------------------------
+
+
+def test_who_is_unable_to_line_up_is_bound_for_no_runway():
+    crew = crew_of(Plane(place=kdca().airport.node("gate_b12")))
+    for action in ("line_up", "take_off"):
+        with pytest.raises(Unable):
+            tell(crew, action, runway="01")
+    assert crew.runway_work.bound_runway is None
+
+
+def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there():
+    plane = at_hold()
+    plane.phase = "taxi"
+    crew = crew_of(plane)
+    tell(crew, "take_off", runway="01", climb_to_ft=4000)
+    crew.attend()
+    assert plane.told == []
+    assert crew.runway_work.bound_runway == "01"
+    for phase in ("standing", "line_up", "lined_up"):
+        plane.phase = phase
+        crew.attend()
+    assert plane.names == ["taxi", "take_off"]
+
+
+def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold():
+    plane = at_hold()
+    crew = crew_of(plane)
+    tell(crew, "take_off", runway="01")
+    whole = plane.told[0][1]
+    tell(crew, "cancel_takeoff")
+    plane.phase, plane.place = "standing", whole[len(whole) // 2]
+    tell(crew, "take_off", runway="01")
+    assert plane.names == ["taxi", "hold_position", "taxi"]
+    again = plane.told[-1][1]
+    assert again[-1] == whole[-1]
+    assert set(again) < set(whole)
+    assert whole[1] not in again
+
+
+def test_a_cancelled_takeoff_is_not_taken_up_by_itself():
+    plane = Plane("lined_up", kdca().airport.runway("01").start)
+    crew = crew_of(plane)
+    crew.runway_work.bind("01")
+    tell(crew, "cancel_takeoff")
+    crew.attend()
+    assert plane.told == []
+    tell(crew, "take_off", runway="01")
+    assert plane.names == ["take_off"]
+
+
+@pytest.mark.parametrize("phase", ["climb_out", "rejected_takeoff", "rotate", "rollout"])
+def test_there_is_nothing_to_cancel_where_there_is_no_takeoff_to_reject(phase):
+    plane = Plane(phase)
+    assert not crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act()
+    assert plane.told == []
+
+
+def test_a_go_around_advised_as_the_wheels_touch_comes_too_late():
+    plane = on_final(-300.0, height_m=0.0, refuses="go_around")
+    plane.phase = "flare"
+    assert not crew_of(plane).hear(advisory(GoAround(runway="01"))).act()
+
+
+@pytest.mark.parametrize(("height_ft", "climb_to_ft"), [(300.0, 3_015), (4_500.0, 5_000)])
+def test_a_go_around_climbs_from_wherever_it_begins(height_ft, climb_to_ft):
+    plane = on_final(2_000.0, height_m=height_ft * FOOT)
+    assert crew_of(plane).hear(advisory(GoAround(runway="01"))).act()
+    assert plane.told == [("go_around", climb_to_ft)]
+
+
+def test_after_a_go_around_it_needs_another_clearance_to_land():
+    plane = on_final(2_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    tell(crew, "land", runway="01")
+    tell(crew, "go_around")
+    assert crew.runway_work.bound_runway is None
+    plane.phase, plane.told = "glide", []
+    crew.runway_work.begin_on_final("01")
+    plane.height_m = 190 * FOOT
+    crew.attend()
+    assert plane.names == ["land", "go_around"]
+
+
+def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles():
+    plane = on_final(5_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    with pytest.raises(Unable, match="on final approach to runway 01"):
+        tell(crew, "land", runway="33")
+    assert crew.runway_work.bound_runway == "01"
+    tell(crew, "land", runway="33", via=[{"type": "runway", "runway": "33", "along_m": -5_000}])
+    assert crew.runway_work.bound_runway == "33"
+
+
+def test_on_the_ground_it_is_unable_to_land():
+    with pytest.raises(Unable, match="on the ground"):
+        tell(crew_of(Plane("lined_up")), "land", runway="01")
+
+
+@pytest.mark.parametrize("command", [{"action": "track", "track_deg": 90}])
+def test_who_leaves_an_approach_is_bound_for_no_runway(command):
+    plane = on_final(5_000.0)
+    crew = crew_of(plane)
+    crew.runway_work.begin_on_final("01")
+    tell(crew, **command)
+    plane.phase = "en_route"
+    crew.attend()
+    assert crew.runway_work.bound_runway is None
+    plane.height_m = 150 * FOOT
+    crew.attend()
+    assert plane.names == ["land", "hold_track"]
+
+
+def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land():
+    away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
+    plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
+    crew = crew_of(plane)
+    tell(crew, "land", runway="01", via=[{"type": "runway", "runway": "01", "along_m": -13_000}])
+    assert not crew.hear(advisory(HoldPosition(runway="01"))).act()
+    plane.place, plane.heading_deg = on_final(10_000.0).place, 355.0
+    crew.attend()
+    assert plane.names == ["fly_route", "land"]
+
+
+@pytest.mark.parametrize(
+    ("away_m", "right_m", "heading_deg", "lands"),
+    [
+        (10_000.0, 0.0, 355.5, True),
+        (10_000.0, 0.0, 33.0, True),
+        (10_000.0, 0.0, 37.0, False),
+        (10_000.0, 900.0, 340.0, True),
+        (10_000.0, 950.0, 340.0, False),
+        (10_000.0, 0.0, 175.5, False),
+        (-100.0, 0.0, 355.5, False),
+    ],
+)
+def test_the_final_approach_is_joined_near_it_and_about_along_it(
+    away_m, right_m, heading_deg, lands
+):
+    place = kdca().place(
+        RunwayPosition(type="runway", runway="01", along_m=-away_m, offset_m=right_m)
+    )
+    plane = Plane("en_route", place, 500.0, 150.0, heading_deg)
+    crew = crew_of(plane)
+    tell(crew, "land", runway="01")
+    assert plane.names == (["land"] if lands else [])
+    assert crew.runway_work.bound_runway == "01"

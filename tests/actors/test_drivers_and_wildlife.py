@@ -13,6 +13,7 @@ from airhilt.actors.cues import Cues
 from airhilt.commands import Command
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.scenario.geometry import Setting, distance_m
+from airhilt.units import KNOT
 
 COMMAND = TypeAdapter(Command)
 
@@ -137,3 +138,81 @@ def test_what_waits_is_done_once_as_soon_as_it_is_true():
     for now_ns in range(8):
         cues.look(now_ns)
     assert done == ["b", "a"]
+
+
+def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver):
+    with pytest.raises(Unable, match="no path to go on with"):
+        tell(driver, "continue")
+
+
+def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver):
+    before = driver.body.state
+    tell(driver, "taxi", to={"type": "node", "node": "K/E"}, off_taxiways=True, speed_kt=10.0)
+    speeds = []
+    for _ in range(20 * 200):
+        driver.body.advance()
+        speeds.append(driver.body.state.ground_speed_m_s)
+    end = driver.setting.airport.node("K/E")
+    after = driver.body.state
+    assert distance_m((after.latitude_rad, after.longitude_rad), end) < 0.5
+    assert distance_m((before.latitude_rad, before.longitude_rad), end) > 50.0
+    assert max(speeds) == pytest.approx(10.0 * KNOT, rel=1e-6)
+
+
+def test_an_animal_told_to_go_where_nothing_is_or_to_fly_says_so():
+    deer = cast_of("s01c_deer_undetected")["DEER1"]
+    with pytest.raises(Unable, match="no taxiway node 'K/Z'"):
+        tell(deer, "move", gait="walk", to={"type": "node", "node": "K/Z"})
+    with pytest.raises(Unable, match="a deer does not fly"):
+        tell(deer, "move", gait="fly", to={"type": "node", "node": "K/D"})
+    assert deer.body.phase == "standing"
+
+
+def test_what_passes_high_above_or_is_an_animal_too_startles_nobody():
+    wild = cast_of("s01c_nominal", startles_within_m=60.0)["DEER1"]
+    fleeing = wild.body.state._replace(velocity_north_m_s=-8.0)
+    other = cast_of("s01c_nominal")["DEER1"]
+    other.body.state = fleeing
+    wild.others["DEER2"] = other
+    wild.attend()
+    assert not wild.body.startled
+    car = cast_of("s01b_nominal")["OPS1"]
+    wild.others["OPS1"] = car
+    car.body.state = fleeing._replace(altitude_m=fleeing.altitude_m + 61.0)
+    wild.attend()
+    assert not wild.body.startled
+    car.body.state = fleeing
+    wild.attend()
+    assert wild.body.startled
+
+
+def test_an_animal_stands_still_when_its_plan_says_so():
+    deer = cast_of("s01c_deer_undetected")["DEER1"]
+    tell(deer, "move", gait="run", to={"type": "node", "node": "K/D"})
+    advance(deer, 5.0)
+    assert deer.body.phase == "running"
+    tell(deer, "stand")
+    advance(deer, 10.0)
+    assert deer.body.phase == "standing"
+
+
+def test_what_a_cue_sets_waiting_is_looked_at_the_next_time():
+    """Also where it is true already: nothing is done twice or forgotten within one look."""
+    done: list[str] = []
+    cues = Cues()
+    cues.once(lambda _: True, lambda: cues.once(lambda _: True, lambda: done.append("second")))
+    cues.look(0)
+    assert done == []
+    cues.look(1)
+    cues.look(2)
+    assert done == ["second"]
+
+
+def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first():
+    done: list[str] = []
+    cues = Cues()
+    for name in "abc":
+        cues.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))
+    for now_ns in range(5):
+        cues.look(now_ns)
+    assert done == ["a", "b", "c"]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from airhilt.flight import AircraftState, AircraftType, load_aircraft_type
 from airhilt.metrics.monitor import ConflictMonitor
 from airhilt.scenario.geometry import Site
+from airhilt.surface.mover import Dimensions
 from airhilt.surveillance.kinematics import Minima
 from airhilt.surveillance.sensor import carried_on
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
@@ -73,6 +74,16 @@ class Straight:
         self.state = moved._replace(height_agl_m=moved.altitude_m)
 
 
+class Rolling(Straight):
+    """A vehicle that drives straight on."""
+
+    dimensions = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
+
+    def __init__(self, east_m: float = 0.0, north_m: float = 0.0, **motion: float) -> None:
+        super().__init__(east_m, north_m, 0.0, on_ground=True, phase="driving", **motion)
+        self.kind = None
+
+
 class Watch:
     """A monitor over some aircraft, and what it has told."""
 
@@ -87,8 +98,8 @@ class Watch:
         self.distances: dict[str, tuple[float, float]] = {}
         self.now_ns = 0
         self.monitor = ConflictMonitor(
-            self.aircraft,
-            {},
+            {name: body for name, body in self.aircraft.items() if body.kind is not None},
+            {name: body for name, body in self.aircraft.items() if body.kind is None},
             minima,
             ground_m,
             zone,

@@ -3,11 +3,12 @@
 import math
 
 import pytest
-from fakes import MINIMA, Straight, Watch
+from fakes import MINIMA, Rolling, Straight, Watch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.metrics.monitor import profile_of
+from airhilt.scenario.geometry import Site
 from airhilt.surveillance.kinematics import Minima, VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 
@@ -208,3 +209,73 @@ def test_the_time_to_loss_knows_where_a_climb_ends():
         limits = Minima(5 * NAUTICAL_MILE, 900 * FOOT)
         found = Watch(climbing, other, minima=limits).monitor.time_to_loss_s(("A", "B"))
         assert (found is not None) == loss
+
+
+# --- at an airport --------------------------------------------------------------------------
+
+ZONE = Site(0.0, 0.0)
+
+
+def low(aside_m=0.0, altitude_ft=1_000.0):
+    """Two at 140 kt that meet over the airport, or beside it, after half a minute."""
+    return [
+        Straight(-way * 30.0 * 72.0, aside_m, altitude_ft, east_m_s=way * 72.0) for way in (1, -1)
+    ]
+
+
+def test_in_the_zone_of_a_tower_there_are_no_minima_but_near_misses_and_collisions():
+    watch = Watch(*low(), zone=ZONE).fly(40.0)
+    assert {"nmac", "collision"} <= set(watch.told)
+    assert "loss_of_separation" not in watch.told
+
+
+@pytest.mark.parametrize(
+    ("aside_m", "altitude_ft", "lost"),
+    [(0.0, 2_400.0, False), (0.0, 2_700.0, True), (10_000.0, 1_000.0, True)],
+)
+def test_the_zone_ends_above_and_around(aside_m, altitude_ft, lost):
+    watch = Watch(*low(aside_m, altitude_ft), zone=ZONE).fly(40.0)
+    assert ("loss_of_separation" in watch.told) == lost
+
+
+def test_who_is_in_the_zone_must_be_separated_from_who_is_not():
+    inside = Straight(0.0, 8_500.0, 2_000.0)
+    outside = Straight(0.0, 10_000.0, 2_000.0)
+    assert "loss_of_separation" in Watch(inside, outside, zone=ZONE).fly(1.0).told
+
+
+def test_a_vehicle_and_an_aircraft_have_no_separation_to_lose_but_can_collide():
+    plane = Straight(-300.0, altitude_ft=0.0, east_m_s=60.0, on_ground=True, phase="rollout")
+    watch = Watch(plane, Rolling()).fly(8.0)
+    assert set(watch.told) == {"collision"}
+    assert watch.told["collision"] == pytest.approx((300.0 - 16.8 - 1.0) / 60.0, abs=0.1)
+    assert watch.truth.least_horizontal_m is None
+
+
+def test_in_the_air_above_a_vehicle_nothing_is_lost_either():
+    plane = Straight(-300.0, altitude_ft=50.0, east_m_s=70.0, phase="flare")
+    watch = Watch(plane, Rolling()).fly(8.0)
+    assert watch.told == {}
+    assert watch.truth.closest.vertical_m == pytest.approx(50 * FOOT, abs=0.1)
+
+
+def test_a_car_between_nose_and_wing_touches_nothing():
+    """It is 12 m ahead of the middle and 12 m to the right, well within the box around it all."""
+    plane = Straight(altitude_ft=0.0, east_m_s=0.1, on_ground=True)
+    watch = Watch(plane, Rolling(12.0, -60.0, north_m_s=8.0)).fly(6.0)
+    assert watch.told == {}
+    assert watch.truth.closest.horizontal_m == pytest.approx(17.0, abs=1.0)
+
+
+def test_two_on_the_ground_are_never_too_near_until_they_touch():
+    first = Straight(-40.0, altitude_ft=0.0, east_m_s=5.0, on_ground=True, phase="taxi")
+    second = Straight(altitude_ft=0.0, on_ground=True, phase="standing")
+    watch = Watch(first, second).fly(1.0)
+    assert watch.told == {}
+    assert set(watch.fly(3.0).told) == {"collision"}
+
+
+def test_a_fast_aircraft_does_not_pass_a_vehicle_between_two_looks():
+    """Pairs on the ground are sorted out once a second."""
+    plane = Straight(-2_000.0, altitude_ft=0.0, east_m_s=75.0, on_ground=True, phase="takeoff_roll")
+    assert "collision" in Watch(plane, Rolling(), always=False).fly(40.0).told

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 
 import pytest
-from fakes import Straight
+from fakes import Rolling, Straight
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from shapely import Polygon, affinity, union_all
 
+from airhilt.flight import load_aircraft_type
 from airhilt.metrics.outline import gap, radius_m
 from airhilt.units import FOOT
 
@@ -54,6 +56,12 @@ def test_above_each_other_they_touch_only_within_their_height() -> None:
     assert above.slant_m == pytest.approx(10.0, abs=1e-6)
 
 
+def test_between_a_car_and_an_aircraft_above_it_is_the_height_of_the_car() -> None:
+    car, above = Rolling(north_m_s=1.0), plane(height_m=10.0)
+    for between in (gap(car, above), gap(above, car)):
+        assert between.vertical_m == pytest.approx(10.0 - car.dimensions.height_m, abs=1e-6)
+
+
 def test_a_moment_ago_they_touched() -> None:
     first, second = plane(heading_deg=90.0), plane(east_m=-60.0, heading_deg=270.0)
     assert not gap(first, second).touches
@@ -90,3 +98,68 @@ def test_the_circles_around_them_bound_the_distance(second) -> None:
     assume(between > 1.0)
     found = gap(a, b).horizontal_m
     assert between - radius_m(a) - radius_m(b) - 0.1 <= found <= between
+
+
+TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
+
+
+@pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
+def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind) -> None:
+    size = kind.dimensions
+    middle = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
+    for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
+        post = Rolling(east, north, north_m_s=1.0)
+        half = post.dimensions.length_m / 2.0 if north else post.dimensions.span_m / 2.0
+        expected = 200.0 - short / 2.0 - half
+        found = gap(middle, post).horizontal_m
+        # A wing tip that is swept back lies aside of the middle: at a slant, it is farther.
+        assert found == pytest.approx(expected, rel=0.01)
+        assert found >= expected - 0.1
+
+
+@settings(deadline=None, max_examples=60)
+@given(poses, st.floats(0.0, 30.0), st.sampled_from(TYPES))
+def test_two_touch_just_where_their_outlines_and_their_heights_overlap(second, height, kind):
+    a = plane()
+    b = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
+                 east_m_s=math.sin(math.radians(second[2])),
+                 north_m_s=math.cos(math.radians(second[2])))  # fmt: skip
+    found = gap(a, b)
+    shapes = [silhouette(a), affinity.translate(silhouette(b), *second[:2])]
+    assume(abs(shapes[0].distance(shapes[1]) - 0.05) > 0.05)
+    overlaps = shapes[0].intersects(shapes[1])
+    assert found.touches == (overlaps and height <= HEIGHT_M)
+    assert found.horizontal_m == pytest.approx(shapes[0].distance(shapes[1]), abs=0.1)
+
+
+def silhouette(body):
+    """The same shape, made of parts: a fuselage, two wings, two halves of a tailplane."""
+    size, mesh = body.kind.dimensions, body.kind.mesh
+    half, width = size.length_m / 2.0, mesh.fuselage_diameter_m / 2.0
+    tip, span = 0.1 * size.length_m, size.span_m / 2.0
+    back = math.tan(math.radians(mesh.wing_sweep_deg)) * (span - width)
+    tail, chord = -0.38 * size.length_m, 0.1 * size.length_m
+    fuselage = Polygon(
+        [(0, half), (width, half - width), (width, -half), (-width, -half), (-width, half - width)]
+    )
+    wing = Polygon(
+        [(0, tip), (width, tip), (span, tip - back), (span, tip - back - mesh.wing_tip_chord_m),
+         (width, tip - mesh.wing_root_chord_m), (0, tip - mesh.wing_root_chord_m)]
+    )  # fmt: skip
+    tailplane = Polygon(
+        [(0, tail), (width, tail), (mesh.tail_span_m / 2, tail - chord / 2),
+         (mesh.tail_span_m / 2, tail - chord), (0, tail - chord)]
+    )  # fmt: skip
+    halves = [wing, tailplane]
+    mirrored = [affinity.scale(part, -1, 1, origin=(0, 0)) for part in halves]
+    whole = union_all([fuselage, *halves, *mirrored])
+    return affinity.rotate(whole, -body.state.heading_rad, origin=(0, 0), use_radians=True)
+
+
+@settings(deadline=None, max_examples=30)
+@given(poses, st.floats(-20_000.0, 20_000.0), st.floats(-5_000.0, 5_000.0))
+def test_it_does_not_matter_where_on_the_airport_they_are(second, east, north) -> None:
+    away_east, away_north, heading = second
+    moved = plane(away_east + east, away_north + north, heading)
+    found = gap(plane(east, north), moved).horizontal_m
+    assert found == pytest.approx(gap(plane(), plane(*second)).horizontal_m, abs=0.1)

@@ -9,6 +9,7 @@ from functools import cache
 import pytest
 
 from airhilt.flight import load_aircraft_type
+from airhilt.messages import RunwayTruth
 from airhilt.metrics.runways import RunwayMonitor
 from airhilt.surface.airport import load_airport
 from airhilt.surface.layout import Layout
@@ -234,3 +235,75 @@ def test_a_collision_is_an_accident() -> None:
     watch = Watch({"A": arrival(5.0), "OPS": vehicle(300.0)}).look()
     watch.monitor.collided("OPS", "A")
     assert watch.categories == ["accident"]
+
+
+def test_who_has_stopped_on_the_runway_is_still_come_near_to_by_the_other() -> None:
+    """Head-on, the first user of the runway has stopped, and the second rolls on towards it."""
+    landed = airliner(1_200.0, "rollout", runway="19", speed_kt=70.0)
+    rolling = airliner(300.0, "takeoff_roll", speed_kt=40.0)
+    watch = Watch({"A": landed, "D": rolling}).look()
+    assert watch.incurred == [("A", "D")]
+    landed.body.phase, landed.body.speed_kt = "standing", 0.0
+    rolling.body.along_m = 700.0
+    watch.look()
+    (incursion,) = watch.monitor.incursions.values()
+    end = kdca().runway("01")
+    between = end.length_m - 1_200.0 - 700.0 - B737.dimensions.length_m
+    assert incursion.closest.horizontal_m == pytest.approx(between, abs=1.0)
+
+
+def test_who_comes_a_second_time_is_followed_again() -> None:
+    plane, car = arrival(20.0), vehicle(800.0)
+    watch = Watch({"A": plane, "OPS": car}).look()
+    plane.body.phase = "en_route"
+    watch.look()
+    assert watch.categories == ["C"]
+    plane.body.phase, plane.body.along_m, plane.body.height_m = "flare", 500.0, 20.0
+    watch.look()
+    plane.body.along_m = 800.0
+    watch.look()
+    assert watch.categories == ["A"]
+    assert watch.incurred == [("A", "OPS")]
+
+
+def test_a_departure_waiting_on_the_runway_is_in_the_way_of_an_arrival() -> None:
+    waiting = airliner(40.0, "lined_up")
+    assert Watch({"A": arrival(25.0), "D": waiting}).look().incurred == [("A", "D")]
+    assert Watch({"A": arrival(35.0), "D": waiting}).look().incurred == []
+
+
+def test_who_holds_short_is_in_nobodys_way_however_long_the_arrival_rolls() -> None:
+    away = kdca().strip_of("01").hold_distance_m + CAR.length_m / 2.0 + 3.0
+    car = vehicle(800.0, right_m=-away)
+    car.body.turned_deg = 90.0
+    plane = arrival(10.0)
+    watch = Watch({"A": plane, "OPS": car}).look()
+    plane.body.phase, plane.body.on_ground, plane.body.height_m = "rollout", True, 0.0
+    for along_m in (500.0, 800.0, 1_100.0):
+        plane.body.along_m = along_m
+        watch.look()
+    assert watch.incurred == []
+
+
+def test_the_same_runway_from_the_other_side_is_the_same_place() -> None:
+    assert Watch({"A": arrival(20.0, "19"), "OPS": vehicle(800.0)}).look().incurred
+    watch = Watch({"A": arrival(20.0), "OPS": vehicle(800.0)})
+    assert watch.monitor.is_bound_for("A", "1")
+    assert not watch.monitor.is_bound_for("A", "19")
+
+
+def test_an_arrival_is_told_once_with_its_time() -> None:
+    plane = arrival(60.0)
+    told: list[RunwayTruth] = []
+    monitor = RunwayMonitor(
+        kdca(), {"A": plane}, set(), lambda _, truth: told.append(truth), lambda _: None
+    )
+    monitor.look(SECOND_NS)
+    plane.body.along_m /= 2.0
+    monitor.look(2 * SECOND_NS)
+    plane.body.phase, plane.body.on_ground, plane.body.along_m = "rollout", True, 300.0
+    monitor.look(3 * SECOND_NS)
+    first, last = told
+    assert [(one.actor, one.runway) for one in first.arrivals] == [("A", "01")]
+    assert first.arrivals[0].time_to_threshold_s == pytest.approx(60.0, abs=0.1)
+    assert (last.occupants, last.arrivals) == (("A",), ())

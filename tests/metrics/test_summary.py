@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from airhilt.commands import AltitudeCommand
 from airhilt.messages import Advisory, Evidence, Severity, Transcript
 from airhilt.metrics.collector import Collector, pair_of
+from airhilt.metrics.outline import Gap
 from airhilt.metrics.plans import Plans
+from airhilt.metrics.runways import Incursion
 from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.radio.script import RadioScript
 from airhilt.scenario import load
@@ -212,3 +214,86 @@ def test_one_climb_follows_another_from_where_it_then_is():
 
 def test_nothing_is_planned_for_others():
     assert feet(plans((20.0, 33_000)).altitude_at("BB", 0, LEVEL), 500) == [31_000]
+
+
+# --- at an airport --------------------------------------------------------------------------
+
+
+class Runways:
+    """What a runway monitor has found."""
+
+    def __init__(self, *incursions):
+        self.incursions = dict(enumerate(incursions))
+
+
+def incursion(metres=200.0, user=FIRST, intruder=SECOND, collided=False):
+    closest = Gap(metres, 0.0) if user else None
+    return Incursion(5 * SECOND_NS, "01/19", user, intruder, closest, collided)
+
+
+class Airport(Told):
+    """A collector of a run in which some runway incursions happened."""
+
+    def __init__(self, *incursions, scenario=SCENARIO):
+        super().__init__(scenario)
+        plans = Plans([], script([]))
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, Runways(*incursions), plans)
+        self.collector.window.opened_ns = 0
+
+
+@pytest.mark.parametrize(
+    ("metres", "category", "avoided"),
+    [(10.0, "A", False), (30.0, "A", False), (31.0, "B", False), (152.0, "B", False),
+     (153.0, "C", True)],
+)  # fmt: skip
+def test_a_conflict_with_an_incursion_of_category_a_or_b_was_not_avoided(metres, category, avoided):
+    summary = Airport(incursion(metres)).summary()
+    assert summary.runway_incursion_category == category
+    assert summary.avoided is avoided
+    (one,) = summary.runway_incursions
+    assert (one.user, one.intruder, one.t_s, one.closest_m) == (FIRST, SECOND, 5.0, metres)
+
+
+def test_neither_was_one_that_ended_in_a_collision():
+    summary = Airport(incursion(300.0, collided=True)).summary()
+    assert summary.runway_incursion_category == "accident"
+    assert summary.avoided is False
+
+
+def test_an_incursion_of_others_is_told_and_leaves_the_conflict_avoided():
+    summary = Airport(incursion(10.0, intruder="DEER1"), incursion(user=None)).summary()
+    assert summary.runway_incursion_category == "A"
+    assert [one.category for one in summary.runway_incursions] == ["A", "D"]
+    assert summary.avoided is True
+
+
+def test_without_incursions_there_is_no_category():
+    summary = Airport().summary()
+    assert (summary.runway_incursions, summary.runway_incursion_category) == ([], None)
+    assert Told().summary().runway_incursions == []
+
+
+def runway_advisory(*traffic):
+    return advisory(9.0, traffic=traffic).model_copy(update={"kind": "runway_conflict"})
+
+
+@pytest.mark.parametrize(
+    ("traffic", "nuisance"),
+    [((FIRST, SECOND), False), ((FIRST,), False), ((FIRST, "deer-1"), False),
+     ((FIRST, "UAL7"), False), (("UAL7", "OPS9"), True), (("UAL7",), True)],
+)  # fmt: skip
+def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(traffic, nuisance):
+    """It may name what it sees without a callsign; what it knows nothing of is none of the pair."""
+    summary = Airport().take(runway_advisory(*traffic)).summary()
+    assert summary.nuisance_alerts == int(nuisance)
+    assert (summary.t_first_warning_s == 9.0) is not nuisance
+
+
+def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true():
+    quiet = SCENARIO.model_copy(update={"conflict": None})
+    told = runway_advisory(FIRST, SECOND)
+    assert Airport(scenario=quiet).take(told).summary().nuisance_alerts == 1
+    came_true = Airport(incursion(user=FIRST, intruder="DEER1"), scenario=quiet)
+    assert came_true.take(told).summary().nuisance_alerts == 0
+    of_others = Airport(incursion(user="UAL7", intruder="DEER1"), scenario=quiet)
+    assert of_others.take(told).summary().nuisance_alerts == 1
