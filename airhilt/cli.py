@@ -240,14 +240,15 @@ def validate(file: str) -> None:
     """Check a scenario file, and put all its actors where they begin."""
     from airhilt.actors import build_cast
     from airhilt.cosim import TICK_S
-    from airhilt.scenario import load, realise
+    from airhilt.scenario import load
     from airhilt.scenario.geometry import Setting
+    from airhilt.scenario.loading import draw
 
     try:
         scenario = load(file)
     except ScenarioError as error:
         raise AirhiltError("\n".join(error.problems)) from None
-    realised, _ = realise(scenario, 0)
+    realised, _ = draw(scenario, 0)
     build_cast(realised, Setting.of(realised), 0, TICK_S)
     click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
 

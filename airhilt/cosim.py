@@ -24,7 +24,7 @@ from airhilt.bus.attach import attach
 from airhilt.bus.exchange import Exchange
 from airhilt.bus.session import Bus
 from airhilt.commands import Command
-from airhilt.errors import AirhiltError, RunStopped, ScenarioError, WorkerError, first_problem
+from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
 from airhilt.flight import Aircraft, load_aircraft_type
 from airhilt.messages import (
     ActorCommand,
@@ -59,9 +59,10 @@ from airhilt.metrics.summary import Summary
 from airhilt.radio.script import RadioScript, Spoken
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
-from airhilt.scenario import Scenario, check, realise
+from airhilt.scenario import Scenario
 from airhilt.scenario.failures import HappeningLine, as_it_happens
 from airhilt.scenario.geometry import Setting, Site
+from airhilt.scenario.loading import draw
 from airhilt.scenario.models import (
     AircraftActor,
     Condition,
@@ -209,7 +210,7 @@ def run(
     options = options or Options()
     observer = observer or Observer()
     recorded = recorded or Recorded()
-    realised, draws = _realise(scenario, options.seed)
+    realised, draws = draw(scenario, options.seed)
     latency = recorded.latency or _latency(options.latency, scenario, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{scenario.name}-{options.seed}"
@@ -247,20 +248,6 @@ def run(
             raise
         write_report(folder.path)
         return result
-
-
-def _realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
-    if not 0 <= seed < 2**63:
-        raise AirhiltError(f"seed {seed}: expected 0 or more, below 2^63")
-    try:
-        realised, draws = realise(scenario, seed)
-    except ValidationError as error:
-        raise ScenarioError(
-            f"{scenario.name}: with seed {seed} a perturbation goes too far: "
-            f"{first_problem(error)}; narrow its distribution"
-        ) from None
-    check(realised, f"{scenario.name}, as drawn with seed {seed}")
-    return realised, draws
 
 
 def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
@@ -407,6 +394,11 @@ class Simulation:
             setting.ground_m,
             _zone(setting),
             TICK_S,
+            frozenset(
+                actor.callsign
+                for actor in scenario.actors
+                if isinstance(actor, AircraftActor) and actor.transponder.equipped
+            ),
             frozenset() if self._pair is None else frozenset({self._pair}),
             self._became_true,
         )
@@ -614,6 +606,8 @@ class Simulation:
     def _became_true(
         self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
     ) -> None:
+        if all(self._cast[callsign].category == "wildlife" for callsign in pair):
+            return  # A herd.
         now_ns = self._director.now_ns
         self._exchange.publish(
             "truth/conflict",

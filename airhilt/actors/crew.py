@@ -188,6 +188,12 @@ class Crew:
             self._has_turned = False
             self._return_lateral()
         deferred, self._deferred = self._deferred, []
+        refused: list[Unable] = []
         for command in deferred:
-            self._carry_out(command)
+            try:
+                self._carry_out(command)
+            except Unable as unable:
+                refused.append(unable)
+        if refused:
+            raise refused[0]
         return True

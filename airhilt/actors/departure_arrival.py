@@ -90,6 +90,7 @@ class DepartureArrival:
                 self._taxi(command)
             case HoldPositionCommand():
                 self._aircraft.hold_position()
+                self._next = None
             case ContinueCommand():
                 self._aircraft.resume_taxi()
             case LineUpCommand(runway=runway):
@@ -205,6 +206,8 @@ class DepartureArrival:
         return True
 
     def _take_off(self, runway: str, climb_to_m: float) -> None:
+        if self._aircraft.phase in ("takeoff_roll", "rotate"):
+            raise Unable("unable, already rolling")
         self._line_up(runway)
         self._next = partial(self._roll_once_lined_up, runway, climb_to_m)
         self.attend()

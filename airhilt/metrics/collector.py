@@ -135,8 +135,9 @@ class Collector:
             and self._concerns_conflict(advisory)
         ):
             self._first_warning_ns = advisory.t_ns
-            if self._pair is not None and self._monitor.flying(self._pair):
-                self._projection = self._project(self._pair, advisory.t_ns)
+            pair = self._pair
+            if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
+                self._projection = self._project(pair, advisory.t_ns)
 
     def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
         """Return when TCAS II would speak, had nobody been warned: by what the script plans."""
@@ -293,9 +294,7 @@ class Collector:
             for incursion in self._incursions()
         ):
             return False
-        if self.window.opened_ns is None and self._first_warning_ns is None:
-            return None
-        return True
+        return None if self._first_warning_ns is None else True
 
     def _margin(self, alert: tcas.Alert) -> float | None:
         """Return how long after the first warning TCAS II would have spoken.

@@ -100,6 +100,8 @@ class ConflictMonitor:
         Where separation counts as lost.
     zone
         The centre of the tower's zone, if there is one.
+    transponders
+        Who carries one: without, TCAS neither is aboard nor sees an aircraft.
     always
         Pairs whose closest approach is followed however far apart they are, once a second there.
     became_true
@@ -114,6 +116,7 @@ class ConflictMonitor:
         ground_m: float,
         zone: Kinematics | None,
         tick_s: float,
+        transponders: frozenset[str],
         always: frozenset[Pair],
         became_true: Callable[[ConflictPhase, Pair, float, float], None],
     ) -> None:
@@ -124,6 +127,7 @@ class ConflictMonitor:
         self._minima = minima
         self._ground_m = ground_m
         self._tick_s = tick_s
+        self._transponders = transponders
         self._always = always
         self._became_true = became_true
         self._motions: dict[Pair, tuple[Kinematics, Kinematics, Motion]] = {}
@@ -172,6 +176,10 @@ class ConflictMonitor:
         truth = self.pairs.get(pair) or self.pairs.get((pair[1], pair[0]))
         return truth is not None and "collision" in truth.first_ns
 
+    def is_seen_by_tcas(self, pair: Pair) -> bool:
+        """Return whether both of a pair carry a transponder."""
+        return self._transponders.issuperset(pair)
+
     def _sort_out(self, now_ns: int) -> None:
         """Choose the pairs to watch closely for a second; on the way, ask what TCAS would say."""
         reach_m = self._minima.horizontal_m + 2_000.0
@@ -190,7 +198,11 @@ class ConflictMonitor:
             distance = motion.distance_m
             if self._in_flight(name) and self._in_flight(other):
                 near = distance < reach_m and height < height_m
-                if distance < TCAS_RANGE_M and height < TCAS_HEIGHT_M:
+                if (
+                    distance < TCAS_RANGE_M
+                    and height < TCAS_HEIGHT_M
+                    and self.is_seen_by_tcas(pair)
+                ):
                     self._ask_tcas(now_ns, pair, motion)
             else:
                 near = distance < radius_m(own) + radius_m(its) + TOUCHING_WITHIN_M

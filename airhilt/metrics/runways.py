@@ -172,6 +172,7 @@ class RunwayMonitor:
         for incursion in self.incursions.values():
             if {incursion.user, incursion.intruder} == {first, second}:
                 incursion.collided = True
+                incursion.closest = Gap(0.0, 0.0)
 
     # --- where everybody is -----------------------------------------------------------------
 

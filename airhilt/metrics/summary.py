@@ -104,9 +104,9 @@ class Summary(BaseModel):
         description="the most severe: accident, A, B, C, D; null if there was none"
     )
     avoided: bool | None = Field(
-        description="the conflict window opened, or a warning came before it did, and the pair "
-        "neither lost separation, nor came to an incursion of category A or B, nor collided; null "
-        "if neither happened"
+        description="somebody was warned of the annotated conflict, and the pair neither lost "
+        "separation, nor came to an NMAC or an incursion of category A or B, nor collided; null "
+        "if nobody was warned and nothing of that happened"
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

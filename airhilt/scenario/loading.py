@@ -22,7 +22,7 @@ from airhilt.commands import (
     TaxiCommand,
     VehicleCommand,
 )
-from airhilt.errors import AirhiltError, ScenarioError
+from airhilt.errors import AirhiltError, ScenarioError, first_problem
 from airhilt.flight import AircraftType, load_aircraft_type
 from airhilt.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
 from airhilt.scenario.geometry import Setting, distance_m
@@ -43,7 +43,7 @@ from airhilt.scenario.models import (
     VehicleActor,
     WildlifeActor,
 )
-from airhilt.scenario.perturbation import PathError, locate
+from airhilt.scenario.perturbation import Draw, PathError, locate, realise
 from airhilt.surface.frame import onward
 from airhilt.surface.kinds import load_kind
 from airhilt.surface.runway import Place
@@ -143,6 +143,29 @@ def check(scenario: Scenario, origin: str) -> None:
     problems = list(_cross_checks(scenario))
     if problems:
         raise _report(origin, problems)
+
+
+def draw(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
+    """Return a scenario with its perturbations drawn and checked, and the draws.
+
+    Raises
+    ------
+    ScenarioError
+        A draw takes a value out of its range, or makes a scenario that is not valid.
+    AirhiltError
+        The seed is none.
+    """
+    if not 0 <= seed < 2**63:
+        raise AirhiltError(f"seed {seed}: expected 0 or more, below 2^63")
+    try:
+        realised, draws = realise(scenario, seed)
+    except ValidationError as error:
+        raise ScenarioError(
+            f"{scenario.name}: with seed {seed} a perturbation goes too far: "
+            f"{first_problem(error)}; narrow its distribution"
+        ) from None
+    check(realised, f"{scenario.name}, as drawn with seed {seed}")
+    return realised, draws
 
 
 def _causes(error: ValidationError) -> list[Any]:

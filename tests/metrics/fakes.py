@@ -91,6 +91,7 @@ class Watch:
         self, *aircraft: Straight, tick_s: float = 0.05, minima: Minima = MINIMA,
         always: bool = True, ground_m: float = 0.0, zone: Site | None = None,
         names: Sequence[str] = "ABCDEF",
+        transponders: frozenset[str] | None = None,
     ) -> None:  # fmt: skip
         self.aircraft = dict(zip(names, aircraft, strict=False))
         self.tick_s = tick_s
@@ -104,6 +105,7 @@ class Watch:
             ground_m,
             zone,
             tick_s,
+            frozenset(self.aircraft) if transponders is None else transponders,
             frozenset({(names[0], names[1])} if always else ()),
             self._became_true,
         )

@@ -37,6 +37,12 @@ def test_tcas_speaks_at_its_thresholds():
     assert watch.told["tcas_ra"] == pytest.approx(80.0 - 35.0, abs=1.5)
 
 
+def test_tcas_says_nothing_of_who_carries_no_transponder():
+    watch = Watch(*head_on(80.0), transponders=frozenset({"A"})).fly(81.0)
+    assert not {"tcas_ta", "tcas_ra"} & set(watch.told)
+    assert "collision" in watch.told
+
+
 def test_near_the_ground_tcas_says_nothing():
     low = {"altitude_ft": 400.0}
     watch = Watch(Straight(-5_000, east_m_s=50.0, **low), Straight(5_000, east_m_s=-50.0, **low))
