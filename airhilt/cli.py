@@ -16,17 +16,22 @@ from airhilt.cli_airport import airport
 from airhilt.errors import AirhiltError, ScenarioError
 
 
-class _Seconds(click.FloatRange):
-    """A time that can be waited: NaN passes click's own check."""
+class _Finite(click.FloatRange):
+    """A number of some unit: NaN passes click's own check."""
+
+    def __init__(self, what: str, **limits: Any) -> None:
+        super().__init__(**limits)
+        self._what = what
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        seconds = super().convert(value, param, ctx)
-        if not math.isfinite(seconds):
-            self.fail(f"{value} is no time in seconds", param, ctx)
-        return seconds
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value} is no {self._what}", param, ctx)
+        return number
 
 
-SECONDS = _Seconds(min=0.0, max=86_400.0, min_open=True)
+SECONDS = _Finite("time in seconds", min=0.0, max=86_400.0, min_open=True)
+DECIBELS = _Finite("ratio in decibels", min=-30.0, max=60.0)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 INTERRUPTED = 130
 
@@ -41,6 +46,7 @@ def cli() -> None:
     airhilt cosim --scenario s02a_headon      run one
     airhilt report RUN                        make its report, one HTML file
     airhilt replay RUN                        run it again and compare
+    airhilt listen RUN                        write what was said, as sound and as text
     """
 
 
@@ -119,6 +125,28 @@ Examples:
 )
 @click.option("--no-cameras", is_flag=True, help="Leave cameras and vision out.")
 @click.option("--no-speech", is_flag=True, help="Radio calls as text, not as sound.")
+@click.option(
+    "--snr",
+    type=DECIBELS,
+    metavar="DB",
+    help="Signal-to-noise ratio of the radio.  [default: the scenario's; without one, no noise]",
+)
+@click.option(
+    "--radio-profile",
+    metavar="NAME",
+    help="Named settings of the radio channel.  [default: the scenario's]",
+)
+@click.option(
+    "--asr", default="embedded", show_default=True, metavar="ENGINE", help="What recognises speech."
+)
+@click.option("--tts", default="espeak", show_default=True, metavar="ENGINE", help="What speaks.")
+@click.option(
+    "--topology",
+    type=click.Choice(["parallel", "asr_first", "gated_fusion"]),
+    metavar="NAME",
+    help="parallel, asr_first (crews get the transcript) or gated_fusion (no advisory while "
+    "something is left to fuse).  [default: the scenario's]",
+)
 @click.option("--strict", is_flag=True, help="Stop when a worker is lost (exit code 3).")
 @click.option(
     "--json",
@@ -146,6 +174,11 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
         cameras=not given["no_cameras"],
         speech=not given["no_speech"],
         strict=given["strict"],
+        snr_db=given["snr"],
+        radio_profile=given["radio_profile"],
+        asr=given["asr"],
+        tts=given["tts"],
+        topology=given["topology"],
     )
     with ProgressLine(scenario) as progress:
         result = run(load(scenario), options, progress)
@@ -227,6 +260,43 @@ def replay(run_folder: Path, as_json: bool) -> None:
         click.echo(str(verdict))
     if not verdict.identical:
         sys.exit(1)
+
+
+@cli.command(
+    epilog="""\b
+Examples:
+  airhilt listen runs/s02a_headon-0-20260101T120000
+  airhilt listen RUN --frequency 118300 --out tower.wav
+  airhilt listen RUN --json
+"""
+)
+@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.option(
+    "--frequency",
+    "frequency_khz",
+    type=int,
+    metavar="KHZ",
+    help="Which one, such as 118300.  [default: the run's only one]",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The WAV file; the transcript has its name with .txt.  [default: frequency-KHZ.wav in "
+    "the run folder]",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_json: bool) -> None:
+    """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
+    from airhilt.radio.listen import listen as write_tape
+
+    tape, wav, text = write_tape(run_folder, frequency_khz, out)
+    if as_json:
+        files = {"wav": str(wav), "transcript": str(text)}
+        click.echo(json.dumps(tape.as_dict() | files, indent=2))
+    else:
+        click.echo(tape.text())
+        click.echo(f"{wav}\n{text}")
 
 
 @cli.command(

@@ -19,20 +19,20 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import ValidationError
 
 from airhilt.actors import Performer, Unable, build_cast
+from airhilt.actors.advised import Advised
 from airhilt.actors.cues import Cues
+from airhilt.briefing import briefing_of
 from airhilt.bus.attach import attach
 from airhilt.bus.exchange import Exchange
 from airhilt.bus.session import Bus
 from airhilt.commands import Command
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
-from airhilt.flight import Aircraft, load_aircraft_type
+from airhilt.flight import Aircraft
+from airhilt.library import nearest
 from airhilt.messages import (
     ActorCommand,
-    ActorTruth,
     AdsbReport,
     Advisory,
-    AirportBriefing,
-    Briefing,
     Clock,
     ConflictPhase,
     ConflictTruth,
@@ -42,12 +42,7 @@ from airhilt.messages import (
     Modality,
     ModalityState,
     Phase,
-    RosterEntry,
-    RunwayBriefing,
-    SpokenTruth,
     Status,
-    Transcript,
-    Transmission,
 )
 from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.conditions import ConditionCompiler
@@ -56,20 +51,21 @@ from airhilt.metrics.plans import Plans
 from airhilt.metrics.report import write_report
 from airhilt.metrics.runways import Incursion, RunwayMonitor
 from airhilt.metrics.summary import Summary
-from airhilt.radio.script import RadioScript, Spoken
+from airhilt.radio.loop import RadioLoop
+from airhilt.radio.speech import Text
+from airhilt.radio.stations import Stations
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import HappeningLine, as_it_happens
-from airhilt.scenario.geometry import Setting, Site
+from airhilt.scenario.geometry import Setting
 from airhilt.scenario.loading import draw
 from airhilt.scenario.models import (
     AircraftActor,
     Condition,
     EngineFailure,
-    ScriptedCommand,
-    Separation,
-    VehicleActor,
+    Radio,
+    Topology,
     WildlifeActor,
 )
 from airhilt.scenario.perturbation import Draw
@@ -84,16 +80,15 @@ from airhilt.sim import (
     parse_latency,
     parse_pace,
 )
-from airhilt.surveillance.kinematics import Minima
 from airhilt.surveillance.sensor import AdsbSensor
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees, seconds_to_ns
+from airhilt.truth import minima_of, truth_of, zone_of
+from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import LocalWorker
-from airhilt.workers.decision import DecisionWorker
+from airhilt.workers.decision import DecisionConfig, DecisionWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
 
 if TYPE_CHECKING:
-    from airhilt.surface.layout import Layout
-    from airhilt.surface.runway import Place
+    pass
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -107,6 +102,9 @@ END_PERIOD_NS = SECOND_NS // 2
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 FOREIGN = "unregistered"
 """Publisher, in the log, of what an unregistered program put on the bus."""
+
+VOICE = "tts"
+"""Name of the worker that speaks advisories."""
 
 AssistantName = Literal["reference", "none", "external"]
 
@@ -131,6 +129,16 @@ class Options:
     attach_timeout_s: float = 60.0
     step_timeout_s: float = 5.0
     run_name: str | None = None
+    snr_db: float | None = None
+    """None: that of the scenario."""
+    radio_profile: str | None = None
+    """None: that of the scenario."""
+    topology: Topology | None = None
+    """None: that of the scenario."""
+    asr: str = "embedded"
+    """Engine, as in the command line."""
+    tts: str = "espeak"
+    """Engine, as in the command line."""
 
     @property
     def assistant_name(self) -> AssistantName:
@@ -211,6 +219,7 @@ def run(
     observer = observer or Observer()
     recorded = recorded or Recorded()
     realised, draws = draw(scenario, options.seed)
+    realised = _with_radio_of(options, realised)
     latency = recorded.latency or _latency(options.latency, scenario, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{scenario.name}-{options.seed}"
@@ -220,7 +229,7 @@ def run(
     cast = build_cast(realised, setting, options.seed, TICK_S)
     with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
-        participants, programs = _participants(options, bus, observer, recorded)
+        participants, programs = _participants(options, realised, bus, observer, recorded)
         if programs and options.pace is None and not recorded.programs:
             pace = RealTime()
         folder.create(options.overwrite)
@@ -266,6 +275,35 @@ def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
 
 
+def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
+    """Return a scenario with those settings of its radio that the options give."""
+    given = {
+        "snr_db": options.snr_db,
+        "profile": options.radio_profile,
+        "topology": options.topology,
+    }
+    changes = {name: value for name, value in given.items() if value is not None}
+    _require_profile(options.radio_profile)
+    if not changes:
+        return scenario
+    try:
+        radio = Radio.model_validate(scenario.radio.model_dump() | changes)
+    except ValidationError as error:
+        raise AirhiltError(f"radio: {first_problem(error)}") from None
+    return scenario.model_copy(update={"radio": radio})
+
+
+def _require_profile(name: str | None) -> None:
+    """Check that a profile of the radio channel exists, or is a file with a learned one."""
+    if name is None or name.endswith(".onnx"):
+        return
+    # Not at the top: most runs name none, and start without the libraries behind it.
+    from airhilt.radio.channel import PROFILES
+
+    if name not in PROFILES:
+        raise AirhiltError(f"no radio profile {name!r}{nearest(name, list(PROFILES))}")
+
+
 def _default_folder(name: str) -> Path:
     stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
     path, count = Path("runs") / f"{name}-{stamp}", 1
@@ -276,7 +314,7 @@ def _default_folder(name: str) -> Path:
 
 
 def _participants(
-    options: Options, bus: Bus, observer: Observer, recorded: Recorded
+    options: Options, scenario: Scenario, bus: Bus, observer: Observer, recorded: Recorded
 ) -> tuple[list[Participant], list[str]]:
     """Return the workers that take grants, and the names of attached programs that take none."""
     participants = list(recorded.workers)
@@ -289,7 +327,8 @@ def _participants(
     ]
     taken = {participant.description.modality for participant in participants}
     if options.assistant_name == "reference" and "decision" not in taken:
-        worker = DecisionWorker()
+        is_gated = scenario.radio.topology == "gated_fusion"
+        worker = DecisionWorker(DecisionConfig(is_gated=is_gated))
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
     programs = [worker.name for worker, description in attached if description is None]
     return participants, programs or list(recorded.programs)
@@ -322,6 +361,11 @@ def _info(
             cameras=options.cameras,
             speech=options.speech,
             strict=options.strict,
+            snr_db=options.snr_db,
+            radio_profile=options.radio_profile,
+            topology=options.topology,
+            asr=options.asr,
+            tts=options.tts,
         ),
         scenario=scenario.model_dump(mode="json"),
         realised=realised.model_dump(mode="json"),
@@ -363,12 +407,6 @@ class Simulation:
         self._bus = bus
         self._folder = folder
         self._cast = cast
-        self._by_address = {
-            performer.actor.icao24: performer
-            for performer in cast.values()
-            if not isinstance(performer.actor, WildlifeActor)
-        } | cast
-        """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
         self._observer = observer
         self._director = Director(pace)
         self._log = LogWriter(folder.log_path)
@@ -390,9 +428,9 @@ class Simulation:
         self._monitor = ConflictMonitor(
             {c: p.body for c, p in cast.items() if isinstance(p.body, Aircraft)},
             {c: p.body for c, p in cast.items() if not isinstance(p.body, Aircraft)},
-            _minima(scenario.separation),
+            minima_of(scenario.separation),
             setting.ground_m,
-            _zone(setting),
+            zone_of(setting),
             TICK_S,
             frozenset(
                 actor.callsign
@@ -412,17 +450,22 @@ class Simulation:
         self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
         self._ends = [compiled(condition) for condition in scenario.end_when]
         lines = as_it_happens(scenario)
-        script = RadioScript(
+        self._radio = RadioLoop(
             self._director,
+            scenario,
             lines,
-            scenario.radio.words_per_minute,
-            self._once,
-            self._failed,
-            self._spoken,
+            Stations(cast, setting, scenario.radio.lines),
+            Text(scenario.radio.words_per_minute, self._exchange.publish),
+            options.seed,
+            self._ended_lines,
+            once=self._once,
+            publish=self._exchange.publish,
+            do=self._do,
+            failed=self._failed,
+            microphone_stuck=partial(self._event, "failure"),
         )
-        self._collector = Collector(
-            scenario, setting.ground_m, self._monitor, self._runways, Plans(lines, script)
-        )
+        plans = Plans(lines, scenario.radio.words_per_minute)
+        self._collector = Collector(scenario, setting.ground_m, self._monitor, self._runways, plans)
         self._pool = WorkerPool(
             self._director,
             participants,
@@ -434,7 +477,11 @@ class Simulation:
         )
         self._exchange.listen(self._collector.take)
         self._exchange.listen(self._pool.offer)
-        self._exchange.listen(self._tell_crew)
+        self._advised = Advised(
+            self._director, cast, self._event, is_voiced=_is_voiced(options, participants)
+        )
+        self._exchange.listen(self._radio.take)
+        self._exchange.listen(self._advised.take)
         self._sensor = AdsbSensor(
             self._director,
             scenario,
@@ -653,53 +700,17 @@ class Simulation:
         now_ns = self._director.now_ns
         for callsign, performer in self._cast.items():
             if performer.body.ended is None:
-                self._exchange.publish(f"truth/state/{callsign}", _truth_of(performer, now_ns))
+                self._exchange.publish(f"truth/state/{callsign}", truth_of(performer, now_ns))
 
     # --- sensors ----------------------------------------------------------------------------
 
     def _publish_report(self, report: AdsbReport) -> None:
         self._exchange.publish(f"adsb/{report.icao24}", report)
 
-    def _spoken(self, spoken: Spoken) -> None:
-        """Put a call that has ended on the air, and do what it makes actors do.
-
-        Without speech its words go out as a transcript at once.
-        """
-        line, now_ns = spoken.line, self._director.now_ns
-        times = {"t_ns": now_ns, "t_tx_ns": spoken.t_tx_ns, "t_end_ns": spoken.t_end_ns}
-        identity = {"id": line.id, "frequency_khz": line.frequency_khz}
-        self._ended_lines.add(line.id)
-        self._exchange.publish(
-            f"truth/radio/{line.id}",
-            SpokenTruth(
-                **times, **identity, speaker=line.speaker, addressed=line.to, text=line.text
-            ),
-        )
-        self._exchange.publish(
-            f"radio/{line.frequency_khz}/tx", Transmission(**times, **identity), raw=b""
-        )
-        self._exchange.publish(
-            f"asr/{line.frequency_khz}",
-            Transcript(**times, **identity, text=line.text, confidence=1.0, engine="text"),
-        )
-        for scripted in line.commands:
-            self._director.at(
-                now_ns + seconds_to_ns(scripted.delay_s),
-                partial(self._when_due, scripted),
-                Priority.SCRIPT,
-            )
-
     def _failed(self, happening: HappeningLine) -> None:
         self._misled |= happening.misled
         for text in happening.failures:
             self._event("failure", happening.declared.id, text)
-
-    def _when_due(self, scripted: ScriptedCommand) -> None:
-        action = partial(self._do, scripted.actor, scripted.command)
-        if scripted.when is None:
-            action()
-        else:
-            self._once(scripted.when, action)
 
     def _do(self, callsign: str, command: Command) -> None:
         """Let an actor do what a line or its plan says."""
@@ -717,31 +728,6 @@ class Simulation:
         except Unable as unable:
             self._event("unable", callsign, str(unable))
 
-    # --- the loop closes --------------------------------------------------------------------
-
-    def _tell_crew(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
-        if not isinstance(message, Advisory):
-            return
-        performer = self._by_address.get(message.recipient)
-        if performer is None:
-            return
-        reaction = performer.hear(message)
-        if reaction is None:
-            return
-
-        def react() -> None:
-            if performer.body.ended is not None:
-                return
-            try:
-                if reaction.act():
-                    text = f"{reaction.text} ({message.id})"
-                    self._event("pilot_reacts", message.recipient, text)
-            except Unable as unable:
-                self._event("unable", message.recipient, str(unable))
-
-        due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
-        self._director.at(due_ns, react, Priority.SCRIPT)
-
     # --- workers ----------------------------------------------------------------------------
 
     def _worker_done(self, record: StepRecord) -> None:
@@ -750,6 +736,8 @@ class Simulation:
 
     def _lose(self, name: str, modality: Modality, cause: str) -> None:
         now_ns = self._director.now_ns
+        if name == VOICE:
+            self._advised.voice_lost()
         self._latency_log.lost(name, now_ns, cause)
         self._set_modality(modality, "lost", cause)
         self._event("worker_lost", name, cause)
@@ -832,14 +820,7 @@ class Simulation:
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        separation = self._scenario.separation
-        briefing = Briefing(
-            controller=self._scenario.radio.controller,
-            horizontal_separation_nm=separation.horizontal_nm,
-            vertical_separation_ft=separation.vertical_ft,
-            roster=_roster(self._scenario),
-            airport=None if self._setting.layout is None else _charted(self._setting.layout),
-        )
+        briefing = briefing_of(self._scenario, self._setting)
         self._exchange.publish("briefing", briefing)
         self._bus.keep("briefing", briefing.model_dump_json().encode())
 
@@ -889,6 +870,13 @@ class Simulation:
         )
 
 
+def _is_voiced(options: Options, participants: Sequence[Participant]) -> bool:
+    """Return whether a worker speaks advisories."""
+    return options.speech and any(
+        participant.description.name == VOICE for participant in participants
+    )
+
+
 def _cause(failure: BaseException | None) -> str:
     """Return why a run was stopped, in words; empty if it was not."""
     match failure:
@@ -900,90 +888,6 @@ def _cause(failure: BaseException | None) -> str:
             return str(failure)
         case _:
             return f"{type(failure).__name__}: {failure}"
-
-
-def _minima(separation: Separation) -> Minima:
-    return Minima(
-        separation.horizontal_nm * NAUTICAL_MILE,
-        (separation.vertical_ft - separation.level_tolerance_ft) * FOOT,
-    )
-
-
-def _zone(setting: Setting) -> Site | None:
-    """Return the centre of the airport, if there is one."""
-    if setting.layout is None:
-        return None
-    centre = setting.layout.frame.to_place(0.0, 0.0)
-    return Site(*centre, altitude_m=setting.ground_m)
-
-
-def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
-    """Return whom the controller knows: all that speak on the radio or are spoken to."""
-    entries = []
-    for actor in scenario.actors:
-        match actor:
-            case AircraftActor(callsign=callsign, on_roster=True, aircraft=name):
-                designator = load_aircraft_type(name).icao_designator
-                entries.append(RosterEntry(callsign=callsign, category="aircraft", type=designator))
-            case VehicleActor(callsign=callsign, kind=kind):
-                entries.append(RosterEntry(callsign=callsign, category="vehicle", type=kind))
-    return tuple(entries)
-
-
-def _charted(layout: Layout) -> AirportBriefing:
-    def point(place: Place) -> tuple[float, float]:
-        return place[0] / DEGREE, place[1] / DEGREE
-
-    runways = []
-    for strip in layout.strips.values():
-        area = [layout.frame.to_place(*xy) for xy in strip.protected_area.exterior.coords[:-1]]
-        runways += [
-            RunwayBriefing(
-                ident=end.ident,
-                threshold=point(end.threshold),
-                end=point(end.end),
-                elevation_ft=end.elevation_m / FOOT,
-                width_m=end.width_m,
-                protected_area=tuple(point(corner) for corner in area),
-            )
-            for end in strip.ends
-        ]
-    return AirportBriefing(
-        icao=layout.airport.icao,
-        elevation_ft=layout.elevation_m / FOOT,
-        runways=tuple(runways),
-    )
-
-
-def _truth_of(performer: Performer, now_ns: int) -> ActorTruth:
-    body, actor = performer.body, performer.actor
-    state = body.state
-    flown: dict[str, float] = {}
-    if isinstance(body, Aircraft):
-        flown = {
-            "roll_deg": body.state.roll_rad / DEGREE,
-            "pitch_deg": body.state.pitch_rad / DEGREE,
-            "true_airspeed_m_s": body.state.true_airspeed_m_s,
-            "calibrated_airspeed_m_s": body.state.calibrated_airspeed_m_s,
-            "target_altitude_m": body.target_altitude_m,
-        }
-    return ActorTruth(
-        t_ns=now_ns,
-        actor=actor.callsign,
-        category=performer.category,
-        icao24=None if isinstance(actor, WildlifeActor) else actor.icao24,
-        phase=body.phase,
-        on_ground=body.on_ground,
-        latitude_deg=state.latitude_rad / DEGREE,
-        longitude_deg=state.longitude_rad / DEGREE,
-        altitude_m=state.altitude_m,
-        height_agl_m=state.height_agl_m,
-        velocity_north_m_s=state.velocity_north_m_s,
-        velocity_east_m_s=state.velocity_east_m_s,
-        velocity_down_m_s=state.velocity_down_m_s,
-        heading_deg=bearing_degrees(state.heading_rad),
-        **flown,
-    )
 
 
 def _parse_foreign(key: str, data: bytes, now_ns: int) -> Message:

@@ -54,8 +54,18 @@ class WorkerError(AirhiltError):
     """A worker broke its contract: it answered garbage, or with a time in the past."""
 
 
+class SpeechError(AirhiltError):
+    """A voice, a radio channel, a model of speech or its service does not do what it must."""
+
+
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
     first = error.errors()[0]
     where = "/".join(str(part) for part in first["loc"])
     return f"{where}: {first['msg']}" if where else str(first["msg"])
+
+
+def first_line(error: Exception) -> str:
+    """Return kind and first line of what a library raised; some write pages."""
+    lines = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {lines[0]}" if lines else type(error).__name__

@@ -136,6 +136,7 @@ class Transmission(Message):
     snr_db: float | None = None
     sample_rate_hz: int = 16_000
     samples: int = 0
+    sha256: str = Field(default="", description="of the PCM; empty without samples")
 
 
 EmitterCategory = Literal["A0", "A1", "A2", "A3", "A5", "C1", "C2"]
@@ -170,6 +171,14 @@ class AdsbReport(Message):
 # --- what workers give ----------------------------------------------------------------------
 
 
+class Word(BaseModel):
+    """One word of a transcript."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    text: str
+    confidence: Confidence
+
+
 class Transcript(Message):
     """``asr/<freq_khz>``: the words of one transmission; ``t_ns`` is the paper's t_asr."""
 
@@ -178,6 +187,9 @@ class Transcript(Message):
     t_tx_ns: Nanoseconds
     t_end_ns: Nanoseconds
     text: str
+    words: tuple[Word, ...] = Field(
+        default=(), description="the words of `text` one by one; empty if the engine has none"
+    )
     confidence: Confidence
     engine: str
 
@@ -285,6 +297,23 @@ class Advisory(Message):
     t_ready_ns: Nanoseconds = Field(description="the last input that it rests on had arrived")
 
 
+class AdvisoryAudio(Message):
+    """``tts/<advisory id>``: attachment to an advisory as it is spoken, PCM 16 kHz mono.
+
+    ``t_ns`` is the paper's t_tts: the voice begins to be heard.
+    """
+
+    id: str = Field(description="id of the advisory")
+    revision: int = Field(ge=0)
+    recipient: str
+    text: str
+    t_dec_ns: Nanoseconds = Field(description="the decision was made")
+    engine: str
+    sample_rate_hz: int = 16_000
+    samples: int = Field(ge=0)
+    sha256: str = Field(description="of the PCM")
+
+
 class ActorCommand(Message):
     """``command/<actor>``: what a person or an external agent tells an actor."""
 
@@ -327,6 +356,21 @@ class SpokenTruth(Message):
     text: str
     t_tx_ns: Nanoseconds
     t_end_ns: Nanoseconds
+    in_reply_to: str | None = Field(default=None, description="id of the call that it answers")
+    blocked_by: tuple[str, ...] = Field(
+        default=(), description="ids of the transmissions that it was mixed with"
+    )
+    snr_db: float | None = None
+
+
+class HearingTruth(Message):
+    """``truth/hearing/<actor>``: what somebody who was spoken to took a call for."""
+
+    id: str = Field(description="id of the transmission")
+    actor: str
+    outcome: Literal["understood", "misheard", "unsure", "missed"]
+    text: str = Field(description="the words that reached him; empty if none did")
+    source: Literal["ear", "transcript"]
 
 
 ConflictPhase = Literal[
@@ -482,9 +526,11 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "adsb/{icao24}": AdsbReport,
     "asr/{frequency_khz}": Transcript,
     "advisory/{recipient}": Advisory,
+    "tts/{id}": AdvisoryAudio,
     "command/{actor}": ActorCommand,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
+    "truth/hearing/{actor}": HearingTruth,
     "truth/conflict": ConflictTruth,
     "truth/runway/{runway}": RunwayTruth,
     "truth/event": Event,
@@ -498,8 +544,16 @@ WORKER_MESSAGES: dict[str, type[BaseModel]] = {
 }
 """The messages of the worker protocol."""
 
-WORKER_OUTPUTS: dict[str, type[Message]] = {"asr": Transcript, "advisory": Advisory}
+WORKER_OUTPUTS: dict[str, type[Message]] = {
+    "asr": Transcript,
+    "advisory": Advisory,
+    "tts": AdvisoryAudio,
+}
 """What a worker may publish, by the first part of the key. Truth and sensors are not its own."""
+
+
+HEADERS = (Transmission, AdvisoryAudio)
+"""Messages that go with raw bytes: the bytes are the payload of the key, these the attachment."""
 
 
 def json_schemas() -> dict[str, Any]:

@@ -77,6 +77,11 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             assistant=info.options.assistant,
             cameras=info.options.cameras,
             speech=info.options.speech,
+            snr_db=info.options.snr_db,
+            radio_profile=info.options.radio_profile,
+            topology=info.options.topology,
+            asr=info.options.asr,
+            tts=info.options.tts,
             run_name=info.run,
         )
         result = run(scenario, options, observer, _recorded(path, info, latencies, recorded_log))

@@ -12,7 +12,7 @@ RUN = "run"
 """Publisher of what the run itself publishes."""
 
 Listener = Callable[[str, Message, bytes], None]
-"""Called with key, message and its JSON."""
+"""Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
 
 
 class Exchange:
@@ -45,7 +45,7 @@ class Exchange:
             self._bus.put(key, raw, data)
         if not key.startswith("truth/"):
             for listener in self._listeners:
-                listener(key, message, data)
+                listener(key, message, data if raw is None else raw)
 
     def heard(self, key: str, message: Message, publisher: str) -> None:
         """Take in what another process has put on the bus itself."""

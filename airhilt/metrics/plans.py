@@ -6,7 +6,7 @@ import bisect
 from collections.abc import Sequence
 
 from airhilt.commands import AltitudeCommand
-from airhilt.radio.script import RadioScript
+from airhilt.radio.script import planned_end_ns
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.kinematics import VerticalProfile
@@ -23,10 +23,10 @@ class Plans:
     Until a line has ended, its end is where it would be if the frequency were free.
     """
 
-    def __init__(self, lines: Sequence[HappeningLine], script: RadioScript) -> None:
+    def __init__(self, lines: Sequence[HappeningLine], words_per_minute: float) -> None:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
         for happening in lines:
-            end_ns = script.planned_end_ns(happening)
+            end_ns = planned_end_ns(happening, words_per_minute)
             for scripted in happening.line.commands if happening.line else ():
                 self._plan(end_ns, scripted)
 

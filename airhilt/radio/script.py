@@ -1,9 +1,8 @@
-"""The scripted calls: who says what when, one at a time on each frequency."""
+"""The scripted calls: when each is due."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 from airhilt.scenario.failures import HappeningLine
@@ -11,22 +10,9 @@ from airhilt.scenario.models import Condition, RadioLine
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
-GAP_S = 0.4
-"""Pause before a call that had to wait for the frequency."""
-
-
-@dataclass(frozen=True, slots=True)
-class Spoken:
-    """A call that has ended."""
-
-    line: RadioLine
-    """As it was said."""
-    t_tx_ns: int
-    t_end_ns: int
-
 
 class RadioScript:
-    """Plays the lines in time; a call waits until its frequency is free.
+    """Says when a line is to be said: not before its time, nor before its condition is true.
 
     Parameters
     ----------
@@ -34,36 +20,25 @@ class RadioScript:
         Calls its second argument as soon as its first, a condition, is true.
     failed
         Called with each line that something is wrong with, when it would have been said.
-    ended
-        Called with each call that has ended.
+    due
+        Called with each line when it is to be said, as it is said.
     """
 
     def __init__(
         self,
         director: Director,
         lines: Sequence[HappeningLine],
-        words_per_minute: float,
         once: Callable[[Condition, Callable[[], None]], None],
         failed: Callable[[HappeningLine], None],
-        ended: Callable[[Spoken], None],
+        due: Callable[[RadioLine], None],
     ) -> None:
         self._director = director
-        self._seconds_per_word = 60.0 / words_per_minute
         self._once = once
         self._failed = failed
-        self._ended = ended
-        self._busy_until_ns: dict[int, int] = {}
+        self._say = due
         for happening in lines:
             at_ns = seconds_to_ns(happening.declared.at_s)
             director.at(at_ns, partial(self._await, happening), Priority.SCRIPT)
-
-    def planned_end_ns(self, happening: HappeningLine) -> int:
-        """Return when a line ends if it waits for nothing and its frequency is free."""
-        line = happening.line or happening.declared
-        return seconds_to_ns(line.at_s + happening.late_s) + self._duration_ns(line)
-
-    def _duration_ns(self, line: RadioLine) -> int:
-        return seconds_to_ns(len(line.text.split()) * self._seconds_per_word)
 
     def _await(self, happening: HappeningLine) -> None:
         if happening.declared.when is None:
@@ -76,21 +51,16 @@ class RadioScript:
             self._failed(happening)
         if happening.line is None:
             return
-        begin = partial(self._begin, happening.line)
+        say = partial(self._say, happening.line)
         if happening.late_s == 0.0:
-            begin()
+            say()
         else:
             due_ns = self._director.now_ns + seconds_to_ns(happening.late_s)
-            self._director.at(due_ns, begin, Priority.SCRIPT)
+            self._director.at(due_ns, say, Priority.SCRIPT)
 
-    def _begin(self, line: RadioLine) -> None:
-        now_ns = self._director.now_ns
-        free_ns = self._busy_until_ns.get(line.frequency_khz, 0)
-        if free_ns > now_ns:
-            again = free_ns + seconds_to_ns(GAP_S)
-            self._director.at(again, partial(self._begin, line), Priority.SCRIPT)
-            return
-        end_ns = now_ns + self._duration_ns(line)
-        self._busy_until_ns[line.frequency_khz] = end_ns
-        spoken = Spoken(line, now_ns, end_ns)
-        self._director.at(end_ns, partial(self._ended, spoken), Priority.SCRIPT)
+
+def planned_end_ns(happening: HappeningLine, words_per_minute: float) -> int:
+    """Return when a line ends if it waits for nothing and its frequency is free."""
+    line = happening.line or happening.declared
+    duration_s = len(line.text.split()) * 60.0 / words_per_minute
+    return seconds_to_ns(line.at_s + happening.late_s) + seconds_to_ns(duration_s)

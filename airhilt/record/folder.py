@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.messages import WorkerDescription
+from airhilt.scenario.models import Topology
 
 FORMAT = 1
 RECORDED_VERSIONS = ("jsbsim", "numpy", "eclipse-zenoh", "pydantic", "mcap", "zstandard")
@@ -33,6 +34,11 @@ class RunOptions(BaseModel):
     cameras: bool
     speech: bool
     strict: bool
+    snr_db: float | None = None
+    radio_profile: str | None = None
+    topology: Topology | None = None
+    asr: str = ""
+    tts: str = ""
 
 
 class RecordedWorker(BaseModel):
@@ -96,6 +102,7 @@ class RunFolder:
         self.latency_path = path / "latency.jsonl"
         self.summary_path = path / "summary.json"
         self.report_path = path / "report.html"
+        self.audio_path = path / "audio"
 
     def require_free(self, overwrite: bool = False) -> None:
         """Check that a run can be written here, without writing anything.
@@ -147,8 +154,9 @@ class RunFolder:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """All that a run writes."""
+        """All that a run has written or will write."""
         return (
+            *sorted(self.audio_path.glob("*.wav")),
             self.info_path,
             self.log_path,
             self.latency_path,

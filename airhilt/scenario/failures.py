@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from airhilt.scenario.models import (
+    Blocked,
     CallsignConfused,
     Delayed,
     Dropped,
@@ -20,6 +21,7 @@ from airhilt.scenario.models import (
     ReadbackWrong,
     Scenario,
     ScriptedCommand,
+    StuckMicrophone,
 )
 
 
@@ -35,6 +37,10 @@ class HappeningLine:
     """What went wrong with it, in words."""
     misled: frozenset[str]
     """Actors that do, or leave undone, something because of that."""
+    deaf: frozenset[str] = frozenset()
+    """Actors that do not take it for theirs, however well they hear it."""
+    listens_first: bool = True
+    """False: it is said over whatever is being said."""
 
 
 def as_it_happens(scenario: Scenario) -> list[HappeningLine]:
@@ -47,8 +53,12 @@ def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningL
     late_s = 0.0
     texts: list[str] = []
     misled: set[str] = set()
+    deaf: set[str] = set()
+    listens_first = True
     for failure in failures:
-        if isinstance(failure, EngineFailure) or failure.line != declared.id or line is None:
+        if isinstance(failure, EngineFailure | StuckMicrophone):
+            continue
+        if failure.line != declared.id or line is None:
             continue
         match failure:
             case ReadbackWrong(text=text, commands=commands):
@@ -57,6 +67,7 @@ def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningL
                 texts.append(f"{declared.speaker} reads back otherwise")
             case NotReceived(actor=actor):
                 misled.add(actor)
+                deaf.add(actor)
                 line = _without(line, actor)
                 texts.append(f"{actor} does not receive it")
             case Ignored(actor=actor):
@@ -65,6 +76,7 @@ def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningL
                 texts.append(f"{actor} ignores it")
             case CallsignConfused(meant=meant, taken_by=taken_by, text=text):
                 misled |= {meant, taken_by}
+                deaf.add(meant)
                 line = _retarget(line, meant, taken_by)
                 if text is not None:
                     line = line.model_copy(update={"text": text})
@@ -77,7 +89,19 @@ def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningL
                 misled |= _actors(declared.commands)
                 line = None
                 texts.append("it is never said")
-    return HappeningLine(declared, line, late_s, tuple(texts), frozenset(misled))
+            case Blocked():
+                misled |= _actors(declared.commands)
+                listens_first = False
+                texts.append(f"{declared.speaker} does not listen before speaking")
+    return HappeningLine(
+        declared,
+        line,
+        late_s,
+        tuple(texts),
+        frozenset(misled),
+        frozenset(deaf),
+        listens_first,
+    )
 
 
 def _actors(commands: tuple[ScriptedCommand, ...]) -> set[str]:

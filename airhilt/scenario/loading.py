@@ -25,6 +25,7 @@ from airhilt.commands import (
 from airhilt.errors import AirhiltError, ScenarioError, first_problem
 from airhilt.flight import AircraftType, load_aircraft_type
 from airhilt.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
+from airhilt.radio.frequency import channel_spacing_khz
 from airhilt.scenario.geometry import Setting, distance_m
 from airhilt.scenario.models import (
     Airborne,
@@ -40,6 +41,7 @@ from airhilt.scenario.models import (
     ReadbackWrong,
     Scenario,
     Standing,
+    StuckMicrophone,
     VehicleActor,
     WildlifeActor,
 )
@@ -295,6 +297,7 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     yield from _actors(scenario, setting)
     yield from _places(scenario, setting)
     yield from _references(scenario, callsigns, line_ids)
+    yield from _radio(scenario, line_ids)
     yield from _misfits(scenario)
     if setting.layout is not None:
         yield from _wind(scenario)
@@ -528,6 +531,27 @@ def _place(setting: Setting, position: Position) -> Place | None:
         return None
 
 
+def _radio(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
+    """Yield lines on frequencies that are none, and answers to lines that are not before them."""
+    frequencies: dict[str, int] = {}
+    for index, line in enumerate(scenario.radio.lines):
+        path = f"radio/lines/{index}"
+        try:
+            channel_spacing_khz(line.frequency_khz)
+        except ScenarioError as error:
+            yield Problem(f"{path}/frequency_khz", str(error))
+        if line.answers is not None and line.answers not in frequencies:
+            tail = library.nearest(line.answers, line_ids)
+            yield Problem(f"{path}/answers", f"no line {line.answers!r} before {line.id!r}{tail}")
+        elif line.answers is not None and frequencies[line.answers] != line.frequency_khz:
+            yield Problem(
+                f"{path}/answers",
+                f"line {line.answers!r} is on {frequencies[line.answers]} kHz; expected one on "
+                f"{line.frequency_khz} kHz",
+            )
+        frequencies[line.id] = line.frequency_khz
+
+
 def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
     """Yield failures of lines that do not exist, or of which nothing would be different."""
     lines = {line.id: line for line in scenario.radio.lines}
@@ -535,6 +559,9 @@ def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
         path = f"failures/{index}"
         if isinstance(failure, EngineFailure):
             yield from _engine(path, failure, scenario)
+            continue
+        if isinstance(failure, StuckMicrophone):
+            yield from _microphone(path, failure, scenario)
             continue
         if failure.line not in lines:
             yield Problem(
@@ -558,6 +585,16 @@ def _failures(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
             if number != index
         ):
             yield Problem(f"{path}/line", f"line {failure.line!r} is dropped and fails otherwise")
+
+
+def _microphone(path: str, failure: StuckMicrophone, scenario: Scenario) -> Iterator[Problem]:
+    talks = any(failure.actor in (line.speaker, line.to) for line in scenario.radio.lines)
+    if not talks and any(actor.callsign == failure.actor for actor in scenario.actors):
+        yield Problem(
+            f"{path}/actor",
+            f"{failure.actor!r} is on no frequency; expected an actor with a line of its own, or "
+            "to it",
+        )
 
 
 def _engine(path: str, failure: EngineFailure, scenario: Scenario) -> Iterator[Problem]:

@@ -208,17 +208,58 @@ class RadioLine(_Model):
     when: Condition | None = Field(default=None, description="and not before this is true")
     speaker: str = Field(min_length=1, max_length=40, description="a callsign, or a unit's name")
     to: str | None = Field(default=None, description="addressed callsign or unit")
-    frequency_khz: int = Field(ge=117_975, le=137_000)
+    frequency_khz: int = Field(
+        ge=117_975, le=137_000, description="name of a channel with 25 or 8.33 kHz spacing"
+    )
     text: str = Field(min_length=1, max_length=500)
     commands: tuple[ScriptedCommand, ...] = ()
+    answers: Identifier | None = Field(
+        default=None,
+        description="the line that it answers; null: an actor reads back the line before on the "
+        "frequency, if that was from whom this is for and for whom this is from",
+    )
+
+
+Topology = Literal["parallel", "asr_first", "gated_fusion"]
 
 
 class Radio(_Model):
-    """The radio timeline."""
+    """The radio timeline, and how well people hear each other."""
 
     controller: str = Field(default="Centre", description="name of the unit that listens")
     lines: tuple[RadioLine, ...] = ()
-    words_per_minute: float = Field(default=160.0, ge=60.0, le=400.0)
+    words_per_minute: float = Field(
+        default=160.0, ge=60.0, le=400.0, description="of calls without sound"
+    )
+    snr_db: float | None = Field(
+        default=None, ge=-30.0, le=60.0, description="of what is received; null: nobody mishears"
+    )
+    squelch_db: float = Field(
+        default=-10.0, ge=-30.0, le=60.0, description="SNR below which receivers stay silent"
+    )
+    profile: str | None = Field(default=None, description="named settings of the radio channel")
+    topology: Topology = Field(
+        default="parallel",
+        description="parallel: crews hear the radio, as the assistant does; asr_first: crews get "
+        "the transcript instead; gated_fusion: as parallel, and the assistant says nothing while "
+        "it has not taken in all that was said",
+    )
+    overhearing: bool = Field(
+        default=True,
+        description="crews that get transcripts may take one of a call to others for their own",
+    )
+    phraseology: Literal["faa", "icao"] = Field(
+        default="faa", description="of what is not in the script"
+    )
+    readbacks: Literal["scripted", "generated"] = Field(
+        default="scripted",
+        description="generated: crews also read back instructions that no line answers",
+    )
+    controller_checks_readbacks: bool = Field(
+        default=False,
+        description="controllers correct a wrong readback, and repeat what is not answered even "
+        "where a failure is why",
+    )
 
 
 # --- what is sensed -----------------------------------------------------------------------
@@ -528,6 +569,22 @@ class Ignored(_Model):
     actor: Callsign
 
 
+class Blocked(_Model):
+    """A line is said without listening first, over whatever is being said."""
+
+    type: Literal["blocked"]
+    line: Identifier
+
+
+class StuckMicrophone(_Model):
+    """An actor's transmitter stays on, on all frequencies that it is on: nobody else is heard."""
+
+    type: Literal["stuck_microphone"]
+    actor: Callsign
+    at_s: float = Field(ge=0.0)
+    for_s: float = Field(gt=0.0, le=3600.0)
+
+
 class EngineFailure(_Model):
     """An engine stops."""
 
@@ -538,7 +595,15 @@ class EngineFailure(_Model):
 
 
 Failure = Annotated[
-    ReadbackWrong | NotReceived | CallsignConfused | Delayed | Dropped | Ignored | EngineFailure,
+    ReadbackWrong
+    | NotReceived
+    | CallsignConfused
+    | Delayed
+    | Dropped
+    | Ignored
+    | Blocked
+    | StuckMicrophone
+    | EngineFailure,
     Field(discriminator="type"),
 ]
 

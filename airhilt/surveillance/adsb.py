@@ -72,6 +72,15 @@ LEAST_ANTENNA_HEIGHT_M = 2.0
 """Of a transponder's antenna above the ground, on the roof of a vehicle."""
 
 
+def radio_horizon_m(*heights_m: float) -> float:
+    """Return how far apart two antennas at these heights may be and still be in line of sight.
+
+    With heights in feet this is 1.23 nautical miles times the sum of their square roots.
+    """
+    radius = EFFECTIVE_EARTH_RADIUS * WGS84_SEMI_MAJOR_M
+    return sum(math.sqrt(2.0 * radius * height) for height in heights_m)
+
+
 class Carrier(Kinematics, Protocol):
     """What a transponder needs of what carries it."""
 
@@ -309,12 +318,10 @@ class Receiver:
         return distance <= min(self.range_m, self._horizon_m(state.altitude_m))
 
     def _horizon_m(self, altitude_m: float) -> float:
-        radius = EFFECTIVE_EARTH_RADIUS * WGS84_SEMI_MAJOR_M
-        heights = (
+        return radio_horizon_m(
             max(altitude_m - self.ground_m, LEAST_ANTENNA_HEIGHT_M),
             max(self.site.altitude_m - self.ground_m, 0.0),
         )
-        return sum(math.sqrt(2.0 * radius * height) for height in heights)
 
     def decode(self, sender: Transponder, squitter: Squitter, t_in_ns: int) -> Decoded | None:
         """Take in a squitter; return a state vector if it completes one."""

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any, Protocol
 
 from pydantic import ValidationError
 
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
+    HEADERS,
     WORKER_OUTPUTS,
     Advisory,
+    AdvisoryAudio,
     Message,
     Transcript,
     WorkerDescription,
@@ -36,6 +40,14 @@ class Participant:
     endpoint: Endpoint
     attached: bool
     """In another process."""
+
+
+class Publish(Protocol):
+    """Publishes what a worker gave; ``raw`` is the payload of a key whose message is a header."""
+
+    def __call__(  # noqa: D102
+        self, key: str, message: Message, publisher: str, raw: bytes | None = None
+    ) -> None: ...
 
 
 class WorkerPool:
@@ -63,7 +75,7 @@ class WorkerPool:
         latency: LatencySpec,
         seed: int,
         *,
-        publish: Callable[[str, Message, str], None],
+        publish: Publish,
         done: Callable[[StepRecord], None],
         lost: Callable[[WorkerDescription, str], None],
     ) -> None:
@@ -98,7 +110,10 @@ class WorkerPool:
             self._inputs.append((server, policies))
 
     def offer(self, key: str, message: Message, data: bytes) -> None:
-        """Give a message to the workers that want its key."""
+        """Give a message to the workers that want its key.
+
+        ``data`` is its JSON, or the raw bytes that it is the header of.
+        """
         routes = self._routes.get(key)
         if routes is None:
             routes = self._routes[key] = [
@@ -106,8 +121,10 @@ class WorkerPool:
                 for server, policies in self._inputs
                 if (policy := policy_of(key, policies)) is not None
             ]
+        is_header = routes and isinstance(message, HEADERS)
+        attachment = message.model_dump(mode="json") if is_header else None
         for server, policy in routes:
-            server.offer(Input(key, message.t_ns, data), policy)
+            server.offer(Input(key, message.t_ns, data, attachment), policy)
 
     def inputs_dropped(self) -> dict[str, int]:
         """Return how many inputs were dropped as out of date, by worker and key."""
@@ -123,9 +140,12 @@ class WorkerPool:
         return [step for step in steps if step is not None]
 
     def _deliver(self, worker: str, output: Output) -> None:
-        message = parse_output(worker, output.key, output.payload, self._director.now_ns)
+        message = parse_output(
+            worker, output.key, output.payload, self._director.now_ns, output.attachment
+        )
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
-        self._publish(output.key, stamped, worker)
+        raw = output.payload if isinstance(message, HEADERS) else None
+        self._publish(output.key, stamped, worker, raw)
 
 
 def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
@@ -140,8 +160,10 @@ def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
     return None
 
 
-def parse_output(worker: str, key: str, payload: bytes, now_ns: int) -> Message:
-    """Return the message that a worker put on a key.
+def parse_output(
+    worker: str, key: str, payload: bytes, now_ns: int, attachment: Any = None
+) -> Message:
+    """Return the message that a worker put on a key: the payload, or the header of its bytes.
 
     Raises
     ------
@@ -155,7 +177,10 @@ def parse_output(worker: str, key: str, payload: bytes, now_ns: int) -> Message:
             f"{', '.join(sorted(WORKER_OUTPUTS))}"
         )
     try:
-        message = model.model_validate_json(payload)
+        if model in HEADERS:
+            message = model.model_validate(attachment)
+        else:
+            message = model.model_validate_json(payload)
     except ValidationError as error:
         raise WorkerError(
             f"worker {worker!r} published on {key!r} something that is no {model.__name__}: "
@@ -166,6 +191,8 @@ def parse_output(worker: str, key: str, payload: bytes, now_ns: int) -> Message:
             f"worker {worker!r} published an advisory with t_ready_ns {message.t_ready_ns} at "
             f"{now_ns} ns; expected a time that has come"
         )
+    if isinstance(message, AdvisoryAudio):
+        _check_audio(worker, key, message, payload)
     if isinstance(message, Transcript) and key != f"asr/{message.frequency_khz}":
         raise WorkerError(
             f"worker {worker!r} published on {key!r} a transcript of {message.frequency_khz} kHz; "
@@ -177,3 +204,17 @@ def parse_output(worker: str, key: str, payload: bytes, now_ns: int) -> Message:
             "expected the recipient in the key"
         )
     return message
+
+
+def _check_audio(worker: str, key: str, header: AdvisoryAudio, pcm: bytes) -> None:
+    if key != f"tts/{header.id}":
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} the voice of advisory {header.id!r}; expected "
+            "its id in the key"
+        )
+    if len(pcm) != 2 * header.samples or hashlib.sha256(pcm).hexdigest() != header.sha256:
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} {len(pcm)} bytes that are not what their "
+            f"header says; expected {header.samples} samples of 16 bits with the SHA-256 "
+            f"{header.sha256}"
+        )

@@ -12,11 +12,10 @@ from airhilt.metrics.outline import Gap
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.runways import Incursion
 from airhilt.metrics.summary import LatencyStatistics, severest
-from airhilt.radio.script import RadioScript
 from airhilt.scenario import load
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
-from airhilt.sim import Director, StepRecord, Virtual
+from airhilt.sim import StepRecord
 from airhilt.surveillance.kinematics import VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 
@@ -59,11 +58,6 @@ def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name=
     )  # fmt: skip
 
 
-def script(lines):
-    nothing = lambda *_: None  # noqa: E731
-    return RadioScript(Director(Virtual()), lines, 160.0, nothing, nothing, nothing)
-
-
 class Told:
     """A collector over a head-on encounter that meets after 60 s."""
 
@@ -74,7 +68,7 @@ class Told:
             always=False,
             names=(FIRST, SECOND),
         )
-        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], script([])))
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], 160.0))
 
     def take(self, message):
         self.collector.take("", message, b"")
@@ -187,7 +181,7 @@ def plans(*climbs):
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
     happening = [HappeningLine(line, line, 0.0, (), frozenset()) for line in lines]
-    return Plans(happening, script(happening))
+    return Plans(happening, 160.0)
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)
@@ -238,7 +232,7 @@ class Airport(Told):
 
     def __init__(self, *incursions, scenario=SCENARIO):
         super().__init__(scenario)
-        plans = Plans([], script([]))
+        plans = Plans([], 160.0)
         self.collector = Collector(scenario, 0.0, self.watch.monitor, Runways(*incursions), plans)
         self.collector.window.opened_ns = 0
 

@@ -11,10 +11,13 @@ from airhilt.messages import (
     Briefing,
     DeclaredLatency,
     InputSpec,
+    Status,
     Transcript,
+    Transmission,
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
+from airhilt.workers.decision.fusion import FusionGate
 from airhilt.workers.decision.runway import RunwayWatch
 from airhilt.workers.decision.separation import (
     COASTING_NS,
@@ -24,6 +27,12 @@ from airhilt.workers.decision.separation import (
 from airhilt.workers.decision.threats import RunwayConfig
 from airhilt.workers.protocol import Step
 
+GATE_INPUTS = (
+    InputSpec(key="radio/*/tx", policy="batch"),
+    InputSpec(key="status/*", policy="batch"),
+)
+"""What tells that a transcript is to come, or that none will."""
+
 
 @dataclass(frozen=True)
 class DecisionConfig:
@@ -31,6 +40,8 @@ class DecisionConfig:
 
     separation: SeparationConfig = field(default_factory=SeparationConfig)
     runways: RunwayConfig = field(default_factory=RunwayConfig)
+    is_gated: bool = False
+    """The topology ``gated_fusion``: it tells nothing while a transcript is to come."""
 
 
 class DecisionWorker:
@@ -45,17 +56,24 @@ class DecisionWorker:
                 InputSpec(key="briefing", policy="batch"),
                 InputSpec(key="adsb/*", policy="batch"),
                 InputSpec(key="asr/*", policy="batch"),
+                *(GATE_INPUTS if config.is_gated else ()),
             ),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
         )
         self.separation = SeparationWatch(config.separation, name)
         self.runways = RunwayWatch(config.runways, name)
+        self._gate = FusionGate()
+        self._withheld: list[Advisory] = []
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         """Take in reports and transcripts; tell what has changed."""
-        advisories: list[Advisory] = []
+        advisories, self._withheld = self._withheld, []
         for item in inputs:
             advisories += self._take(t_ns, item)
+        opens_ns = self._gate.opens_ns(t_ns)
+        if opens_ns is not None:
+            self._withheld = advisories
+            return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         advisories += self.separation.judge(t_ns, t_ready_ns)
         advisories += self.runways.judge(t_ns, t_ready_ns)
@@ -80,6 +98,13 @@ class DecisionWorker:
             self.separation.take_briefing(briefing)
             self.runways.take_briefing(briefing)
             return []
+        if item.key.startswith("radio/"):
+            self._gate.take_transmission(Transmission.model_validate(item.attachment))
+            return []
+        if item.key.startswith("status/"):
+            self._gate.take_status(Status.model_validate_json(item.payload))
+            return []
         transcript = Transcript.model_validate_json(item.payload)
+        self._gate.take_transcript(transcript)
         self.runways.take_transcript(transcript)
         return self.separation.take_transcript(t_ns, item.t_in_ns, transcript)

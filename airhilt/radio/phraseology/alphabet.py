@@ -1,0 +1,25 @@
+"""The spelling alphabet (ICAO Annex 10 volume II, 5.2.1.3; FAA AIM 4-2-7)."""
+
+from __future__ import annotations
+
+LETTERS = (
+    "alfa", "bravo", "charlie", "delta", "echo", "foxtrot", "golf", "hotel", "india",
+    "juliett", "kilo", "lima", "mike", "november", "oscar", "papa", "quebec", "romeo",
+    "sierra", "tango", "uniform", "victor", "whiskey", "xray", "yankee", "zulu",
+)  # fmt: skip
+LETTER_OF = {word: word[0].upper() for word in LETTERS}
+"""The letter that a word stands for."""
+LETTER_VARIANTS = {
+    "alpha": "alfa", "juliet": "juliett", "whisky": "whiskey", "foxtrott": "foxtrot",
+    "zebra": "zulu", "quebeck": "quebec", "seirra": "sierra", "siera": "sierra",
+}  # fmt: skip
+"""Other ways in which people and recognisers write the words."""
+
+
+def spell(text: str) -> list[str]:
+    """Return the words for the letters and the digits of a text, the digits as they are."""
+    return [
+        LETTERS[ord(sign) - ord("A")] if "A" <= sign <= "Z" else sign
+        for sign in text.upper()
+        if sign.isascii() and sign.isalnum()
+    ]

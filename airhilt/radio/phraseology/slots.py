@@ -1,0 +1,107 @@
+"""The values in a call: runways, levels, headings, frequencies, taxiways, wind, pressure.
+
+Every pattern is for the joined words of `words`, where numbers are digits: ``runway 01 left``.
+"""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.radio.phraseology.alphabet import LETTER_OF, LETTERS
+from airhilt.radio.phraseology.call import Wind
+
+HPA_PER_INHG = 33.8639
+"""A conventional inch of mercury (ICAO Annex 5, table 3-3, gives 33.8639 hPa)."""
+GROUND_MHZ = "121"
+"""What may be left out of a frequency of ground control (FAA AIM 4-3-14 b)."""
+HIGHEST_LEVEL = 660
+HIGHEST_FT = 60_000
+
+NUMBER_ENDS = r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes))"
+"""A number that something else belongs to is no runway."""
+SIDE = (
+    r"(?: (left|right|centre|l|r|c)(?!\S)"
+    r"(?! (?:downwind|base|crosswind|closed|pattern|heading|turn(?! (?:left|right)))))"
+)
+"""Of a parallel runway; but "runway 01 left downwind" is about the circuit."""
+RUNWAY = rf"(0?[1-9]|[12][0-9]|3[0-6])(?!\S){NUMBER_ENDS}{SIDE}?"
+NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
+
+_LETTER = "|".join(LETTERS)
+TAXIWAY = rf"(?:(?:{_LETTER}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
+LEVEL = re.compile(
+    r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )"
+    r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"
+    r"|(?<!\S)([0-9]{1,2}) thousand(?: ([1-9])00)?(?!\S)(?: feet)?)"
+)
+BARE_FEET = re.compile(
+    r"(?: (?:to|at|and|now|altitude|an|of|immediately))* ([1-9][0-9]{3,4})(?!\S)"
+    r"(?! (?:knots|miles?|degrees))"
+)
+FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9]) decimal ([0-9]{1,3})(?!\S)")
+SHORT_FREQUENCY = re.compile(r"(?<!\S)(?:on )?decimal ([0-9]{1,3})(?!\S)")
+JOINED_FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9])([0-9]{1,3})(?!\S)")
+WIND = re.compile(
+    r"(?<!\S)wind (?:is )?(?:(calm)|(variable|[0-9]{3})(?: degrees)?(?: at)? ?([0-9]{1,2})(?!\S)"
+    r"(?: knots)?(?: gust(?:s|ing)?(?: to)? ([0-9]{1,2})(?!\S))?)"
+)
+PRESSURE = re.compile(
+    r"(?<!\S)(?:altimeter|qnh|q n h) (?:is )?([0-9]{3,4}|[0-9]{2} decimal [0-9]{2})(?!\S)"
+)
+
+
+def designator(number: str, side: str | None) -> str:
+    """Return a runway designator: two digits, and the letter of a parallel runway."""
+    return f"{int(number):02d}{(side or '')[:1].upper()}"
+
+
+def taxiway(text: str) -> str:
+    """Return the designator of a taxiway from its words, such as B5."""
+    letter, *number = text.split()
+    return LETTER_OF.get(letter, letter.upper()) + "".join(number)
+
+
+def level_ft(found: re.Match[str]) -> float | None:
+    """Return the altitude of a `LEVEL`."""
+    level, thousands, hundreds = found.groups()
+    if level:
+        return float(level) * 100.0 if 0 < int(level) <= HIGHEST_LEVEL else None
+    feet = float(thousands) * 1000.0 + float(hundreds or 0) * 100.0
+    return feet if 0.0 < feet <= HIGHEST_FT else None
+
+
+def frequency_khz(mhz: str, fraction: str) -> int | None:
+    """Return a frequency of the aeronautical VHF band.
+
+    Of two decimals that end in 2 or 7, the last is a 5 that was left out (FAA Order JO 7110.65,
+    2-4-17 i).
+    """
+    if len(fraction) == 2 and fraction[1] in "27":
+        fraction += "5"
+    khz = int(mhz) * 1000 + int(fraction.ljust(3, "0"))
+    return khz if 118_000 <= khz < 137_000 and khz % 5 == 0 else None
+
+
+def wind_of(text: str) -> Wind | None:
+    """Return the wind that a call tells."""
+    found = WIND.search(text)
+    if not found:
+        return None
+    calm, direction, speed, gust = found.groups()
+    if calm:
+        return Wind(None, 0.0)
+    heading = None if direction == "variable" else float(direction)
+    if heading is not None and heading > 360.0:
+        return None
+    return Wind(heading, float(speed), float(gust) if gust else None)
+
+
+def pressure_of(text: str) -> float | None:
+    """Return the altimeter setting that a call tells, from inches of mercury or hectopascals."""
+    found = PRESSURE.search(text)
+    if not found:
+        return None
+    value = int(found[1].replace(" decimal ", ""))
+    if 2700 <= value <= 3150:
+        return value / 100.0 * HPA_PER_INHG
+    return float(value) if 900 <= value <= 1060 else None

@@ -1,0 +1,56 @@
+"""Which lines of a script follow from which others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from airhilt.scenario.models import AllOf, AnyOf, Condition, LineEnded, RadioLine, Scenario
+
+
+def needed_lines(scenario: Scenario) -> dict[str, tuple[str, ...]]:
+    """Return, for each line, those that its speaker must have understood to say it.
+
+    These are the one that it answers, first, and those to him whose end it waits for.
+    """
+    answered = _answered(scenario)
+    lines = {line.id: line for line in scenario.radio.lines}
+    needed: dict[str, tuple[str, ...]] = {}
+    for line in scenario.radio.lines:
+        names = [answered[line.id]] if line.id in answered else []
+        if line.when is not None:
+            names += [name for name in _awaited(line.when) if lines[name].to == line.speaker]
+        needed[line.id] = tuple(dict.fromkeys(names))
+    return needed
+
+
+def _answered(scenario: Scenario) -> dict[str, str]:
+    """Return which line each of them answers: the one that it names, or that it reads back.
+
+    An actor reads back the last line before on the frequency, if that was from whom this is for
+    and for whom this is from.
+    """
+    callsigns = {actor.callsign for actor in scenario.actors}
+    found: dict[str, str] = {}
+    last: dict[int, RadioLine] = {}
+    for line in scenario.radio.lines:
+        before = last.get(line.frequency_khz)
+        if line.answers is not None:
+            found[line.id] = line.answers
+        elif line.speaker in callsigns and before is not None and _is_back(line, before):
+            found[line.id] = before.id
+        last[line.frequency_khz] = line
+    return found
+
+
+def _is_back(line: RadioLine, before: RadioLine) -> bool:
+    return (before.speaker, before.to) == (line.to, line.speaker)
+
+
+def _awaited(condition: Condition) -> Iterator[str]:
+    """Yield the lines whose end a condition asks for."""
+    match condition:
+        case LineEnded(line=line):
+            yield line
+        case AllOf(conditions=inner) | AnyOf(conditions=inner):
+            for one in inner:
+                yield from _awaited(one)

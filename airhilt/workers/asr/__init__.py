@@ -1,0 +1,1 @@
+"""Recognition of speech: audio from the radio in, transcripts out."""

@@ -1,0 +1,74 @@
+"""Speaks advisories."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+from airhilt.messages import (
+    Advisory,
+    AdvisoryAudio,
+    DeclaredLatency,
+    InputSpec,
+    Severity,
+    WorkerDescription,
+)
+from airhilt.radio.voices.engine import TtsEngine
+from airhilt.radio.voices.wav import SAMPLE_BYTES, to_pcm
+from airhilt.sim.worker import Input, Output
+from airhilt.workers.protocol import Step
+
+SPEAK_MIN_LEVEL = Severity.CAUTION
+"""Advisories below it are shown and not spoken (AIRHILT, arXiv 2511.18718)."""
+ASSISTANT = "ASSISTANT"
+"""The speaker whose voice the assistant has."""
+
+
+class TtsWorker:
+    """Implements `airhilt.workers.Worker`: one voice, for what is urgent.
+
+    An advisory to several recipients comes once to each; each copy is spoken, as everybody has
+    a loudspeaker of his own.
+
+    Parameters
+    ----------
+    speak_min_level
+        The least severity that is spoken.
+    """
+
+    def __init__(
+        self, engine: TtsEngine, speak_min_level: Severity = SPEAK_MIN_LEVEL, name: str = "tts"
+    ) -> None:
+        self.description = WorkerDescription(
+            name=name,
+            modality="speech",
+            inputs=(InputSpec(key="advisory/*", policy="fifo"),),
+            latency=DeclaredLatency(median_s=0.1),
+        )
+        self._engine = engine
+        self._voice = engine.voice_of(ASSISTANT)
+        self._speak_min_level = speak_min_level
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
+        """Speak the advisories that are active and urgent enough."""
+        advisories = (Advisory.model_validate_json(item.payload) for item in inputs)
+        return Step(
+            tuple(self._speak(advisory) for advisory in advisories if self._is_spoken(advisory))
+        )
+
+    def _is_spoken(self, advisory: Advisory) -> bool:
+        return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
+
+    def _speak(self, advisory: Advisory) -> Output:
+        pcm = to_pcm(self._engine.synthesise(advisory.message, self._voice))
+        header = AdvisoryAudio(
+            id=advisory.id,
+            revision=advisory.revision,
+            recipient=advisory.recipient,
+            text=advisory.message,
+            t_dec_ns=advisory.t_ns,
+            engine=self._engine.name,
+            samples=len(pcm) // SAMPLE_BYTES,
+            sha256=hashlib.sha256(pcm).hexdigest(),
+        )
+        return Output(f"tts/{advisory.id}", pcm, attachment=header.model_dump(mode="json"))

@@ -1,0 +1,115 @@
+"""Actors react to an advisory when they get it: from the screen, or when its voice begins."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from airhilt.actors.advised import Advised
+from airhilt.actors.performer import Reaction, Unable
+from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.units import SECOND_NS, seconds_to_ns
+
+
+class Crew:
+    """Reacts to everything after two seconds."""
+
+    category = "aircraft"
+
+    def __init__(self, unable=False):
+        self.actor = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
+        self.body = SimpleNamespace(ended=None)
+        self.heard = []
+        self.unable = unable
+
+    def hear(self, advisory):
+        self.heard.append((advisory.revision, advisory.active))
+        return Reaction(2.0, self.act, "follows turn")
+
+    def act(self):
+        if self.unable:
+            raise Unable("unable to turn")
+        return True
+
+
+def advisory(revision=0, severity="WARNING", active=True, recipient="AAL123"):
+    return Advisory(
+        id="d-1", revision=revision, recipient=recipient, recipients=(recipient,),
+        kind="runway_conflict", severity=Severity(severity), active=active, traffic=("AAL123",),
+        message="turn", evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
+    )  # fmt: skip
+
+
+def audio(revision=0, recipient="AAL123"):
+    return AdvisoryAudio(
+        id="d-1", revision=revision, recipient=recipient, text="turn", t_dec_ns=0, engine="test",
+        samples=1, sha256="",
+    )  # fmt: skip
+
+
+class Told:
+    def __init__(self, *messages, voiced=True, lost_at_s=None, unable=False):
+        """Take in messages, each at its time in seconds, and let the crew react."""
+        director = Director(Virtual())
+        self.crew, self.events = Crew(unable), []
+
+        def event(kind, subject, text):
+            self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
+
+        advised = Advised(director, {"AAL123": self.crew}, event, is_voiced=voiced)
+        for at_s, message in messages:
+            director.at(
+                seconds_to_ns(at_s),
+                lambda message=message: advised.take("", message, b""),
+                Priority.RESULT,
+            )
+        if lost_at_s is not None:
+            director.at(seconds_to_ns(lost_at_s), advised.voice_lost, Priority.RESULT)
+        director.run()
+
+    @property
+    def reacted_s(self):
+        return [at_s for kind, *_, at_s in self.events if kind == "pilot_reacts"]
+
+
+def test_without_a_voice_an_advisory_is_read_as_it_is_decided():
+    told = Told((10.0, advisory()), voiced=False)
+    assert told.events == [("pilot_reacts", "AAL123", "follows turn (d-1)", 12.0)]
+
+
+def test_a_spoken_advisory_is_heard_when_its_voice_begins():
+    assert Told((10.0, advisory()), (11.0, audio())).reacted_s == [13.0]
+
+
+@pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
+def test_what_is_not_spoken_is_read(severity):
+    assert Told((10.0, advisory(severity=severity))).reacted_s == [12.0]
+
+
+def test_what_is_over_is_read_and_its_voice_comes_too_late():
+    told = Told((10.0, advisory()), (10.5, advisory(revision=1, active=False)), (11.0, audio()))
+    assert told.crew.heard == [(1, False)]
+
+
+def test_the_voice_of_an_older_revision_is_not_acted_upon():
+    told = Told((10.0, advisory()), (10.5, advisory(revision=1)), (11.0, audio()), (12.0, audio(1)))
+    assert told.crew.heard == [(1, True)]
+
+
+def test_when_the_voice_is_lost_what_waited_for_it_is_read():
+    told = Told((10.0, advisory()), (15.0, advisory(revision=1)), lost_at_s=12.0)
+    assert told.reacted_s == [14.0, 17.0]
+
+
+def test_an_advisory_reaches_a_crew_by_its_address():
+    told = Told((1.0, advisory(recipient="a1b2c3")), (2.0, audio(recipient="a1b2c3")))
+    assert told.reacted_s == [4.0]
+
+
+def test_an_advisory_for_somebody_else_reaches_nobody():
+    assert Told((1.0, advisory(recipient="ATC")), voiced=False).events == []
+
+
+def test_what_cannot_be_done_is_told():
+    told = Told((1.0, advisory()), voiced=False, unable=True)
+    assert told.events == [("unable", "AAL123", "unable to turn", 3.0)]

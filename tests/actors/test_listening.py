@@ -1,0 +1,135 @@
+"""What somebody makes of words: for whom they are, and what they make him do."""
+
+import dataclasses
+
+import pytest
+
+from airhilt.actors.listening import TAU_ASR, Listener, commands_of
+from airhilt.radio.phraseology import Instruction, parse_call
+
+ON_FREQUENCY = ("AAL123", "DAL456")
+SAID = "American one two three, climb and maintain flight level three three zero."
+LISTENER = Listener(ON_FREQUENCY)
+
+
+def sense(heard, said=SAID, known_by=("AAL123",), **more):
+    return LISTENER.make_sense(heard, said, known_by, **more)
+
+
+def test_the_same_words_mean_the_same_however_they_are_written():
+    heard = "american ONE two three climb and maintain flight level three three zero"
+    assert sense(heard).kind == "as_said"
+
+
+@pytest.mark.parametrize(
+    "heard",
+    [
+        "american 123 climb and maintain flight level 330",
+        "American one two three climb maintain flight level tree tree zero",
+    ],
+)
+def test_other_words_that_mean_the_same_do_too(heard):
+    assert sense(heard).kind == "as_said"
+
+
+def test_another_level_is_flown_as_it_was_heard():
+    taken = sense("american one two three climb and maintain flight level three five zero")
+    assert taken.kind == "otherwise"
+    assert [command.altitude_ft for command in taken.commands] == [35_000]
+
+
+def test_a_call_with_another_callsign_is_not_for_him():
+    heard = "delta four five six climb and maintain flight level three three zero"
+    assert sense(heard).kind == "not_for_me"
+
+
+def test_nothing_that_can_be_made_out_is_not_for_him():
+    assert sense("mumble mumble").kind == "not_for_me"
+
+
+def test_a_call_that_could_be_for_two_is_asked_for_again():
+    listener = Listener(("AAL123", "AAL132"))
+    match = dataclasses.replace(parse_call(SAID, ("AAL123",)).match, ambiguous=True)
+    ambiguous = dataclasses.replace(parse_call(SAID, ("AAL123",)), match=match)
+    unsure = Listener(listener.callsigns, lambda *_: ambiguous)
+    assert unsure.make_sense("something like it", SAID, ("AAL123",)).kind == "unclear"
+
+
+@pytest.mark.parametrize(("confidence", "kind"), [(TAU_ASR - 0.01, "unclear"), (1.0, "as_said")])
+def test_what_he_is_not_sure_of_he_asks_for_again(confidence, kind):
+    call = dataclasses.replace(parse_call(SAID, ON_FREQUENCY), confidence=confidence)
+    listener = Listener(ON_FREQUENCY, lambda *_: call)
+    assert listener.make_sense("nearly that", SAID, ("AAL123",)).kind == kind
+
+
+def test_a_callsign_without_an_instruction_is_asked_for_again():
+    assert sense("american one two three climb and").kind == "unclear"
+
+
+def test_who_overhears_a_call_with_his_callsign_takes_it():
+    heard = "delta four five six climb and maintain flight level three three zero"
+    taken = LISTENER.overhear(heard, SAID, "DAL456")
+    assert [command.altitude_ft for command in taken.commands] == [33_000]
+    assert LISTENER.overhear(SAID, SAID, "DAL456").kind == "not_for_me"
+
+
+def test_a_readback_that_says_less_is_no_mistake_and_one_that_says_otherwise_is():
+    right = "Climb and maintain flight level three three zero, American one two three."
+    wrong = "Climb and maintain flight level three five zero, American one two three."
+    assert not LISTENER.differs(right, SAID)
+    assert not LISTENER.differs("Roger, American one two three.", SAID)
+    assert LISTENER.differs(wrong, SAID)
+
+
+def test_a_readback_of_another_clearance_differs():
+    said = "Delta four five six, runway three three, continue holding, traffic landing."
+    read = "Runway three three, cleared for takeoff, Delta four five six."
+    assert LISTENER.differs(read, said)
+
+
+@pytest.mark.parametrize(
+    ("instruction", "command"),
+    [
+        ({"action": "go_around"}, {"action": "go_around", "climb_to_ft": 3000.0}),
+        ({"action": "cancel_takeoff"}, {"action": "cancel_takeoff"}),
+        ({"action": "hold_position"}, {"action": "hold_position"}),
+        ({"action": "hold_short", "runway": "01"}, {"action": "hold_position"}),
+        ({"action": "cross", "runway": "01"}, {"action": "continue"}),
+        ({"action": "line_up", "runway": "19"}, {"action": "line_up", "runway": "19"}),
+        ({"action": "line_up"}, {"action": "line_up", "runway": "01"}),
+        (
+            {"action": "cleared_for_takeoff", "runway": "19"},
+            {"action": "take_off", "runway": "19", "climb_to_ft": 5000.0},
+        ),
+        (
+            {"action": "altitude", "altitude_ft": 5000.0},
+            {"action": "altitude", "altitude_ft": 5000.0},
+        ),
+        ({"action": "heading", "heading_deg": 90.0}, {"action": "track", "track_deg": 90.0}),
+        ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
+    ],
+)
+def test_an_instruction_makes_a_command(instruction, command):
+    (made,) = commands_of([Instruction(**instruction)], "01")
+    assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
+
+
+@pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
+def test_without_any_runway_there_is_nothing_to_do(action):
+    assert commands_of([Instruction(action=action)], None) == ()
+
+
+def test_a_level_with_a_takeoff_is_where_it_climbs_to():
+    said = [Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)]
+    (command,) = commands_of(said, None)
+    assert (command.action, command.climb_to_ft) == ("take_off", 6000.0)
+
+
+def test_what_is_said_twice_is_done_once():
+    said = [Instruction("stop"), Instruction("hold_short", "01")]
+    assert [command.action for command in commands_of(said, None)] == ["hold_position"]
+
+
+def test_what_holds_on_a_condition_is_not_done_at_once():
+    said = [Instruction("line_up", "01", condition="behind the landing cessna")]
+    assert commands_of(said, None) == ()

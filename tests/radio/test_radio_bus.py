@@ -1,0 +1,150 @@
+"""A frequency: one at a time, unless two begin together or somebody does not listen."""
+
+import itertools
+from functools import partial
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.radio.bus import GAP_S, REACTION_S, RadioBus, Utterance
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.units import SECOND_NS, seconds_to_ns
+
+CALL_S = 3.0
+
+
+def call(name, at_s, speaker="Centre", frequency_khz=134_325, listens_first=True, words=8):
+    text = " ".join(["word"] * words)
+    return at_s, Utterance(name, frequency_khz, speaker, None, text, listens_first=listens_first)
+
+
+def everybody(speaker, listener):
+    return True
+
+
+def played(*calls, stuck=(), audible=everybody):
+    """Return the transmissions by their ids, in the order in which they ended."""
+    director, ended = Director(Virtual()), {}
+
+    def speak(speaker, text):
+        return None, len(text.split()) * 0.375
+
+    def end(on_air):
+        assert director.now_ns == on_air.t_end_ns
+        ended[on_air.utterance.id] = on_air
+
+    bus = RadioBus(director, speak, audible, end)
+    for at_s, said in calls:
+        director.at(seconds_to_ns(at_s), partial(bus.say, said), Priority.SCRIPT)
+    for at_s, speaker, for_s in stuck:
+        carrier = Utterance(f"stuck-{speaker}", 134_325, speaker, None, "")
+        director.at(seconds_to_ns(at_s), partial(bus.press, carrier, for_s), Priority.SCRIPT)
+    director.run()
+    return ended
+
+
+def begins_s(on_air):
+    return on_air.t_tx_ns / SECOND_NS
+
+
+def blockers(on_air):
+    return sorted(other.utterance.id for other in on_air.overlapping)
+
+
+def test_a_call_takes_as_long_as_it_is_spoken():
+    (only,) = played(call("a", 20.0)).values()
+    assert (only.t_tx_ns, only.t_end_ns) == (20 * SECOND_NS, 23 * SECOND_NS)
+    assert not only.overlapping
+
+
+def test_a_call_waits_until_the_frequency_is_free_and_then_a_little():
+    calls = played(call("a", 20.0), call("b", 21.0, "AAL1"))
+    assert list(calls) == ["a", "b"]
+    assert calls["b"].t_tx_ns == calls["a"].t_end_ns + seconds_to_ns(GAP_S)
+    assert not calls["b"].overlapping
+
+
+def test_another_frequency_does_not_wait():
+    calls = played(call("a", 20.0), call("b", 21.0, frequency_khz=118_000))
+    assert [begins_s(one) for one in calls.values()] == [20.0, 21.0]
+
+
+def test_those_who_wait_come_on_in_the_order_in_which_they_began_to():
+    calls = played(call("a", 20.0), call("b", 21.0, "B"), call("c", 21.0, "C"), call("d", 22.0))
+    assert list(calls) == ["a", "b", "c", "d"]
+    assert not any(one.overlapping for one in calls.values())
+
+
+@pytest.mark.parametrize("later_s", [0.0, REACTION_S - 0.01])
+def test_two_that_begin_before_they_can_hear_each_other_block_each_other(later_s):
+    calls = played(call("a", 20.0, "A"), call("b", 20.0 + later_s, "B"))
+    assert (blockers(calls["a"]), blockers(calls["b"])) == (["b"], ["a"])
+
+
+def test_one_that_comes_a_reaction_time_later_waits():
+    calls = played(call("a", 20.0, "A"), call("b", 20.0 + REACTION_S, "B"))
+    assert not calls["a"].overlapping
+
+
+def test_nobody_talks_over_himself():
+    calls = played(call("a", 20.0, "A"), call("b", 20.0, "A"))
+    assert not calls["a"].overlapping
+    assert begins_s(calls["b"]) > 23.0
+
+
+def test_one_that_does_not_listen_first_blocks_what_is_on_the_air():
+    calls = played(call("a", 20.0, "A"), call("b", 21.5, "B", listens_first=False))
+    assert (blockers(calls["a"]), blockers(calls["b"])) == (["b"], ["a"])
+    assert begins_s(calls["b"]) == 21.5
+
+
+def test_who_does_not_hear_a_call_does_not_wait_for_it():
+    calls = played(
+        call("a", 20.0, "A"), call("b", 21.0, "B"), audible=lambda one, other: one == other
+    )
+    assert blockers(calls["a"]) == ["b"]
+
+
+def test_a_stuck_microphone_blocks_all_that_is_said_for_ten_minutes():
+    calls = played(
+        *(call(f"c{n}", 30.0 + 20.0 * n, "A") for n in range(28)),
+        call("after", 640.0, "A"),
+        stuck=[(10.0, "B", 600.0)],
+    )
+    carrier = calls["stuck-B"]
+    assert carrier.is_carrier
+    assert (carrier.t_end_ns - carrier.t_tx_ns) / SECOND_NS == 600.0
+    assert blockers(carrier) == sorted(f"c{n}" for n in range(28))
+    assert all(blockers(calls[f"c{n}"]) == ["stuck-B"] for n in range(28))
+    assert not calls["after"].overlapping
+
+
+@settings(deadline=None)
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(0.0, 60.0),
+            st.integers(1, 30),
+            st.sampled_from([118_000, 121_500]),
+            st.sampled_from(["A", "B"]),
+        ),
+        max_size=12,
+    )
+)
+def test_no_call_is_lost_none_comes_early_and_what_overlaps_began_together(plan):
+    planned = [
+        call(f"call{n}", at_s, who, khz, words=words)
+        for n, (at_s, words, khz, who) in enumerate(plan)
+    ]
+    calls = played(*planned)
+    assert set(calls) == {said.id for _, said in planned}
+    for at_s, said in planned:
+        assert calls[said.id].t_tx_ns >= seconds_to_ns(at_s)
+    for one, other in itertools.combinations(calls.values(), 2):
+        same = one.utterance.frequency_khz == other.utterance.frequency_khz
+        apart = one.t_end_ns <= other.t_tx_ns or other.t_end_ns <= one.t_tx_ns
+        assert (other in one.overlapping) == (same and not apart)
+        if other in one.overlapping:
+            assert one.utterance.speaker != other.utterance.speaker
+            assert abs(one.t_tx_ns - other.t_tx_ns) < seconds_to_ns(REACTION_S)

@@ -1,0 +1,365 @@
+"""What comes of calls: they are taken, repeated, read back, corrected, or lost."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Word
+from airhilt.radio.hearing import Heard, HearingModel
+from airhilt.radio.loop import MOST_REPEATS, REPEAT_AFTER_S, TRANSCRIPT_PATIENCE_S, RadioLoop
+from airhilt.radio.speech import Text
+from airhilt.radio.stations import Stations
+from airhilt.scenario import load
+from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.geometry import Setting, Site
+from airhilt.scenario.models import Scenario
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
+
+TOWER, KHZ = "Washington Centre", 134_325
+CLIMB = {"action": "altitude", "altitude_ft": 33000}
+
+
+def line(name, at_s, speaker, to, text, **more):
+    return {
+        "id": name, "at_s": at_s, "speaker": speaker, "to": to, "frequency_khz": KHZ,
+        "text": text, **more,
+    }  # fmt: skip
+
+
+CLEARANCE = line(
+    "clearance", 10, TOWER, "AAL123",
+    "American one two three, climb and maintain flight level three three zero.",
+    commands=[{"actor": "AAL123", "delay_s": 2.0, "command": CLIMB}],
+)  # fmt: skip
+READBACK = line(
+    "readback", 16, "AAL123", TOWER,
+    "Climb and maintain flight level three three zero, American one two three.",
+)  # fmt: skip
+
+
+class World:
+    """A radio with a director, and actors that only note what they are told to do."""
+
+    def __init__(self, *lines, failures=(), heard=None, **radio):
+        document = load("s02a_nominal").model_dump(mode="json")
+        document["radio"] |= {"lines": list(lines), **radio}
+        document |= {"failures": list(failures), "end_when": [], "conflict": None}
+        document["perturbations"] = []
+        self.scenario = Scenario.model_validate(document)
+        self.director = Director(Virtual())
+        self.published, self.done = [], []
+        high = Site(0.68, -1.34, altitude_m=33_000 * FOOT)
+        self.cast = {
+            actor.callsign: SimpleNamespace(
+                actor=actor,
+                category="aircraft",
+                bound_runway=None,
+                body=SimpleNamespace(ended=None, state=high),
+            )
+            for actor in self.scenario.actors
+        }
+        self.loop = RadioLoop(
+            self.director,
+            self.scenario,
+            as_it_happens(self.scenario),
+            Stations(self.cast, Setting.of(self.scenario), self.scenario.radio.lines),
+            Text(self.scenario.radio.words_per_minute, self.publish),
+            7,
+            set(),
+            once=self.once,
+            publish=self.publish,
+            do=self.do,
+            failed=lambda happening: None,
+            microphone_stuck=lambda actor, text: None,
+        )
+        if heard is not None:
+            self.loop._hearing = Scripted(heard)
+
+    def publish(self, key, message, *, raw=None):
+        self.published.append(message)
+        if isinstance(message, Transcript) and self.gives_transcripts:
+            self.loop.take(key, message, b"")
+
+    gives_transcripts = True
+
+    def once(self, condition, action):
+        del condition
+        self.director.at(self.director.now_ns, action, Priority.SCRIPT)
+
+    def do(self, callsign, command):
+        self.done.append((callsign, command, self.director.now_ns / SECOND_NS))
+
+    def run(self):
+        self.director.run()
+        return self
+
+    def said(self):
+        return [one.id for one in self.published if isinstance(one, SpokenTruth)]
+
+    def spoken(self, name):
+        return next(
+            one for one in self.published if isinstance(one, SpokenTruth) and one.id == name
+        )
+
+    def hearings(self, actor):
+        return [
+            (one.id, one.outcome)
+            for one in self.published
+            if isinstance(one, HearingTruth) and one.actor == actor
+        ]
+
+
+class Scripted(HearingModel):
+    """Hears each transmission as told, everything else well."""
+
+    def __init__(self, heard):
+        super().__init__(0)
+        object.__setattr__(self, "_heard", heard)
+
+    __slots__ = ("_heard",)
+
+    def listen(self, transmission, listener, text, snr_db):
+        return self._heard.get((transmission, listener), Heard("understood", text))
+
+
+MISSED, UNSURE = Heard("missed", ""), Heard("unsure", "...")
+
+
+def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay():
+    world = World(CLEARANCE, READBACK).run()
+    assert world.said() == ["clearance", "readback"]
+    ((callsign, command, at_s),) = world.done
+    assert (callsign, command.altitude_ft) == ("AAL123", 33_000)
+    assert at_s == pytest.approx(world.spoken("clearance").t_end_ns / SECOND_NS + 2.0)
+    assert world.hearings("AAL123") == [("clearance", "understood")]
+    assert world.spoken("readback").in_reply_to == "clearance"
+
+
+def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that():
+    world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): MISSED}).run()
+    assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
+    first, again = world.spoken("clearance"), world.spoken("clearance.repeat-1")
+    assert again.t_tx_ns - first.t_end_ns >= seconds_to_ns(REPEAT_AFTER_S)
+    assert [at_s for *_, at_s in world.done] == [again.t_end_ns / SECOND_NS + 2.0]
+    assert world.hearings("AAL123") == [
+        ("clearance", "missed"), ("clearance.repeat-1", "understood"),
+    ]  # fmt: skip
+
+
+def test_one_who_is_not_sure_asks_again():
+    world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): UNSURE}).run()
+    assert world.said() == [
+        "clearance", "clearance.say-again-1", "clearance.repeat-1", "readback",
+    ]  # fmt: skip
+    assert world.spoken("clearance.say-again-1").speaker == "AAL123"
+    assert world.spoken("clearance.say-again-1").in_reply_to == "clearance"
+    assert len(world.done) == 1
+
+
+def test_a_unit_asks_the_caller_by_his_callsign():
+    check = line("check", 2, "AAL123", TOWER, "Washington Center, American one two three.")
+    world = World(check, heard={("check", TOWER): UNSURE}).run()
+    assert world.said() == ["check", "check.say-again-1", "check.repeat-1"]
+    question = world.spoken("check.say-again-1")
+    assert (question.speaker, question.addressed) == (TOWER, "AAL123")
+    assert question.text == "American one twenty three, say again."
+
+
+def test_a_question_that_nobody_hears_does_not_end_the_matter():
+    heard = {("clearance", "AAL123"): UNSURE, ("clearance.say-again-1", TOWER): MISSED}
+    assert World(CLEARANCE, READBACK, heard=heard).run().said()[-2:] == [
+        "clearance.repeat-1", "readback",
+    ]  # fmt: skip
+
+
+def test_a_call_that_is_never_taken_is_given_up_and_nothing_follows_from_it():
+    names = ["clearance", *(f"clearance.repeat-{n + 1}" for n in range(MOST_REPEATS))]
+    world = World(CLEARANCE, READBACK, heard={(name, "AAL123"): MISSED for name in names}).run()
+    assert world.said() == names
+    assert world.done == []
+
+
+def test_what_a_failure_makes_deaf_nobody_notices():
+    failure = {"type": "not_received", "line": "clearance", "actor": "AAL123"}
+    world = World(CLEARANCE, READBACK, failures=[failure]).run()
+    assert world.said() == ["clearance"]
+    assert world.done == []
+    assert world.hearings("AAL123") == [("clearance", "missed")]
+
+
+def test_a_controller_who_checks_readbacks_notices_that_none_comes():
+    failure = {"type": "not_received", "line": "clearance", "actor": "AAL123"}
+    world = World(CLEARANCE, READBACK, failures=[failure], controller_checks_readbacks=True).run()
+    assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
+    assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
+
+
+def test_a_wrong_readback_stands_where_nobody_checks_it():
+    wrong = {
+        "type": "readback_wrong", "line": "readback", "text": WRONG,
+        "commands": [{"actor": "AAL123", "command": CLIMB | {"altitude_ft": 35000}}],
+    }  # fmt: skip
+    spoken = line("clearance", 10, TOWER, "AAL123", CLEARANCE["text"])
+    world = World(spoken, READBACK, failures=[wrong]).run()
+    assert world.said() == ["clearance", "readback"]
+    assert [command.altitude_ft for _, command, _ in world.done] == [35_000]
+
+
+WRONG = "Climb and maintain flight level three five zero, American one two three."
+
+
+def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_what_it_should():
+    wrong = {
+        "type": "readback_wrong", "line": "readback", "text": WRONG,
+        "commands": [
+            {"actor": "AAL123", "delay_s": 60, "command": CLIMB | {"altitude_ft": 35000}}
+        ],
+    }  # fmt: skip
+    right = {**READBACK, "commands": [{"actor": "AAL123", "command": CLIMB}]}
+    spoken = line("clearance", 10, TOWER, "AAL123", CLEARANCE["text"])
+    world = World(spoken, right, failures=[wrong], controller_checks_readbacks=True).run()
+    assert world.said() == [
+        "clearance", "readback", "readback.correction", "readback.correction.readback",
+    ]  # fmt: skip
+    assert "negative" in world.spoken("readback.correction").text
+    assert world.spoken("readback.correction.readback").text == READBACK["text"]
+    assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
+
+
+def test_a_right_readback_is_not_corrected():
+    world = World(CLEARANCE, READBACK, controller_checks_readbacks=True).run()
+    assert world.said() == ["clearance", "readback"]
+
+
+def test_a_crew_does_what_it_has_misheard_and_reads_that_back():
+    misheard = Heard("misheard", CLEARANCE["text"].replace("three three zero", "two three zero"))
+    world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): misheard}).run()
+    assert world.hearings("AAL123") == [("clearance", "misheard")]
+    assert [command.altitude_ft for _, command, _ in world.done] == [23_000]
+    assert "two three zero" in world.spoken("readback").text.lower().replace("tree", "three")
+
+
+def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it():
+    assert World(CLEARANCE).run().said() == ["clearance"]
+    world = World(CLEARANCE, readbacks="generated").run()
+    assert world.said() == ["clearance", "clearance.readback"]
+    assert world.spoken("clearance.readback").speaker == "AAL123"
+    assert World(CLEARANCE, READBACK, readbacks="generated").run().said() == [
+        "clearance", "readback",
+    ]  # fmt: skip
+
+
+def test_two_calls_at_once_are_understood_by_nobody_and_both_are_made_again():
+    other = line("request", 10.1, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = World(CLEARANCE, other).run()
+    assert world.spoken("clearance").blocked_by == ("request",)
+    assert world.spoken("request").blocked_by == ("clearance",)
+    assert set(world.said()) == {
+        "clearance", "request", "clearance.repeat-1", "request.repeat-1",
+    }  # fmt: skip
+    assert len(world.done) == 1
+    texts = [one.id for one in world.published if isinstance(one, Transcript)]
+    assert sorted(texts) == ["clearance.repeat-1", "request.repeat-1"]
+
+
+def test_a_line_that_does_not_listen_first_blocks_another():
+    over = line("over", 11, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = World(CLEARANCE, over, failures=[{"type": "blocked", "line": "over"}]).run()
+    assert world.spoken("clearance").blocked_by == ("over",)
+    assert "clearance.repeat-1" in world.said()
+
+
+def test_under_a_stuck_microphone_nothing_gets_through_and_then_it_does():
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    stuck = {"type": "stuck_microphone", "actor": "DAL456", "at_s": 9, "for_s": 10}
+    world = World(check, CLEARANCE, failures=[stuck]).run()
+    carrier = next(name for name in world.said() if name.startswith("stuck-microphone"))
+    assert world.spoken("clearance").blocked_by == (carrier,)
+    assert world.said()[-1] == "clearance.repeat-1"
+    assert len(world.done) == 1
+
+
+def test_below_the_squelch_nobody_hears_and_nothing_is_received():
+    world = World(CLEARANCE, snr_db=-20.0).run()
+    assert not any(isinstance(one, Transcript) for one in world.published)
+    assert {outcome for _, outcome in world.hearings("AAL123")} == {"missed"}
+
+
+def test_somebody_below_the_horizon_hears_nothing():
+    world = World(CLEARANCE)
+    far = Site(0.9, -1.34, altitude_m=3_000 * FOOT)
+    world.cast["AAL123"].body.state = far
+    world.run()
+    assert world.done == []
+    assert {outcome for _, outcome in world.hearings("AAL123")} == {"missed"}
+
+
+def test_an_aircraft_that_is_no_more_says_nothing():
+    world = World(CLEARANCE, READBACK)
+    world.cast["AAL123"].body.ended = "collision"
+    assert "readback" not in world.run().said()
+
+
+class Reading(World):
+    """Crews get the transcript, which comes when and as the test says."""
+
+    gives_transcripts = False
+
+    def transcribe(self, text, at_s, name="clearance", confidences=None):
+        words = tuple(
+            Word(text=word, confidence=one)
+            for word, one in zip(text.split(), confidences or [], strict=False)
+        )
+        transcript = Transcript(
+            id=name, frequency_khz=KHZ, t_tx_ns=0, t_end_ns=0, text=text, words=words,
+            confidence=1.0, engine="test",
+        )  # fmt: skip
+        self.director.at(
+            seconds_to_ns(at_s),
+            lambda: self.loop.take(f"asr/{KHZ}", transcript, b""),
+            Priority.RESULT,
+        )
+        return self
+
+
+def test_a_crew_that_reads_takes_a_call_when_its_transcript_comes():
+    world = Reading(CLEARANCE, READBACK, topology="asr_first")
+    world.transcribe(
+        "american one two three climb and maintain flight level three three zero", 20.0
+    )
+    world.run()
+    assert [at_s for *_, at_s in world.done] == [22.0]
+    assert world.spoken("readback").t_tx_ns >= 20 * SECOND_NS
+
+
+def test_a_crew_that_reads_does_what_it_reads():
+    world = Reading(CLEARANCE, READBACK, topology="asr_first")
+    world.transcribe("american one two three climb and maintain flight level two three zero", 20.0)
+    world.run()
+    assert [command.altitude_ft for _, command, _ in world.done] == [23_000]
+
+
+def test_a_crew_may_take_for_its_own_what_it_reads():
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = Reading(check, CLEARANCE, topology="asr_first")
+    world.transcribe("delta four five six climb and maintain flight level three three zero", 18.0)
+    world.run()
+    assert ("DAL456", 33_000) in [(who, command.altitude_ft) for who, command, _ in world.done]
+
+
+def test_without_a_transcript_a_crew_that_reads_misses_the_call():
+    world = Reading(CLEARANCE, topology="asr_first")
+    world.run()
+    assert world.hearings("AAL123")[0] == ("clearance", "missed")
+    first, again = world.spoken("clearance"), world.spoken("clearance.repeat-1")
+    assert again.t_tx_ns - first.t_end_ns >= seconds_to_ns(TRANSCRIPT_PATIENCE_S)
+
+
+@pytest.mark.parametrize("topology", ["parallel", "asr_first", "gated_fusion"])
+def test_with_text_and_no_noise_all_topologies_are_the_same(topology):
+    world = World(CLEARANCE, READBACK, topology=topology).run()
+    assert world.said() == ["clearance", "readback"]
+    assert len(world.done) == 1

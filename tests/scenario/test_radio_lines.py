@@ -1,0 +1,99 @@
+"""Radio lines in a scenario file: frequencies, answers, and what goes wrong on the air."""
+
+import copy
+import json
+
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt.errors import ScenarioError
+from airhilt.scenario import load, parse
+from airhilt.scenario.conversation import needed_lines
+from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.models import Failure
+
+DOCUMENT = load("s01a_nominal").model_dump(mode="json")
+FAILURES = TypeAdapter(tuple[Failure, ...])
+
+
+def changed(**lines):
+    """Return the nominal scenario with fields of some lines changed."""
+    document = copy.deepcopy(DOCUMENT)
+    for line in document["radio"]["lines"]:
+        line |= lines.get(line["id"], {})
+    return document
+
+
+def complaint(document):
+    with pytest.raises(ScenarioError) as caught:
+        parse(json.dumps(document), "test.json")
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("frequency_khz", [118_020, 137_000, 117_975])
+def test_a_frequency_is_a_channel(frequency_khz):
+    message = complaint(changed(clearance={"frequency_khz": frequency_khz}))
+    assert "radio/lines/0/frequency_khz" in message
+    assert f"{frequency_khz} kHz is no channel" in message
+
+
+def test_an_833_khz_channel_is_one():
+    document = changed(clearance={"frequency_khz": 118_005}, readback={"frequency_khz": 118_005})
+    assert parse(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
+
+
+def test_a_line_answers_one_before_it_on_its_frequency():
+    assert "did you mean 'takeoff'" in complaint(changed(takeoff_readback={"answers": "takoff"}))
+    assert "no line 'takeoff' before" in complaint(changed(clearance={"answers": "takeoff"}))
+    other = changed(takeoff_readback={"answers": "takeoff"}, takeoff={"frequency_khz": 121_500})
+    assert "121500 kHz" in complaint(other)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("snr_db", 100.0), ("snr_db", "loud"), ("topology", "serial"), ("readbacks", "none"),
+        ("words_per_minute", 5.0),
+    ],
+)  # fmt: skip
+def test_settings_of_the_radio_have_limits(field, value):
+    document = changed()
+    document["radio"][field] = value
+    assert f"radio/{field}" in complaint(document)
+
+
+def test_a_microphone_sticks_on_a_frequency():
+    document = changed()
+    document["actors"].append(
+        document["actors"][0] | {"callsign": "UAL7", "icao24": "abcdef", "on_roster": False}
+    )
+    document["failures"] = [{"type": "stuck_microphone", "actor": "UAL7", "at_s": 1, "for_s": 600}]
+    assert "'UAL7' is on no frequency" in complaint(document)
+    document["failures"][0]["actor"] = "UAL8"
+    assert "no actor 'UAL8'" in complaint(document)
+    document["failures"][0] |= {"actor": "AAL123", "for_s": 4000}
+    assert "failures/0/for_s" in complaint(document)
+
+
+def test_a_blocked_line_does_not_wait_for_the_frequency():
+    scenario = load("s01a_nominal")
+    failures = FAILURES.validate_python([{"type": "blocked", "line": "takeoff"}])
+    happening = as_it_happens(scenario.model_copy(update={"failures": failures}))
+    listens = {happens.declared.id: happens.listens_first for happens in happening}
+    assert listens.pop("takeoff") is False
+    assert all(listens.values())
+
+
+def test_a_readback_needs_the_call_that_it_reads_back():
+    needed = needed_lines(load("s01a_nominal"))
+    assert needed["readback"] == ("clearance",)
+    assert needed["takeoff_readback"] == ("takeoff",)
+    assert needed["clearance"] == ()
+
+
+def test_a_call_that_comes_of_a_report_needs_the_report():
+    assert needed_lines(load("s01c_deer_delayed_warning"))["go_around"] == ("report",)
+
+
+def test_a_readback_by_somebody_else_names_what_it_reads_back():
+    assert needed_lines(load("s01a_misaddressed"))["go_around_readback"] == ("go_around",)

@@ -1,0 +1,91 @@
+"""Local HTTP services that behave as tests want."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+Answer = Callable[[BaseHTTPRequestHandler, bytes], None]
+
+
+@contextmanager
+def service(answer: Answer) -> Iterator[str]:
+    """Yield the address of a service that answers POST requests so."""
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            body = self.rfile.read(int(self.headers["Content-Length"]))
+            try:
+                answer(self, body)
+            except (BrokenPipeError, ConnectionResetError):
+                self.close_connection = True
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    server.daemon_threads = True
+    thread = threading.Thread(target=server.serve_forever, args=(0.02,))
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}/speech"
+    finally:
+        server.shutdown()
+        thread.join()
+        server.server_close()
+
+
+def answering(data: bytes, status: int = 200, kind: str = "application/json") -> Answer:
+    """Return an answer with these bytes."""
+
+    def answer(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+        handler.send_response(status)
+        handler.send_header("Content-Type", kind)
+        handler.send_header("Content-Length", str(len(data)))
+        handler.end_headers()
+        handler.wfile.write(data)
+
+    return answer
+
+
+def endless(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+    """Answer without an end."""
+    handler.send_response(200)
+    handler.end_headers()
+    while True:
+        handler.wfile.write(b"x" * 65_536)
+
+
+def breaking_off(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+    """Promise more than there is."""
+    handler.send_response(200)
+    handler.send_header("Content-Length", "1000")
+    handler.end_headers()
+    handler.wfile.write(b'{"text": ')
+
+
+class Slow:
+    """Answers nothing, or a byte now and then, until it is released."""
+
+    def __init__(self, dripping: bool) -> None:
+        self.released = threading.Event()
+        self._dripping = dripping
+
+    def __call__(self, handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+        if self._dripping:
+            handler.send_response(200)
+            handler.end_headers()
+        while not self.released.wait(0.05):
+            if self._dripping:
+                handler.wfile.write(b" ")
+                handler.wfile.flush()
+
+
+def nobody() -> str:
+    """Return an address where nothing listens."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return f"http://127.0.0.1:{free.getsockname()[1]}/speech"

@@ -1,0 +1,163 @@
+"""Voices and recognisers behind an address, well and unwell."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+import time
+import wave
+from http.server import BaseHTTPRequestHandler
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from airhilt.errors import SpeechError
+from airhilt.radio.voices.engine import VoiceSpec
+from airhilt.radio.voices.http import HttpTts
+from airhilt.radio.voices.wav import decode_wav, encode_wav
+from airhilt.workers.asr.http import HttpAsr
+
+sys.path.insert(0, str(Path(__file__).parent))
+from services import Slow, answering, breaking_off, endless, nobody, service
+
+TONE = np.sin(np.arange(16_000) / 9).astype(np.float32) * np.float32(0.5)
+VOICE = VoiceSpec("AAL123", rate=1.1, pitch=0.9)
+
+
+def speak(url: str, timeout_s: float = 5.0) -> np.ndarray:
+    return HttpTts(url, timeout_s).synthesise("hello", VOICE)
+
+
+def hear(url: str, timeout_s: float = 5.0) -> str:
+    return HttpAsr(url, timeout_s).recognise(TONE, ["AAL123"]).text
+
+
+def stereo() -> bytes:
+    stream = io.BytesIO()
+    with wave.open(stream, "wb") as file:
+        file.setparams((2, 2, 16_000, 0, "NONE", ""))
+        file.writeframes(bytes(4_000))
+    return stream.getvalue()
+
+
+def test_a_voice_is_asked_for_a_text_and_gives_a_sound() -> None:
+    asked: list[dict[str, object]] = []
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        asked.append(json.loads(body))
+        answering(encode_wav(TONE), kind="audio/wav")(handler, body)
+
+    with service(answer) as url:
+        heard = speak(url)
+    assert asked == [{"text": "hello", "voice": "AAL123", "rate": 1.1, "pitch": 0.9}]
+    assert np.abs(heard - TONE).max() < 1e-4
+
+
+def test_a_recogniser_is_given_a_wav_and_gives_words() -> None:
+    given: list[np.ndarray] = []
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        given.append(decode_wav(body, "the request"))
+        words = [{"text": "Run", "confidence": 0.9}, {"text": "way", "confidence": 0.8},
+                 {"text": "1L.", "confidence": 0.7}]  # fmt: skip
+        answering(json.dumps({"text": "Run way 1L.", "words": words}).encode())(handler, body)
+
+    with service(answer) as url:
+        recognised = HttpAsr(url).recognise(TONE, [])
+    assert np.abs(given[0] - TONE).max() < 1e-4
+    assert recognised.text == "runway one left"
+    assert recognised.words == (("runway", 0.8), ("one", 0.7), ("left", 0.7))
+    assert recognised.confidence == pytest.approx((0.8 + 0.7 + 0.7) / 3)
+
+
+@pytest.mark.parametrize(
+    ("said", "confidence"), [({"text": "Hello."}, 1.0), ({"text": "hello", "confidence": 0.4}, 0.4)]
+)
+def test_a_recogniser_need_not_know_how_sure_it_is(
+    said: dict[str, object], confidence: float
+) -> None:
+    with service(answering(json.dumps(said).encode())) as url:
+        recognised = HttpAsr(url).recognise(TONE, [])
+    assert (recognised.text, recognised.words) == ("hello", ())
+    assert recognised.confidence == confidence
+
+
+def test_nothing_is_asked_about_no_audio() -> None:
+    assert HttpAsr(nobody()).recognise(TONE[:0], []).text == ""
+
+
+@pytest.mark.parametrize("use", [speak, hear])
+class TestServiceThat:
+    def test_is_down(self, use: object) -> None:
+        url = nobody()
+        with pytest.raises(SpeechError, match=f"{url} is not there: .*refused"):
+            use(url)  # type: ignore[operator]
+
+    def test_has_no_address(self, use: object) -> None:
+        for url in ("tower", "file:///etc/passwd", "http://", "http://[::1", "http://a:b/"):
+            with pytest.raises(SpeechError, match="is no address"):
+                use(url)  # type: ignore[operator]
+
+    @pytest.mark.parametrize("dripping", [False, True])
+    def test_is_slow(self, use: object, dripping: bool) -> None:
+        slow = Slow(dripping)
+        begun = time.monotonic()
+        with service(slow) as url:
+            with pytest.raises(SpeechError, match=r"has not answered for 0\.3 s"):
+                use(url, 0.3)  # type: ignore[operator]
+            slow.released.set()
+        assert time.monotonic() - begun < 3.0
+
+    def test_fails(self, use: object) -> None:
+        with (
+            service(answering(b"out of memory", 500)) as url,
+            pytest.raises(SpeechError, match="HTTP status 500: 'out of memory'"),
+        ):
+            use(url)  # type: ignore[operator]
+
+    def test_answers_without_an_end(self, use: object) -> None:
+        with service(endless) as url, pytest.raises(SpeechError, match=r"more than [0-9]+ bytes"):
+            use(url)  # type: ignore[operator]
+
+    def test_breaks_off(self, use: object) -> None:
+        with service(breaking_off) as url, pytest.raises(SpeechError, match="broke off"):
+            use(url)  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"", "no WAV file"),
+        (b'{"error": "no"}', "no WAV file"),
+        (encode_wav(TONE)[:1_000], "truncated"),
+        (stereo(), "2 channels"),
+    ],
+)
+def test_a_voice_that_answers_no_speech_is_refused(data: bytes, said: str) -> None:
+    with service(answering(data)) as url, pytest.raises(SpeechError) as refused:
+        speak(url)
+    assert url in str(refused.value)
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"hello",
+        b"[]",
+        b"{}",
+        b'{"text": 7}',
+        b'{"text": "a", "confidence": 1.5}',
+        b'{"text": "a", "confidence": NaN}',
+        b'{"text": "a", "words": [{"text": "a", "confidence": -1}]}',
+        b"\xff\xfe\x00",
+    ],
+)
+def test_a_recogniser_that_answers_nonsense_is_refused(data: bytes) -> None:
+    with service(answering(data)) as url, pytest.raises(SpeechError) as refused:
+        hear(url)
+    assert url in str(refused.value)
+    assert 'expected JSON such as {"text"' in str(refused.value)

@@ -1,0 +1,119 @@
+"""Makes the embedded recogniser's confidence mean what it says, and writes it into its card.
+
+    python tools/calibrate_asr.py build/asr/dev airhilt/workers/asr/model
+
+The calls of the folder (not those of training, nor those that scores are given of) go through the
+channel at many ratios. Two logistic curves are fitted by maximum likelihood (Platt, 1999): from
+the posterior of a word, and from the product of a call's, to how often they are right. Words
+below the threshold that costs least errors are left out of transcripts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import jiwer
+import numpy as np
+from eval_asr import spoken
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from airhilt.radio.channel import PROFILES, VhfChannel
+from airhilt.workers.asr.ctc import Ctc, best_path
+
+RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
+SILENT_CALLS = 200
+
+
+def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
+    """Return slope and offset of the logistic curve over log-odds."""
+    bounded = np.clip(posteriors, 1e-6, 1 - 1e-6)
+    log_odds = np.log(bounded / (1 - bounded))
+
+    def loss(parameters: NDArray[np.float64]) -> float:
+        z = parameters[0] * log_odds + parameters[1]
+        return float(np.mean(np.logaddexp(0.0, np.where(right, -z, z))))
+
+    slope, offset = minimize(loss, np.array([1.0, 0.0])).x
+    return {"slope": round(float(slope), 4), "offset": round(float(offset), 4)}
+
+
+def logistic(curve: dict[str, float], posteriors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the curve's values."""
+    bounded = np.clip(posteriors, 1e-6, 1 - 1e-6)
+    z = curve["slope"] * np.log(bounded / (1 - bounded)) + curve["offset"]
+    return np.asarray(1 / (1 + np.exp(-z)))
+
+
+def main() -> None:
+    """Fit and write."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("model", type=Path)
+    given = parser.parse_args()
+    engine = Ctc(given.model)
+    words = (given.model / "words.txt").read_text().split()
+    channel = VhfChannel(PROFILES["vhf"])
+    word_posteriors: list[float] = []
+    word_right: list[bool] = []
+    calls = []
+    utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
+    for index, each in enumerate(utterances):
+        for snr_db in RATIOS:
+            rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
+            heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
+            path = best_path(engine.posteriors(heard))
+            hypothesis = [words[unit - 1] for unit, _ in path]
+            posteriors = [posterior for _, posterior in path]
+            right = [False] * len(path)
+            if path:
+                aligned = jiwer.process_words(each.text, " ".join(hypothesis)).alignments[0]
+                for chunk in aligned:
+                    if chunk.type == "equal":
+                        for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
+                            right[at] = True
+            word_posteriors += posteriors
+            word_right += right
+            calls.append((each.text.split(), hypothesis, posteriors))
+    word_curve = fit(np.array(word_posteriors), np.array(word_right))
+    least, errors = best_threshold(word_curve, calls)
+    confidences, whole = [], []
+    for reference, hypothesis, posteriors in calls:
+        if not posteriors:
+            continue
+        trust = logistic(word_curve, np.array(posteriors))
+        kept = [word for word, t in zip(hypothesis, trust, strict=True) if t >= least]
+        confidences.append(float(np.prod(trust)))
+        whole.append(kept == reference)
+    card = json.loads((given.model / "card.json").read_text())
+    card["word_calibration"] = word_curve
+    card["call_calibration"] = fit(np.array(confidences), np.array(whole))
+    card["least_word_confidence"] = least
+    card["calibrated_on"] = {"calls": len(calls), "word_error_rate": round(errors, 4)}
+    (given.model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
+    print(json.dumps(card, indent=2))
+
+
+def best_threshold(
+    curve: dict[str, float], calls: list[tuple[list[str], list[str], list[float]]]
+) -> tuple[float, float]:
+    """Return the least confidence of a word that is kept, and the word error rate with it."""
+    rates = []
+    for least in np.arange(0.0, 0.55, 0.05):
+        kept = [
+            " ".join(
+                word
+                for word, trust in zip(hypothesis, logistic(curve, np.array(posteriors)), strict=True)
+                if trust >= least
+            )
+            for _, hypothesis, posteriors in calls
+        ]
+        rates.append((float(jiwer.wer([" ".join(r) for r, _, _ in calls], kept)), float(least)))
+    errors, least = min(rates)
+    return round(least, 2), errors
+
+
+if __name__ == "__main__":
+    main()

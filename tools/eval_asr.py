@@ -1,0 +1,154 @@
+"""Measures recognisers: word error rate and callsigns, by voice and by signal-to-noise ratio.
+
+    python tools/eval_asr.py build/asr/test --engine embedded
+    python tools/eval_asr.py build/asr/test --engine embedded --engine whisper:DIR --markdown
+
+The folder holds shards of `asr_speech`. Each utterance goes through the channel "vhf" with a noise
+of its own, the same for each engine. A callsign is right if the parser finds it among ten that are
+on the frequency. Confidence is compared with how often calls are wholly right.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import random
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import jiwer
+import numpy as np
+
+from airhilt.radio.channel import PROFILES, VhfChannel
+from airhilt.radio.phraseology import parse_call
+from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.workers.asr.engines import asr_engine
+
+RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
+SETS = {
+    "espeak": "seen voices",
+    "flite": "seen flite voices",
+    "espeak-unseen": "unseen voices",
+    "flite-unseen": "unseen engine (flite awb)",
+}
+
+
+@dataclass(frozen=True)
+class Spoken:
+    """One utterance of a test set."""
+
+    text: str
+    callsign: str | None
+    speech: Audio
+
+
+@dataclass
+class Score:
+    """What an engine made of a set at one ratio."""
+
+    references: list[str]
+    hypotheses: list[str]
+    confidences: list[float]
+    callsigns: list[bool]
+
+    @property
+    def word_error_rate(self) -> float:
+        """Share of words."""
+        return float(jiwer.wer(self.references, self.hypotheses))
+
+
+def spoken(path: Path) -> Iterator[Spoken]:
+    """Yield the utterances of a shard."""
+    samples = np.load(path.with_suffix(".npy"), mmap_mode="r")
+    at = 0
+    for line in path.read_text().splitlines():
+        about = json.loads(line)
+        speech = np.asarray(samples[at : at + about["samples"]], np.float32) / 32767.0
+        at += about["samples"]
+        yield Spoken(about["text"], about["callsign"], speech)
+
+
+def score(utterances: list[Spoken], engine_name: str, snr_db: float | None) -> tuple[Score, float]:
+    """Return the score of an engine, and its real-time factor (CPU)."""
+    engine = asr_engine(engine_name)
+    channel = VhfChannel(PROFILES["vhf"])
+    everybody = [each.callsign for each in utterances if each.callsign]
+    rng = random.Random(0)
+    result = Score([], [], [], [])
+    spent = heard_s = 0.0
+    for index, each in enumerate(utterances):
+        noise = np.random.default_rng([index, 1 if snr_db is None else int(snr_db) + 100])
+        audio = channel.transmit(each.speech, snr_db, noise, (), "cockpit")
+        begun = time.process_time()
+        recognised = engine.recognise(audio, ())
+        spent += time.process_time() - begun
+        heard_s += len(audio) / SAMPLE_RATE_HZ
+        result.references.append(each.text)
+        result.hypotheses.append(recognised.text)
+        result.confidences.append(recognised.confidence)
+        if each.callsign is not None:
+            roster = [each.callsign, *rng.sample(everybody, 9)]
+            result.callsigns.append(parse_call(recognised.text, roster).callsign == each.callsign)
+    return result, spent / heard_s
+
+
+def reliability(scores: list[Score]) -> list[tuple[str, int, float, float]]:
+    """Return confidence bins: label, calls, mean confidence, share that is wholly right."""
+    confidences = np.array([c for s in scores for c in s.confidences])
+    right = np.array(
+        [r == h for s in scores for r, h in zip(s.references, s.hypotheses, strict=True)]
+    )
+    rows = []
+    for low in np.arange(0.0, 1.0, 0.1):
+        chosen = (confidences >= low) & (confidences < low + 0.1 + (low > 0.85))
+        if chosen.any():
+            label = f"{low:.1f} to {low + 0.1:.1f}"
+            rows.append(
+                (label, int(chosen.sum()), float(confidences[chosen].mean()), float(right[chosen].mean()))
+            )
+    return rows
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--engine", action="append", required=True)
+    parser.add_argument("--limit", type=int, default=10_000, help="utterances a set")
+    parser.add_argument("--json", type=Path, help="write all numbers here too")
+    given = parser.parse_args()
+    numbers = []
+    for engine in given.engine:
+        print(f"\n### {engine}\n\n| WER % (callsigns right %) | " + " | ".join(
+            "clean" if snr is None else f"{snr:g} dB" for snr in RATIOS) + " |")  # fmt: skip
+        print("|---|" + "---|" * len(RATIOS))
+        scores: list[Score] = []
+        factors = []
+        for name, title in SETS.items():
+            utterances = [u for path in sorted(given.folder.glob(f"{name}-[0-9]*.jsonl")) for u in spoken(path)]
+            utterances = utterances[: given.limit]
+            if not utterances:
+                continue
+            cells = []
+            for snr in RATIOS:
+                got, factor = score(utterances, engine, snr)
+                scores.append(got)
+                factors.append(factor)
+                rate, right = 100 * got.word_error_rate, 100 * float(np.mean(got.callsigns))
+                numbers.append({"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right})
+                cells.append(f"{rate:.1f} ({right:.0f})")
+            print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
+            sys.stdout.flush()
+        print(f"\nReal-time factor {np.mean(factors):.4f}, one core.\n")
+        print("| confidence | calls | mean confidence | wholly right |\n|---|---|---|---|")
+        for label, count, mean, share in reliability(scores):
+            print(f"| {label} | {count} | {mean:.2f} | {share:.2f} |")
+    if given.json:
+        given.json.write_text(json.dumps(numbers, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
