@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from pydantic import ValidationError
 
@@ -28,7 +28,6 @@ from airhilt.bus.session import Bus
 from airhilt.commands import Command
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
 from airhilt.flight import Aircraft
-from airhilt.library import nearest
 from airhilt.messages import (
     ActorCommand,
     AdsbReport,
@@ -52,9 +51,12 @@ from airhilt.metrics.report import write_report
 from airhilt.metrics.runways import Incursion, RunwayMonitor
 from airhilt.metrics.summary import Summary
 from airhilt.radio.loop import RadioLoop
-from airhilt.radio.speech import Text
+from airhilt.radio.script import planned_ends_ns
+from airhilt.radio.sounds import sound_of
+from airhilt.radio.speech import Sound
 from airhilt.radio.stations import Stations
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
+from airhilt.record.audio import AudioRecorder
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import HappeningLine, as_it_happens
@@ -84,11 +86,8 @@ from airhilt.surveillance.sensor import AdsbSensor
 from airhilt.truth import minima_of, truth_of, zone_of
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import LocalWorker
-from airhilt.workers.decision import DecisionConfig, DecisionWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
-
-if TYPE_CHECKING:
-    pass
+from airhilt.workers.reference import AssistantName, reference_workers
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -103,11 +102,6 @@ SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 FOREIGN = "unregistered"
 """Publisher, in the log, of what an unregistered program put on the bus."""
 
-VOICE = "tts"
-"""Name of the worker that speaks advisories."""
-
-AssistantName = Literal["reference", "none", "external"]
-
 
 @dataclass(frozen=True)
 class Options:
@@ -117,7 +111,7 @@ class Options:
     out: Path | None = None
     overwrite: bool = False
     assistant: AssistantName | None = None
-    """None: ``reference``, or ``external`` where workers are attached."""
+    """None: ``reference``, or ``external`` where one of the attached programs may decide."""
     pace: str | None = None
     """None: ``virtual``, or ``realtime`` where an attached program takes no grants."""
     latency: str = "measured"
@@ -139,11 +133,6 @@ class Options:
     """Engine, as in the command line."""
     tts: str = "espeak"
     """Engine, as in the command line."""
-
-    @property
-    def assistant_name(self) -> AssistantName:
-        """The assistant, with the default filled in."""
-        return self.assistant or ("external" if self.attach else "reference")
 
 
 @dataclass(frozen=True)
@@ -227,13 +216,16 @@ def run(
     folder.require_free(options.overwrite)
     setting = Setting.of(realised)
     cast = build_cast(realised, setting, options.seed, TICK_S)
+    sound = sound_of(realised.radio, options.seed, options.tts if options.speech else None)
+    lines = as_it_happens(realised)
+    ends_ns = planned_ends_ns(lines, sound)
     with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
-        participants, programs = _participants(options, realised, bus, observer, recorded)
-        if programs and options.pace is None and not recorded.programs:
+        team = _team(options, realised, bus, observer, recorded)
+        if team.programs and options.pace is None and not recorded.programs:
             pace = RealTime()
         folder.create(options.overwrite)
-        info = _info(name, scenario, realised, draws, options, pace, latency, participants, bus)
+        info = _info(name, scenario, realised, draws, options, pace, latency, team, bus)
         folder.write_info(info)
         simulation = Simulation(
             realised,
@@ -242,8 +234,10 @@ def run(
             bus,
             folder,
             cast,
-            participants,
-            programs,
+            sound,
+            lines,
+            ends_ns,
+            team,
             latency,
             pace,
             observer,
@@ -283,7 +277,6 @@ def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
         "topology": options.topology,
     }
     changes = {name: value for name, value in given.items() if value is not None}
-    _require_profile(options.radio_profile)
     if not changes:
         return scenario
     try:
@@ -291,17 +284,6 @@ def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
     except ValidationError as error:
         raise AirhiltError(f"radio: {first_problem(error)}") from None
     return scenario.model_copy(update={"radio": radio})
-
-
-def _require_profile(name: str | None) -> None:
-    """Check that a profile of the radio channel exists, or is a file with a learned one."""
-    if name is None or name.endswith(".onnx"):
-        return
-    # Not at the top: most runs name none, and start without the libraries behind it.
-    from airhilt.radio.channel import PROFILES
-
-    if name not in PROFILES:
-        raise AirhiltError(f"no radio profile {name!r}{nearest(name, list(PROFILES))}")
 
 
 def _default_folder(name: str) -> Path:
@@ -313,10 +295,24 @@ def _default_folder(name: str) -> Path:
     return path
 
 
-def _participants(
+@dataclass(frozen=True)
+class Team:
+    """Who takes part in a run besides the actors."""
+
+    assistant: AssistantName
+    participants: tuple[Participant, ...]
+    """The workers that take grants."""
+    programs: tuple[str, ...]
+    """Names of attached programs that take none."""
+
+    def does(self, modality: Modality) -> bool:
+        """Return whether a worker is there for something."""
+        return any(one.description.modality == modality for one in self.participants)
+
+
+def _team(
     options: Options, scenario: Scenario, bus: Bus, observer: Observer, recorded: Recorded
-) -> tuple[list[Participant], list[str]]:
-    """Return the workers that take grants, and the names of attached programs that take none."""
+) -> Team:
     participants = list(recorded.workers)
     names = [name for name in options.attach if not recorded.workers]
     attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice)
@@ -325,13 +321,15 @@ def _participants(
         for worker, description in attached
         if description is not None
     ]
-    taken = {participant.description.modality for participant in participants}
-    if options.assistant_name == "reference" and "decision" not in taken:
-        is_gated = scenario.radio.topology == "gated_fusion"
-        worker = DecisionWorker(DecisionConfig(is_gated=is_gated))
-        participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
     programs = [worker.name for worker, description in attached if description is None]
-    return participants, programs or list(recorded.programs)
+    programs = programs or list(recorded.programs)
+    taken = {participant.description.modality for participant in participants}
+    may_decide = "decision" in taken or bool(programs)
+    assistant = options.assistant or ("external" if may_decide else "reference")
+    engines = (options.asr, options.tts) if options.speech else (None, None)
+    for worker in reference_workers(assistant, scenario.radio.topology, taken, *engines):
+        participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
+    return Team(assistant, tuple(participants), tuple(programs))
 
 
 def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
@@ -347,14 +345,14 @@ def _info(
     options: Options,
     pace: Pace,
     latency: LatencySpec,
-    participants: Sequence[Participant],
+    team: Team,
     bus: Bus,
 ) -> RunInfo:
     return RunInfo(
         run=name,
         options=RunOptions(
             seed=options.seed,
-            assistant=options.assistant_name,
+            assistant=team.assistant,
             pace=pace.name,
             latency=latency.text,
             attached=options.attach,
@@ -375,7 +373,7 @@ def _info(
                 description=participant.description,
                 where="attached" if participant.attached else "in process",
             )
-            for participant in participants
+            for participant in team.participants
         ],
         endpoint=bus.endpoint,
         started_at=datetime.now(UTC).isoformat(timespec="seconds"),
@@ -395,8 +393,10 @@ class Simulation:
         bus: Bus,
         folder: RunFolder,
         cast: dict[str, Performer],
-        participants: Sequence[Participant],
-        programs: Sequence[str],
+        sound: Sound,
+        lines: Sequence[HappeningLine],
+        ends_ns: Mapping[str, int],
+        team: Team,
         latency: LatencySpec,
         pace: Pace,
         observer: Observer,
@@ -415,10 +415,9 @@ class Simulation:
         self._phase: Phase = "running"
         self._ticked_ns = 0
         self._heard_unregistered = False
-        self._programs = set(programs)
-        self._has_decision = bool(programs) or any(
-            participant.description.modality == "decision" for participant in participants
-        )
+        self._team = team
+        self._programs = set(team.programs)
+        self._has_decision = bool(team.programs) or team.does("decision")
         self._ended_lines: set[str] = set()
 
         self._cues = Cues()
@@ -449,13 +448,12 @@ class Simulation:
         compiled = self._conditions.compile
         self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
         self._ends = [compiled(condition) for condition in scenario.end_when]
-        lines = as_it_happens(scenario)
         self._radio = RadioLoop(
             self._director,
             scenario,
             lines,
             Stations(cast, setting, scenario.radio.lines),
-            Text(scenario.radio.words_per_minute, self._exchange.publish),
+            sound,
             options.seed,
             self._ended_lines,
             once=self._once,
@@ -464,22 +462,21 @@ class Simulation:
             failed=self._failed,
             microphone_stuck=partial(self._event, "failure"),
         )
-        plans = Plans(lines, scenario.radio.words_per_minute)
+        plans = Plans(lines, ends_ns)
         self._collector = Collector(scenario, setting.ground_m, self._monitor, self._runways, plans)
         self._pool = WorkerPool(
             self._director,
-            participants,
+            team.participants,
             latency,
             options.seed,
             publish=self._exchange.publish,
             done=self._worker_done,
             lost=lambda worker, cause: self._lose(worker.name, worker.modality, cause),
         )
+        self._exchange.listen(AudioRecorder(folder.audio_path).take)
         self._exchange.listen(self._collector.take)
         self._exchange.listen(self._pool.offer)
-        self._advised = Advised(
-            self._director, cast, self._event, is_voiced=_is_voiced(options, participants)
-        )
+        self._advised = Advised(self._director, cast, self._event, is_voiced=team.does("voice"))
         self._exchange.listen(self._radio.take)
         self._exchange.listen(self._advised.take)
         self._sensor = AdsbSensor(
@@ -495,7 +492,7 @@ class Simulation:
         )
         self._schedule_world()
         self._schedule_occurrences()
-        self._serve_bus(participants)
+        self._serve_bus()
 
     # --- the run ----------------------------------------------------------------------------
 
@@ -550,7 +547,7 @@ class Simulation:
         return self._collector.summary(
             {
                 "seed": self._options.seed,
-                "assistant": self._options.assistant_name,
+                "assistant": self._team.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
@@ -736,7 +733,7 @@ class Simulation:
 
     def _lose(self, name: str, modality: Modality, cause: str) -> None:
         now_ns = self._director.now_ns
-        if name == VOICE:
+        if modality == "voice":
             self._advised.voice_lost()
         self._latency_log.lost(name, now_ns, cause)
         self._set_modality(modality, "lost", cause)
@@ -748,9 +745,11 @@ class Simulation:
                 "without --strict to go on without it"
             )
 
-    def _serve_bus(self, participants: Sequence[Participant]) -> None:
+    def _serve_bus(self) -> None:
         """Notice workers that go, and hear what other programs publish by themselves."""
-        attached = {p.description.name for p in participants if p.attached} | self._programs
+        attached = {
+            p.description.name for p in self._team.participants if p.attached
+        } | self._programs
 
         def changed(name: str, alive: bool) -> None:
             if not alive and name in attached:
@@ -832,7 +831,8 @@ class Simulation:
         )
         self._set_modality("adsb", "on" if equipped else "off")
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
-        self._set_modality("speech", "not evaluated" if options.speech else "off")
+        self._set_modality("speech", "on" if self._team.does("speech") else "off")
+        self._set_modality("voice", "on" if self._team.does("voice") else "off")
         has_vision = options.cameras and bool(scenario.cameras)
         self._set_modality("vision", "not evaluated" if has_vision else "off")
         self._set_modality("decision", "on" if self._has_decision else "off")
@@ -868,13 +868,6 @@ class Simulation:
                 self._collector.last_advisory,
             )
         )
-
-
-def _is_voiced(options: Options, participants: Sequence[Participant]) -> bool:
-    """Return whether a worker speaks advisories."""
-    return options.speech and any(
-        participant.description.name == VOICE for participant in participants
-    )
 
 
 def _cause(failure: BaseException | None) -> str:

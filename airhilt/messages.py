@@ -57,7 +57,7 @@ class Clock(Message):
     pace: str
 
 
-Modality = Literal["adsb", "radio", "speech", "vision", "decision"]
+Modality = Literal["adsb", "radio", "speech", "voice", "vision", "decision"]
 ModalityState = Literal["on", "off", "lost", "not evaluated"]
 
 
@@ -280,7 +280,7 @@ class Advisory(Message):
     ``active`` false when the conflict is over.
     """
 
-    id: str
+    id: str = Field(pattern=r"^[A-Za-z0-9_.-]{1,80}$")
     revision: int = Field(ge=0)
     recipient: str = Field(
         pattern=r"^[A-Za-z0-9_-]{1,20}$",

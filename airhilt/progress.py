@@ -13,7 +13,7 @@ from rich.text import Text
 
 from airhilt.cosim import Observer, Snapshot
 from airhilt.messages import Advisory, Severity
-from airhilt.metrics.summary import LatencyStatistics, Summary
+from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0
@@ -155,6 +155,8 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         *_incursion_rows(summary),
         ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
         ("nuisance alerts", str(summary.nuisance_alerts)),
+        ("radio", _radio(summary.radio)),
+        *_recognition_rows(summary),
         ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
     ]
     rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
@@ -180,6 +182,41 @@ def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:
             )
         )
     return rows
+
+
+def _radio(radio: RadioStatistics) -> str:
+    """Return how many transmissions there were, and what was wrong with them."""
+    wrong = {
+        "blocked": radio.blocked,
+        "carrier only": radio.stuck_microphone,
+        "repeated": radio.repeats,
+        "to say again": radio.say_agains,
+        "misheard": radio.hearing.get("misheard", 0),
+        "missed": radio.hearing.get("missed", 0),
+        "without a transcript": radio.transcripts_missing or 0,
+        "words of noise alone": radio.hallucinated or 0,
+    }
+    counts = [f"{count} {what}" for what, count in wrong.items() if count]
+    return ", ".join([f"{radio.transmissions} transmissions", *counts])
+
+
+def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row on speech recognition, if there was any."""
+    radio, after_end = summary.radio, summary.latencies["asr_after_end"]
+    if radio.wer is None:
+        return []
+    parts = [
+        f"word error rate {_percent(radio.wer)}",
+        f"callsigns {_percent(radio.callsign_accuracy)}",
+        f"slots {_percent(radio.slot_accuracy)}",
+    ]
+    if after_end.p95_s is not None:
+        parts.append(f"p95 {_latency(after_end.p95_s)} after the end")
+    return [("recognition", ", ".join(parts))]
+
+
+def _percent(share: float | None) -> str:
+    return "-" if share is None else f"{100.0 * share:.1f} %"
 
 
 def _latency_table(summary: Summary) -> Table:

@@ -175,7 +175,12 @@ class Mixer:
             log = self._warped(log)
         power = np.exp(log)
         kind = rng.random()
-        snr_db = rng.uniform(15, 35) if easy else rng.uniform(-4, 14) if kind < 0.6 else rng.uniform(14, 40)
+        if easy:
+            snr_db = rng.uniform(15, 35)
+        elif kind < 0.55:
+            snr_db = rng.uniform(-4, 14)
+        else:
+            snr_db = rng.uniform(14, 40) if kind < 0.9 else np.inf
         noise = self._bank[rng.integers(len(self._bank))]
         start = rng.integers(0, len(noise) - 1)
         noise = np.take(noise, np.arange(start, start + len(power)), axis=0, mode="wrap")
@@ -227,9 +232,9 @@ class Mixer:
 # --- training ------------------------------------------------------------------------------
 
 
-def train(folder: Path, minutes: float, rate: float) -> None:
+def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
     """Train until the time is up; write a checkpoint every few minutes."""
-    torch.set_num_threads(1)
+    torch.set_num_threads(threads)
     torch.manual_seed(0)
     words = vocabulary()
     index = {word: number for number, word in enumerate(words)}
@@ -355,6 +360,7 @@ def main() -> None:
     two.add_argument("folder", type=Path)
     two.add_argument("--minutes", type=float, default=90.0)
     two.add_argument("--rate", type=float, default=1.5e-3)
+    two.add_argument("--threads", type=int, default=1)
     three = commands.add_parser("export", help="write the ONNX file")
     three.add_argument("folder", type=Path)
     three.add_argument("target", type=Path)
@@ -363,7 +369,7 @@ def main() -> None:
         case "prepare":
             prepare(given.folder)
         case "train":
-            train(given.folder, given.minutes, given.rate)
+            train(given.folder, given.minutes, given.rate, given.threads)
         case "export":
             export(given.folder, given.target)
 

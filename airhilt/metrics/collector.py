@@ -10,12 +10,15 @@ from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
     Advisory,
+    AdvisoryAudio,
     Message,
     Modality,
     ModalityState,
     Severity,
+    Status,
     Transcript,
 )
+from airhilt.metrics.calls import TEXT, RadioCalls
 from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.runways import IncursionCategory, RunwayMonitor
@@ -27,7 +30,7 @@ from airhilt.metrics.summary import (
     ToldAdvisory,
     severest,
 )
-from airhilt.scenario.models import Scenario, WildlifeActor
+from airhilt.scenario.models import AircraftActor, Scenario, VehicleActor, WildlifeActor
 from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import SECOND_NS
@@ -50,7 +53,7 @@ class _Told:
     """Whether its traffic was going to, when it was told."""
     severities: list[Severity] = field(default_factory=list)
     revisions: set[int] = field(default_factory=set)
-    first_warning_ns: int | None = None
+    spoken_ns: int | None = None
 
 
 @dataclass
@@ -96,7 +99,12 @@ class Collector:
             if not isinstance(actor, WildlifeActor)
         }
         self._told: dict[str, _Told] = {}
-        self._latencies_s: dict[str, list[float]] = {"adsb": [], "asr": [], "decision": []}
+        self._calls = RadioCalls()
+        self._latencies_s: dict[str, list[float]] = {
+            stage: [] for stage in ("adsb", "asr", "asr_after_end", "decision", "tts")
+        }
+        self._unspoken: set[tuple[str, str, int]] = set()
+        """Warnings of the conflict that wait for their voice, by id, recipient and revision."""
         self._first_warning_ns: int | None = None
         self._projection: tcas.Projection | None = None
 
@@ -104,11 +112,21 @@ class Collector:
         """Take in a published message."""
         match message:
             case AdsbReport(t_adsb_in_ns=begin, t_adsb_out_ns=end):
-                self._latencies_s["adsb"].append((end - begin) / SECOND_NS)
-            case Transcript(t_tx_ns=begin, t_ns=end, engine=engine) if engine != "text":
-                self._latencies_s["asr"].append((end - begin) / SECOND_NS)
+                self._late("adsb", begin, end)
             case Advisory():
                 self._take_advisory(message)
+            case AdvisoryAudio():
+                self._take_voice(message)
+            case Status(modality="voice", state="lost", t_ns=now_ns) if self._unspoken:
+                self._warned(now_ns)
+            case Transcript(t_tx_ns=begin, t_end_ns=said, t_ns=end, engine=engine):
+                if engine != TEXT:
+                    self._late("asr", begin, end)
+                    self._late("asr_after_end", said, end)
+        self._calls.take(message)
+
+    def _late(self, stage: str, begin_ns: int, end_ns: int) -> None:
+        self._latencies_s[stage].append((end_ns - begin_ns) / SECOND_NS)
 
     def step(self, record: StepRecord) -> None:
         """Take in a finished step of a worker."""
@@ -123,8 +141,7 @@ class Collector:
         if advisory.revision not in told.revisions:
             told.revisions.add(advisory.revision)
             told.severities.append(advisory.severity)
-            latency_ns = advisory.t_ns - advisory.t_ready_ns
-            self._latencies_s["decision"].append(latency_ns / SECOND_NS)
+            self._late("decision", advisory.t_ready_ns, advisory.t_ns)
         if not advisory.active:
             return
         self.last_advisory = advisory
@@ -134,10 +151,28 @@ class Collector:
             and self._reaches_somebody(advisory)
             and self._concerns_conflict(advisory)
         ):
-            self._first_warning_ns = advisory.t_ns
-            pair = self._pair
-            if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
-                self._projection = self._project(pair, advisory.t_ns)
+            if self.modalities.get("voice") == "on":
+                self._unspoken.add((advisory.id, advisory.recipient, advisory.revision))
+            else:
+                self._warned(advisory.t_ns)
+
+    def _take_voice(self, audio: AdvisoryAudio) -> None:
+        self._late("tts", audio.t_dec_ns, audio.t_ns)
+        told = self._told.get(audio.id)
+        if told is not None and told.spoken_ns is None:
+            told.spoken_ns = audio.t_ns
+        if (audio.id, audio.recipient, audio.revision) in self._unspoken:
+            self._warned(audio.t_ns)
+
+    def _warned(self, now_ns: int) -> None:
+        """Take note of the first warning of the conflict; without a voice it is read."""
+        self._unspoken.clear()
+        if self._first_warning_ns is not None:
+            return
+        self._first_warning_ns = now_ns
+        pair = self._pair
+        if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
+            self._projection = self._project(pair, now_ns)
 
     def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
         """Return when TCAS II would speak, had nobody been warned: by what the script plans."""
@@ -236,12 +271,17 @@ class Collector:
                     kind=told.advisory.kind,
                     traffic=self._traffic(told.advisory),
                     t_first_s=told.advisory.t_ns / SECOND_NS,
+                    t_spoken_s=_seconds(told.spoken_ns),
                     severity=severest(told.severities),
                     revisions=len(told.revisions),
                     nuisance=self._is_nuisance(told),
                 )
                 for told in self._told.values()
             ],
+            radio=self._calls.statistics(
+                roster_of(self._scenario),
+                is_recognised=self.modalities.get("speech") in ("on", "lost"),
+            ),
             latencies={
                 stage: LatencyStatistics.of(samples) for stage, samples in self._latencies_s.items()
             },
@@ -314,6 +354,15 @@ class Collector:
 def _severest_category(incursions: list[RunwayIncursion]) -> IncursionCategory | None:
     categories = [incursion.category for incursion in incursions]
     return min(categories, key=SEVEREST_FIRST.index, default=None)
+
+
+def roster_of(scenario: Scenario) -> tuple[str, ...]:
+    """Return the callsigns that the briefing has on its roster."""
+    return tuple(
+        actor.callsign
+        for actor in scenario.actors
+        if isinstance(actor, VehicleActor) or (isinstance(actor, AircraftActor) and actor.on_roster)
+    )
 
 
 def pair_of(scenario: Scenario) -> Pair | None:

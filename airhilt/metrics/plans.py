@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import bisect
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from airhilt.commands import AltitudeCommand
-from airhilt.radio.script import planned_end_ns
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.kinematics import VerticalProfile
@@ -20,15 +19,15 @@ DEFAULT_RATE_M_S = 1500 * FOOT_PER_MINUTE
 class Plans:
     """Altitude commands of the script, and when each is, or was, carried out.
 
-    Until a line has ended, its end is where it would be if the frequency were free.
+    Until a line has ended, its end is where it would be if the frequency were free: ``ends_ns``,
+    by the line's id.
     """
 
-    def __init__(self, lines: Sequence[HappeningLine], words_per_minute: float) -> None:
+    def __init__(self, lines: Sequence[HappeningLine], ends_ns: Mapping[str, int]) -> None:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
         for happening in lines:
-            end_ns = planned_end_ns(happening, words_per_minute)
             for scripted in happening.line.commands if happening.line else ():
-                self._plan(end_ns, scripted)
+                self._plan(ends_ns[happening.declared.id], scripted)
 
     def _plan(self, end_ns: int, scripted: ScriptedCommand) -> None:
         if isinstance(scripted.command, AltitudeCommand):

@@ -19,10 +19,22 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.errors import AirhiltError, RunFolderError, first_problem
 from airhilt.flight import load_aircraft_type
+from airhilt.messages import (
+    AdvisoryAudio,
+    HearingTruth,
+    Message,
+    SpokenTruth,
+    Transcript,
+    Transmission,
+)
+from airhilt.metrics.calls import RadioCall, RadioCalls
 from airhilt.metrics.lanes import Approach, PhaseLane, RunwayLane, Spell, Spells
+from airhilt.metrics.sounds import Sounds
 from airhilt.metrics.summary import ClosestApproach, Summary
+from airhilt.metrics.words import align
+from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
 from airhilt.surface.kinds import load_kind
 from airhilt.surface.mover import Size
@@ -42,6 +54,8 @@ MOST_POINTS_OF_ALL = 15_000
 """Of all tracks together; they share it, so that the file stays below a megabyte."""
 FEWEST_POINTS = 40
 MOST_EVENTS = 1500
+MOST_CALLS = 500
+"""In the table of the radio, and as many spoken advisories."""
 MOST_CHARACTERS = 400
 """Of one text; a worker may write as much as it likes."""
 BINS_PER_DECADE = 8
@@ -72,7 +86,7 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
         There is no run, its ``run.json`` is damaged, or the page cannot be written.
     """
     folder = RunFolder.open(run_folder)
-    html = _page(_reduce(folder))
+    html = _page(_reduce(folder, out or folder.report_path))
     if out is None:
         folder.write_report(html)
         return folder.report_path
@@ -94,7 +108,7 @@ def _embeddable(data: Json) -> str:
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def _reduce(folder: RunFolder) -> Json:
+def _reduce(folder: RunFolder, page: Path) -> Json:
     """Return everything that the page shows."""
     info = folder.info()
     notes: list[str] = []
@@ -143,6 +157,7 @@ def _reduce(folder: RunFolder) -> Json:
             {"callsign": actor, "spells": [_spell(spell) for spell in lane.spells()]}
             for actor, lane in log.phases.items()
         ],
+        "radio": _radio(log, Sounds(folder.audio_path, page), notes),
         "runways": [_runway(lane, log.end_ns, ground, tracks) for lane in log.runways.values()],
         "events": [_with_line(event, info) for event in log.events],
         "latencies": _latencies(folder, notes),
@@ -254,6 +269,11 @@ def _read(folder: RunFolder, points_a_track: int, notes: list[str]) -> _Log:
             log.take(logged)
     except RunFolderError as error:
         notes.append(f"The log cannot be read, so there is nothing to draw: {_cut(str(error))}")
+    except ValidationError as error:
+        notes.append(
+            f"The log is not as this version writes it ({error.title}: {first_problem(error)}), "
+            "and shown up to there."
+        )
     return log
 
 
@@ -325,6 +345,8 @@ class _Log:
         self.runways: dict[str, RunwayLane] = {}
         self.events: list[Json] = []
         self.events_left_out = 0
+        self.calls = RadioCalls()
+        self.voices: list[AdvisoryAudio] = []
         self.end_ns = 0
         self.ended = False
         """Whether the run said that it was over."""
@@ -334,7 +356,15 @@ class _Log:
         """Take in one message."""
         self.end_ns = max(self.end_ns, logged.t_ns)
         family, _, rest = logged.key.partition("/")
-        if family in ("adsb", "radio"):
+        if family == "adsb":
+            return
+        if family == "tts":
+            self.voices.append(AdvisoryAudio.model_validate_json(logged.data))
+            return
+        model = _message_on_radio(family, rest)
+        if model is not None:
+            self.calls.take(model.model_validate_json(logged.data))
+        if family == "radio":
             return
         if rest.startswith("state/"):
             actor = rest.removeprefix("state/")
@@ -354,6 +384,17 @@ class _Log:
             self.events.append(event)
         else:
             self.events_left_out += 1
+
+
+def _message_on_radio(family: str, rest: str) -> type[Message] | None:
+    """Return which message a key has, if it is about a call."""
+    if family == "radio":
+        return Transmission
+    if family == "asr":
+        return Transcript
+    if rest.startswith("radio/"):
+        return SpokenTruth
+    return HearingTruth if rest.startswith("hearing/") else None
 
 
 def _event(family: str, rest: str, logged: Logged) -> Json | None:
@@ -653,6 +694,84 @@ def _crossed_s(
     except AirhiltError:  # The airport's file has changed since.
         return None
     return None if crossed is None else round(crossed, 2)
+
+
+# --- the radio ------------------------------------------------------------------------------
+
+
+def _radio(log: _Log, sounds: Sounds, notes: list[str]) -> Json:
+    """Return the calls and the spoken advisories, in the order in which they began."""
+    calls = [(call, said) for call in log.calls if (said := call.said) is not None]
+    calls.sort(key=lambda call: (call[1].t_tx_ns, call[1].id))
+    radio = {
+        "calls": [_radio_call(call, said, sounds) for call, said in calls[:MOST_CALLS]],
+        "voices": [_voice(voice, sounds) for voice in log.voices[:MOST_CALLS]],
+    }
+    left_out = max(len(calls) - MOST_CALLS, 0) + max(len(log.voices) - MOST_CALLS, 0)
+    if left_out:
+        notes.append(
+            f"The radio shows the first {MOST_CALLS} calls and voices; {left_out} later ones are "
+            "in log.mcap only."
+        )
+    if sounds.linked:
+        notes.append(
+            f"There was no room in this file for the sound of {sounds.linked} calls and "
+            "advisories: they are links to the audio folder of the run."
+        )
+    if sounds.missing:
+        notes.append(
+            f"The sound of {sounds.missing} calls and advisories is missing in the audio folder, "
+            "or is not that of this run."
+        )
+    return radio
+
+
+def _radio_call(call: RadioCall, said: SpokenTruth, sounds: Sounds) -> Json:
+    return {
+        "id": _cut(said.id),
+        "from": round(said.t_tx_ns / SECOND_NS, 3),
+        "to": round(said.t_end_ns / SECOND_NS, 3),
+        "frequency_khz": said.frequency_khz,
+        "who": _cut(said.speaker),
+        "addressed": None if said.addressed is None else _cut(said.addressed),
+        "said": _cut(said.text),
+        "blocked_by": [_cut(name) for name in said.blocked_by],
+        "snr_db": said.snr_db,
+        "received": call.received is not None,
+        "transcripts": [_transcript(transcript, said) for transcript in call.recognised],
+        "hearings": [
+            {"who": _cut(one.actor), "outcome": one.outcome, "text": _cut(one.text)}
+            for one in call.hearings
+        ],
+        "sound": None if call.received is None else sounds.of(call.received),
+    }
+
+
+def _transcript(transcript: Transcript, said: SpokenTruth) -> Json:
+    """Return what was recognised, beside what was said."""
+    return {
+        "engine": _cut(transcript.engine),
+        "confidence": transcript.confidence,
+        "after_end_s": (transcript.t_ns - said.t_end_ns) / SECOND_NS,
+        "words": [
+            {"kind": one.kind, "said": " ".join(one.said), "heard": " ".join(one.heard)}
+            for one in align(_cut(said.text), _cut(transcript.text))
+        ],
+    }
+
+
+def _voice(voice: AdvisoryAudio, sounds: Sounds) -> Json:
+    return {
+        "id": _cut(voice.id),
+        "revision": voice.revision,
+        "from": round(voice.t_ns / SECOND_NS, 3),
+        "to": round(voice.t_ns / SECOND_NS + voice.samples / SAMPLE_RATE_HZ, 3),
+        "recipient": _cut(voice.recipient),
+        "said": _cut(voice.text),
+        "engine": _cut(voice.engine),
+        "after_decision_s": (voice.t_ns - voice.t_dec_ns) / SECOND_NS,
+        "sound": sounds.of(voice),
+    }
 
 
 # --- latencies ------------------------------------------------------------------------------

@@ -60,9 +60,52 @@ class ToldAdvisory(BaseModel):
     kind: str
     traffic: tuple[str, ...]
     t_first_s: float
+    t_spoken_s: float | None = Field(description="its voice began to be heard; null: it never was")
     severity: Severity = Field(description="the highest that was reached")
     revisions: int
     nuisance: bool
+
+
+class RecognitionStatistics(BaseModel):
+    """How well calls were recognised that were spoken and not blocked."""
+
+    model_config = ConfigDict(frozen=True)
+    snr_db: float | None = Field(
+        description="of these calls; null: without noise, or not the same for all"
+    )
+    calls: int = Field(description="transcripts that were compared with what was said")
+    words: int = Field(description="that were said in these calls")
+    wer: float | None = Field(
+        description="word error rate: words that are wrong, left out or too many, over those said"
+    )
+    callsign_accuracy: float | None = Field(
+        description="share of the calls naming a callsign of the roster whose transcript names it"
+    )
+    slot_accuracy: float | None = Field(
+        description="share of the slots said (action, runway, altitude, heading, speed, frequency, "
+        "point to hold short of) that the transcript has with the same value"
+    )
+    false_slots: int | None = Field(description="slots of transcripts that were not said")
+
+
+class RadioStatistics(RecognitionStatistics):
+    """What went on on the radio, and all calls of the run recognised; null: not measured."""
+
+    transmissions: int = Field(description="on the air, carriers without words included")
+    blocked: int = Field(description="calls that another transmission was mixed with")
+    stuck_microphone: int = Field(description="carriers without words")
+    transcripts_missing: int | None = Field(
+        description="calls received with sound and not blocked of which no transcript came"
+    )
+    hallucinated: int | None = Field(description="transcripts with words of noise alone")
+    hearing: dict[str, int] = Field(
+        description="by what became of a call with somebody whom it was for, how often"
+    )
+    say_agains: int = Field(description="calls that ask for another to be said again")
+    repeats: int = Field(description="calls that were made again")
+    by_snr: list[RecognitionStatistics] = Field(
+        description="by the ratio of what was received, if a run has more than one"
+    )
 
 
 class Summary(BaseModel):
@@ -112,6 +155,7 @@ class Summary(BaseModel):
         description="advisories of CAUTION or above about traffic that was in no conflict"
     )
     advisories: list[ToldAdvisory]
+    radio: RadioStatistics
     latencies: dict[Stage, LatencyStatistics]
     inputs_dropped: dict[str, int]
     modalities: dict[Modality, ModalityState]

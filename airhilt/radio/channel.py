@@ -266,7 +266,8 @@ def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Au
     times_s = np.arange(0, count + _FRAME, _FRAME) / SAMPLE_RATE_HZ
     swing = np.sin(2.0 * np.pi * rates[:, None] * times_s + phase[:, None]).mean(axis=0)
     gain = 10.0 ** (profile.fade_db * (swing - 0.5) / 20.0)
-    return np.interp(np.arange(count), np.arange(len(gain)) * _FRAME, gain).astype(np.float32)
+    evenly = np.interp(np.arange(count), np.arange(len(gain)) * _FRAME, gain)
+    return np.asarray(evenly, np.float32)
 
 
 def _surroundings(count: int, background: Background, rng: np.random.Generator) -> Audio:

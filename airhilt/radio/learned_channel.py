@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import onnxruntime
 
 from airhilt.errors import SpeechError, first_line
+from airhilt.inference import open_network
 from airhilt.radio.channel import LEVEL_RMS, PROFILES, Background, VhfChannel, active
 from airhilt.radio.voices.engine import Audio
 
@@ -35,7 +35,7 @@ class LearnedChannel:
     def __init__(self, path: Path) -> None:
         self.name = path.stem
         self._path = path
-        self._session = _load(path)
+        self._session = open_network(path, f"learned channel {path}", EXPECTED)
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
         found = [f"{port.type} {port.shape}" for port in (*inputs, *outputs)]
         if len(inputs) != 1 or len(outputs) != 1 or any("(float)" not in text for text in found):
@@ -70,7 +70,7 @@ class LearnedChannel:
     def _apply(self, speech: Audio) -> Audio:
         try:
             (made,) = self._session.run(None, {self._input: speech[np.newaxis]})
-        except Exception as error:  # onnxruntime has no class of its own that is public
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise self._wrong(f"fails on {len(speech)} samples: {first_line(error)}") from None
         if made.shape != (1, len(speech)):
             raise self._wrong(f"makes {list(made.shape)} of [1, {len(speech)}]")
@@ -80,18 +80,3 @@ class LearnedChannel:
 
     def _wrong(self, what: str) -> SpeechError:
         return SpeechError(f"learned channel {self._path}: the model {what}; expected {EXPECTED}")
-
-
-def _load(path: Path) -> onnxruntime.InferenceSession:
-    if not path.is_file():
-        raise SpeechError(f"learned channel {path}: no such file; expected an ONNX model")
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1
-    options.log_severity_level = 4
-    try:
-        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
-    except Exception as error:  # as above
-        raise SpeechError(
-            f"learned channel {path}: no ONNX model that can be run: {first_line(error)}; "
-            f"expected {EXPECTED}"
-        ) from None

@@ -179,7 +179,7 @@ class RadioLoop:
             self._ended_lines.add(exchange.id)
             self._let_read(exchange, on_air)
         if self._squelch_opens and self._stations.received(said.speaker):
-            self._sound.receive(on_air, mixed_with, self._radio.snr_db)
+            self._receive(on_air, mixed_with)
         if exchange is None:
             return
         if exchange.is_first_time:
@@ -187,6 +187,15 @@ class RadioLoop:
         for listener in exchange.recipients():
             if not self._reads(listener):
                 self._hear(exchange, on_air, listener)
+
+    def _receive(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> None:
+        """Publish a transmission as the units receive it."""
+        said = on_air.utterance
+        background = self._stations.background_of(said.speaker)
+        reception = self._sound.receive(on_air, mixed_with, self._radio.snr_db, background)
+        self._publish(f"radio/{said.frequency_khz}/tx", reception.header, raw=reception.pcm)
+        if reception.transcript is not None:
+            self._publish(f"asr/{said.frequency_khz}", reception.transcript)
 
     def _tell_truth(self, on_air: OnAir, mixed_with: Sequence[OnAir]) -> None:
         said = on_air.utterance

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from airhilt.radio.speech import Sound
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import Condition, RadioLine
 from airhilt.sim import Director, Priority
@@ -59,8 +60,17 @@ class RadioScript:
             self._director.at(due_ns, say, Priority.SCRIPT)
 
 
-def planned_end_ns(happening: HappeningLine, words_per_minute: float) -> int:
-    """Return when a line ends if it waits for nothing and its frequency is free."""
-    line = happening.line or happening.declared
-    duration_s = len(line.text.split()) * 60.0 / words_per_minute
-    return seconds_to_ns(line.at_s + happening.late_s) + seconds_to_ns(duration_s)
+def planned_ends_ns(lines: Sequence[HappeningLine], sound: Sound) -> dict[str, int]:
+    """Return when each line, by its id, ends if it waits for nothing and its frequency is free.
+
+    Raises
+    ------
+    airhilt.errors.SpeechError
+        Its voices have failed.
+    """
+    ends_ns = {}
+    for happening in lines:
+        line = happening.line or happening.declared
+        _, duration_s = sound.speak(line.speaker, line.text)
+        ends_ns[line.id] = seconds_to_ns(line.at_s + happening.late_s) + seconds_to_ns(duration_s)
+    return ends_ns

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 
 import numpy as np
 
 from airhilt.messages import Transmission
 from airhilt.radio.bus import OnAir
 from airhilt.radio.channel import Background, Channel
-from airhilt.radio.speech import Publish
+from airhilt.radio.speech import Reception
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine
 from airhilt.radio.voices.wav import SAMPLE_BYTES, to_pcm
 from airhilt.sim.streams import stream
@@ -18,27 +17,12 @@ from airhilt.units import SECOND_NS
 
 
 class Spoken:
-    """Calls are spoken with everybody's own voice, and go through a channel.
+    """Calls are spoken with everybody's own voice, and go through a channel."""
 
-    Parameters
-    ----------
-    background_of
-        Where a speaker sits.
-    """
-
-    def __init__(
-        self,
-        voices: TtsEngine,
-        channel: Channel,
-        seed: int,
-        background_of: Callable[[str], Background],
-        publish: Publish,
-    ) -> None:
+    def __init__(self, voices: TtsEngine, channel: Channel, seed: int) -> None:
         self._voices = voices
         self._channel = channel
         self._seed = seed
-        self._background_of = background_of
-        self._publish = publish
 
     def speak(self, speaker: str, text: str) -> tuple[Audio, float]:
         """Return a text in the voice of a speaker, and how long it takes.
@@ -51,15 +35,21 @@ class Spoken:
         speech = self._voices.synthesise(text, self._voices.voice_of(speaker))
         return speech, len(speech) / SAMPLE_RATE_HZ
 
-    def receive(self, on_air: OnAir, heard_over: tuple[OnAir, ...], snr_db: float | None) -> None:
-        """Publish what the units' receiver gives out of a transmission that has ended."""
+    def receive(
+        self,
+        on_air: OnAir,
+        heard_over: tuple[OnAir, ...],
+        snr_db: float | None,
+        background: Background,
+    ) -> Reception:
+        """Return what the units' receiver gives out of a transmission that has ended."""
         said = on_air.utterance
         audio = self._channel.transmit(
             _speech_of(on_air),
             snr_db,
             stream(self._seed, f"channel/{said.id}"),
             [(_speech_of(other), _samples(other.t_tx_ns - on_air.t_tx_ns)) for other in heard_over],
-            self._background_of(said.speaker),
+            background,
         )
         pcm = to_pcm(audio)
         header = Transmission(
@@ -72,7 +62,7 @@ class Spoken:
             samples=len(pcm) // SAMPLE_BYTES,
             sha256=hashlib.sha256(pcm).hexdigest(),
         )
-        self._publish(f"radio/{said.frequency_khz}/tx", header, raw=pcm)
+        return Reception(header, pcm)
 
 
 def _speech_of(on_air: OnAir) -> Audio:

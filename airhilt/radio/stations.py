@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from airhilt.actors.performer import Performer
 from airhilt.scenario.geometry import Setting, Site
@@ -10,6 +11,9 @@ from airhilt.scenario.models import RadioLine
 from airhilt.surveillance.adsb import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.surveillance.kinematics import Kinematics, relative
 from airhilt.units import DEGREE, FOOT
+
+if TYPE_CHECKING:
+    from airhilt.radio.channel import Background
 
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of a unit's antenna, at the scene's centre: that of an ADS-B receiver by default."""
@@ -67,6 +71,10 @@ class Stations:
     def is_crew(self, name: str) -> bool:
         """Return whether somebody is the crew of an aircraft."""
         return name in self._cast and self._cast[name].category == "aircraft"
+
+    def background_of(self, name: str) -> Background:
+        """Return what else the microphone of somebody picks up."""
+        return "cockpit" if self.is_actor(name) else "tower"
 
     def audible(self, speaker: str, listener: str) -> bool:
         """Return whether a listener is above the radio horizon of a speaker, and still there.

@@ -176,6 +176,7 @@ def parse_output(
             f"worker {worker!r} published on {key!r}; expected a key under "
             f"{', '.join(sorted(WORKER_OUTPUTS))}"
         )
+    message: Message
     try:
         if model in HEADERS:
             message = model.model_validate(attachment)

@@ -20,7 +20,9 @@ from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
 
 sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "metrics"))
 from devtools import BROWSERS, Page, browser_page
+from radio_folder import busy_radio
 
 EXECUTABLE = next((found for name in BROWSERS if (found := shutil.which(name))), None)
 
@@ -65,6 +67,12 @@ def incursion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_report(out)
 
 
+@pytest.fixture(scope="module")
+def radio(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of a run on whose radio everything happens."""
+    return write_report(busy_radio(tmp_path_factory.mktemp("radio") / "run"))
+
+
 def pressed(page: Page) -> str:
     return page.evaluate("document.querySelector('#views [aria-pressed=true]').textContent")
 
@@ -86,11 +94,11 @@ def test_all_charts_are_drawn(page: Page, report: Path) -> None:
     for chart, least in (("plan", 2), ("profile", 2), ("separation", 2)):
         assert page.evaluate(f"document.querySelectorAll('#{chart} svg path.line').length") == least
     assert page.evaluate("document.querySelectorAll('#histogram svg rect').length") >= 2
-    assert page.evaluate("document.querySelectorAll('.tile').length") == 9
+    assert page.evaluate("document.querySelectorAll('#tiles .tile').length") == 9
     assert page.evaluate("document.querySelectorAll('#timeline tr').length") > 5
 
 
-def test_the_slider_moves_all_three_charts(page: Page, report: Path) -> None:
+def test_the_slider_moves_all_charts(page: Page, report: Path) -> None:
     page.open(report)
     before = cursors(page)
     aircraft = "document.querySelector('#plan g g').innerHTML"
@@ -99,7 +107,7 @@ def test_the_slider_moves_all_three_charts(page: Page, report: Path) -> None:
     for _ in range(4):
         page.press("ArrowRight", 39)
     after = cursors(page)
-    assert len(after) == 2
+    assert len(after) == 3
     assert all(later > earlier for earlier, later in zip(before, after, strict=True))
     assert page.evaluate(aircraft) != was
 
@@ -132,7 +140,7 @@ def test_a_filter_hides_the_rows_of_its_kind(page: Page, report: Path) -> None:
 
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("width", [360, 768, 1600])
-@pytest.mark.parametrize("which", ["report", "incursion"])
+@pytest.mark.parametrize("which", ["report", "incursion", "radio"])
 def test_the_page_fits_its_window(
     page: Page, request: pytest.FixtureRequest, which: str, width: int, dark: bool
 ) -> None:
@@ -215,7 +223,7 @@ def test_all_charts_over_time_have_one_cursor(page: Page, incursion: Path) -> No
     before = cursors(page)
     page.evaluate("clock.set(clock.t + 10)")
     after = cursors(page)
-    assert len(before) == 4
+    assert len(before) == 5
     assert all(later > earlier for earlier, later in zip(before, after, strict=True))
 
 
@@ -312,6 +320,78 @@ def test_hostile_names_at_an_airport_stay_text(page: Page, incursion: Path, tmp_
     assert page.evaluate("document.getElementById('planted')") is None
     assert page.evaluate("document.title") != "1"
     assert any(hostile in text for text in texts(page, "phases"))
+
+
+# --- the radio ------------------------------------------------------------------------------
+
+
+def cells(page: Page, table: str, column: str) -> list[str]:
+    return page.evaluate(
+        f"[...document.querySelectorAll('#{table} td[data-label=\"{column}\"]')]"
+        ".map((cell) => cell.textContent.trim())"
+    )
+
+
+def test_calls_are_shown_with_what_was_recognised_and_who_understood(
+    page: Page, radio: Path
+) -> None:
+    page.open(radio)
+    assert [text.split("to ")[0] for text in cells(page, "calls", "From")] == [
+        "Tower", "AAL123", "DAL456", "Tower", "Tower"
+    ]  # fmt: skip
+    assert page.evaluate(
+        "[...document.querySelectorAll('#calls del')].map((word) => word.textContent)"
+    ) == ["two", "roger"]
+    assert page.evaluate(
+        "[...document.querySelectorAll('#calls ins')].map((word) => word.textContent)"
+    ) == ["now", "rogers"]
+    assert cells(page, "calls", "Recognised")[2] == "no words"
+    assert cells(page, "calls", "After end")[0] == "250 ms"
+    assert "took it for something else" in cells(page, "calls", "Heard")[0]
+    assert "blocked" in cells(page, "calls", "Said")[3]
+    assert "not received" in cells(page, "calls", "Said")[4]
+    assert cells(page, "spoken", "Said") == ["AAL123 go around"]
+
+
+def test_a_call_can_be_played(page: Page, radio: Path) -> None:
+    page.open(radio)
+    assert page.evaluate("document.querySelectorAll('#calls audio').length") == 4
+    assert page.evaluate("document.querySelectorAll('#spoken audio').length") == 1
+    assert page.evaluate("document.querySelector('audio').preload") == "none"
+    length_s = page.evaluate("""new Promise((done) => {
+      const player = document.querySelector("audio");
+      player.addEventListener("loadedmetadata", () => done(player.duration));
+      player.addEventListener("error", () => done(player.error.message));
+      player.load();
+      player.preload = "auto";
+    })""")
+    assert length_s == pytest.approx(3.0)
+
+
+def test_a_row_of_the_radio_shows_its_time_and_playing_it_does_not(page: Page, radio: Path) -> None:
+    page.open(radio)
+    page.evaluate("document.querySelector('#calls tbody tr:nth-child(2)').click()")
+    assert page.evaluate("clock.t") == pytest.approx(5.0)
+    assert page.evaluate("document.querySelector('#calls tr.current').rowIndex") == 2
+    page.evaluate("document.querySelector('#calls audio').click()")
+    assert page.evaluate("clock.t") == pytest.approx(5.0)
+
+
+def test_lanes_show_who_is_on_the_air_and_what_was_blocked(page: Page, radio: Path) -> None:
+    page.open(radio)
+    assert page.evaluate("document.querySelectorAll('#air .transmission').length") == 6
+    assert page.evaluate("document.querySelectorAll('#air .blocked').length") == 2
+    assert {"119.100 MHz", "Tower", "AAL123", "DAL456", "assistant", "to ATC"} <= set(
+        texts(page, "air")
+    )
+
+
+def test_a_radio_without_calls_is_not_shown(page: Page, radio: Path, tmp_path: Path) -> None:
+    copy = shutil.copytree(radio.parent, tmp_path / "run")
+    (copy / "log.mcap").unlink()
+    page.open(write_report(copy))
+    assert page.evaluate("document.getElementById('radio').hidden")
+    assert page.evaluate("document.getElementById('air-figure').hidden")
 
 
 @pytest.mark.parametrize("dark", [False, True])

@@ -6,12 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.commands import AltitudeCommand
-from airhilt.messages import Advisory, Evidence, Severity, Transcript
+from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity, Status, Transcript
 from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.outline import Gap
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.runways import Incursion
 from airhilt.metrics.summary import LatencyStatistics, severest
+from airhilt.radio.script import planned_ends_ns
+from airhilt.radio.speech import Text
 from airhilt.scenario import load
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
@@ -54,7 +56,7 @@ def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name=
         t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient="ATC",
         recipients=("ATC",), kind="loss_of_separation", severity=Severity(severity),
         active=active, traffic=traffic, message="", evidence=Evidence(sources=("adsb",)),
-        t_ready_ns=round((t_s - 0.5) * SECOND_NS),
+        t_ready_ns=max(round((t_s - 0.5) * SECOND_NS), 0),
     )  # fmt: skip
 
 
@@ -68,7 +70,7 @@ class Told:
             always=False,
             names=(FIRST, SECOND),
         )
-        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], 160.0))
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}))
 
     def take(self, message):
         self.collector.take("", message, b"")
@@ -143,13 +145,15 @@ def test_latencies_are_told_by_stage():
     told.collector.step(StepRecord("decision", 0, 0, SECOND_NS, 2 * SECOND_NS, 0.0, 1))
     for engine, t_ns in (("text", 9), ("whisper", 3 * SECOND_NS)):
         told.take(
-            Transcript(t_ns=t_ns, id="a", frequency_khz=134325, t_tx_ns=0, t_end_ns=1, text="x",
-                       confidence=1.0, engine=engine)
+            Transcript(t_ns=t_ns, id="a", frequency_khz=134325, t_tx_ns=0, t_end_ns=2 * SECOND_NS,
+                       text="x", confidence=1.0, engine=engine)
         )  # fmt: skip
     latencies = told.summary().latencies
     assert (latencies["decision"].n, latencies["decision"].p50_s) == (1, 0.5)
     assert latencies["decision_step"].p50_s == 3.0
     assert (latencies["asr"].n, latencies["asr"].max_s) == (1, 3.0)
+    assert (latencies["asr_after_end"].n, latencies["asr_after_end"].max_s) == (1, 1.0)
+    assert latencies["tts"].n == 0
     assert latencies["adsb"].n == 0
 
 
@@ -181,7 +185,7 @@ def plans(*climbs):
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
     happening = [HappeningLine(line, line, 0.0, (), frozenset()) for line in lines]
-    return Plans(happening, 160.0)
+    return Plans(happening, planned_ends_ns(happening, Text(160.0)))
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)
@@ -232,7 +236,7 @@ class Airport(Told):
 
     def __init__(self, *incursions, scenario=SCENARIO):
         super().__init__(scenario)
-        plans = Plans([], 160.0)
+        plans = Plans([], {})
         self.collector = Collector(scenario, 0.0, self.watch.monitor, Runways(*incursions), plans)
         self.collector.window.opened_ns = 0
 
@@ -293,3 +297,56 @@ def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true(
     assert came_true.take(told).summary().nuisance_alerts == 0
     of_others = Airport(incursion(user="UAL7", intruder="DEER1"), scenario=quiet)
     assert of_others.take(told).summary().nuisance_alerts == 1
+
+
+# --- with a voice ---------------------------------------------------------------------------
+
+
+def voice(t_s, revision=0, recipient="ATC", name="a", t_dec_s=9.0):
+    return AdvisoryAudio(
+        t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient=recipient, text="",
+        t_dec_ns=round(t_dec_s * SECOND_NS), engine="espeak", samples=1, sha256="",
+    )  # fmt: skip
+
+
+def told_aloud():
+    told = Told()
+    told.collector.modalities["voice"] = "on"
+    return told
+
+
+def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins():
+    told = told_aloud().take(advisory(9.0)).take(voice(9.8))
+    summary = told.summary()
+    assert summary.t_first_warning_s == 9.8
+    assert (summary.latencies["tts"].n, summary.latencies["tts"].p50_s) == (1, pytest.approx(0.8))
+    (one,) = summary.advisories
+    assert (one.t_first_s, one.t_spoken_s) == (9.0, 9.8)
+
+
+def test_a_warning_whose_voice_never_comes_warns_nobody():
+    summary = told_aloud().take(advisory(9.0)).take(voice(9.8, name="b")).summary()
+    assert summary.t_first_warning_s is None
+    assert summary.advisories[0].t_spoken_s is None
+
+
+def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning():
+    told = told_aloud().take(advisory(9.0)).take(advisory(10.0, "WARNING", revision=1))
+    told.take(voice(10.5, revision=0)).take(voice(11.0, revision=1))
+    assert told.summary().t_first_warning_s == 10.5
+
+
+def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once():
+    told = told_aloud().take(advisory(9.0))
+    told.take(Status(t_ns=12 * SECOND_NS, modality="voice", state="lost"))
+    assert told.summary().t_first_warning_s == 12.0
+    told = Told()
+    told.collector.modalities["voice"] = "lost"
+    assert told.take(advisory(9.0)).summary().t_first_warning_s == 9.0
+
+
+def test_the_margin_over_tcas_is_counted_from_the_voice():
+    told = told_aloud().take(advisory(0.0))
+    told.watch.fly(3.0)
+    told.take(voice(3.0, t_dec_s=0.0))
+    assert told.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)

@@ -54,6 +54,10 @@ EXAMPLES = {
         },
         "evidence": {"sources": ["adsb"], "time_to_loss_s": 61.5},
     },
+    "AdvisoryAudio": {
+        "id": "s-1", "revision": 2, "recipient": "AAL1", "text": "traffic", "t_dec_ns": 5,
+        "engine": "espeak", "samples": 3, "sha256": "ab",
+    },
     "ActorCommand": {"command": {"action": "turn", "degrees": -30.0}},
     "ActorTruth": {
         "actor": "AAL1", "category": "aircraft", "icao24": "a1b2c3", "phase": "glide",
@@ -66,6 +70,9 @@ EXAMPLES = {
     "SpokenTruth": {
         "id": "a", "speaker": "AAL1", "addressed": None, "frequency_khz": 134325, "text": "roger",
         "t_tx_ns": 1, "t_end_ns": 2,
+    },
+    "HearingTruth": {
+        "id": "a", "actor": "AAL1", "outcome": "misheard", "text": "rocker", "source": "ear",
     },
     "ConflictTruth": {"phase": "nmac", "actors": ["AAL1", "DAL2"], "horizontal_m": 100.5},
     "RunwayTruth": {

@@ -66,7 +66,7 @@ class World:
             self.scenario,
             as_it_happens(self.scenario),
             Stations(self.cast, Setting.of(self.scenario), self.scenario.radio.lines),
-            Text(self.scenario.radio.words_per_minute, self.publish),
+            Text(self.scenario.radio.words_per_minute),
             7,
             set(),
             once=self.once,

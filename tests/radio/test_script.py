@@ -2,7 +2,8 @@
 
 import pytest
 
-from airhilt.radio.script import RadioScript, planned_end_ns
+from airhilt.radio.script import RadioScript, planned_ends_ns
+from airhilt.radio.speech import Text
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, TimeReached
 from airhilt.sim import Director, Priority, Virtual
@@ -43,7 +44,8 @@ def played(*lines, failed=None):
 
 @pytest.mark.parametrize(("words_per_minute", "seconds"), [(160.0, 3.0), (80.0, 6.0)])
 def test_a_call_is_planned_to_take_as_long_as_its_words(words_per_minute, seconds):
-    assert planned_end_ns(line("a", 20.0), words_per_minute) == seconds_to_ns(20.0 + seconds)
+    planned = planned_ends_ns([line("a", 20.0, late_s=5.0)], Text(words_per_minute))
+    assert planned == {"a": seconds_to_ns(25.0 + seconds)}
 
 
 def test_a_line_waits_for_its_condition_too():

@@ -20,10 +20,13 @@ from airhilt.radio.phraseology.slots import (
     NAMED_RUNWAY,
     RUNWAY,
     SHORT_FREQUENCY,
+    SHORTENED,
     TAXIWAY,
     designator,
     frequency_khz,
+    level_confidence,
     level_ft,
+    runway_confidence,
     taxiway,
 )
 
@@ -90,11 +93,18 @@ class Form(NamedTuple):
 
 _BEFORE = re.compile(rf"(?<!\S)runway {RUNWAY}(?: (?:at|from) (?P<place>{TAXIWAY}))?$")
 _BARE_AFTER = re.compile(rf" (?:on )?{RUNWAY}")
+_OTHER_RUNWAY = re.compile(
+    r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
+)
+"""Before a runway that is not that of the action, or after one that cannot be read."""
 _POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
 _POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
 _VIA = re.compile(rf"(?<!\S)via ((?:(?:and |taxiway )?{TAXIWAY}(?: |$))+)")
 _EACH_TAXIWAY = re.compile(TAXIWAY)
 _PLACE = re.compile(r" (?:to )?(?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)")
+_TAXI_TO = re.compile(
+    r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
+)
 _IMMEDIATE = re.compile(r"(?<!\S)(?:immediate(?:ly)?|expedit(?:e|ing)|now)(?!\S)")
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
 
@@ -125,13 +135,15 @@ def _on_runway(segment: Segment, action: Action) -> Read | None:
     place_after = _POSITION.match(segment.text, end, segment.limit)
     if place_after:
         place, end = place_after[1], place_after.end()
-    is_bare = after is not None and after.re is _BARE_AFTER and len(told) == 1
+    sure = [runway_confidence(each[1]) for each in (inside, before, after) if each]
+    if after is not None and after.re is _BARE_AFTER and len(told) == 1:
+        sure.append(BARE_RUNWAY)
     read = Instruction(
         action,
         told[0] if told else None,
         taxiway(place) if place else None,
         immediate=_is_immediate(segment, end),
-        confidence=BARE_RUNWAY if is_bare else 1.0 if told else NO_RUNWAY,
+        confidence=min(sure, default=NO_RUNWAY),
     )
     return Read(read, start, end)
 
@@ -142,6 +154,8 @@ def _runway_after(segment: Segment) -> re.Match[str] | None:
     if bare:
         return bare
     named = NAMED_RUNWAY.search(segment.after)
+    if named and _OTHER_RUNWAY.search(segment.after[: named.start()]):
+        return None
     has_one = NAMED_RUNWAY.search(segment.found[0]) or _BEFORE.search(
         segment.text[segment.begin : segment.start].rstrip()
     )
@@ -162,7 +176,8 @@ def _go_around(segment: Segment, action: Action) -> Read | None:
     beside = None if is_next else re.match(rf" (?:on )?runway {RUNWAY}", segment.after)
     runway = designator(*beside.groups()) if beside else None
     end = segment.found.end() + (beside.end() if beside else 0)
-    return Read(Instruction(action, runway), segment.start, end)
+    sure = runway_confidence(beside[1]) if beside else 1.0
+    return Read(Instruction(action, runway, confidence=sure), segment.start, end)
 
 
 def _hold_short(segment: Segment, action: Action) -> Read | None:
@@ -184,26 +199,25 @@ def _taxi(segment: Segment, action: Action) -> Read | None:
     runway = re.match(rf"(?: to)?(?: the)?(?: holding point)? runway {RUNWAY}", after)
     via = _VIA.search(after)
     point = re.match(rf" (?:to|at) (?:taxiway |holding point )?({TAXIWAY})", after)
-    place = _PLACE.match(re.split(r" (?:via|and|at|on)(?!\S)", after)[0])
-    position = None
-    if point:
-        position = taxiway(point[1])
-    elif place and not runway and place[1].strip() not in ("via", "to"):
-        position = place[1].strip()
+    to = re.split(r" (?:via|and|at|on)(?!\S)", after)[0]
+    place = None if runway or point else _TAXI_TO.match(to)
+    position = taxiway(point[1]) if point else place[1].strip() if place else None
     taken = max((each.end() for each in (runway, via, point) if each), default=0)
+    is_read = bool(runway or position or (via and not to.strip()))
+    sure = runway_confidence(runway[1]) if runway else 1.0 if is_read else NO_VALUE
     read = Instruction(
         action,
         designator(*runway.groups()) if runway else None,
         position,
         via=tuple(taxiway(each) for each in _EACH_TAXIWAY.findall(via[1])) if via else (),
-        confidence=1.0 if runway or via or position else NO_VALUE,
+        confidence=sure,
     )
     return Read(read, segment.start, segment.found.end() + taken)
 
 
 def _vacate(segment: Segment, action: Action) -> Read | None:
     found = re.match(
-        rf"(?: runway {RUNWAY})?(?: next)?(?: (left|right)(?!\S))?"
+        rf"(?: runway {RUNWAY})?(?: next)?(?: to the)?(?: (left|right)(?!\S))?"
         rf"(?: (?:at |via |on )?(?:taxiway )?({TAXIWAY}))?",
         segment.after,
     )
@@ -214,6 +228,7 @@ def _vacate(segment: Segment, action: Action) -> Read | None:
         taxiway(exit_) if exit_ else None,
         turn=cast(Turn | None, turn),
         immediate=_is_immediate(segment, segment.found.end()),
+        confidence=runway_confidence(number) if number else 1.0,
     )
     return Read(read, segment.start, segment.found.end() + (found.end() if found else 0))
 
@@ -242,7 +257,7 @@ def _altitude(segment: Segment, action: Action) -> Read | None:
         sense=sense,
         altitude_ft=feet,
         immediate=_is_immediate(segment, end),
-        confidence=NO_VALUE if feet is None else 1.0,
+        confidence=NO_VALUE if feet is None else level_confidence(level) if level else 1.0,
     )
     return Read(read, segment.start, end)
 
@@ -272,7 +287,8 @@ def _heading(segment: Segment, action: Action) -> Read | None:
 
 def _speed(segment: Segment, action: Action) -> Read | None:
     number = segment.found.groupdict().get("number")
-    read = Instruction(action, speed_kt=float(number) if number else None)
+    sure = SHORTENED if number and len(number) == 2 else 1.0
+    read = Instruction(action, speed_kt=float(number) if number else None, confidence=sure)
     return Read(read, segment.start, segment.found.end())
 
 
@@ -358,7 +374,7 @@ _CLEAR = r"clear(?:ed)?"
 _NAMED = r"runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?"
 _INSIDE = rf"(?:{_NAMED} )?"
 _ANIMAL = "|".join(ANIMALS)
-_SPEED = r"(?P<number>[1-9][0-9]{1,2})(?!\S)(?! (?:feet|thousand|degrees|miles?))"
+_SPEED = r"(?P<number>[1-9][0-9]{2}|[6-9][0-9])(?!\S)(?! (?:feet|thousand|degrees|miles?))"
 _HEADING = r"(?P<number>[0-9]{3})(?!\S)(?! (?:knots|thousand|feet|miles?))"
 _APPROACH = "i l s|ils|visual|r nav|rnav|r n p|rnp|localizer|localiser|v o r|vor|gps|g p s|circling"
 
@@ -378,6 +394,7 @@ _FORMS: tuple[tuple[str, Action, str, Builder], ...] = (
     ("line lining", "line_up", r"(?:line|lining) up(?: and wait(?:ing)?)?", _on_runway),
     ("position", "line_up", r"position and hold", _on_runway),
     ("hold holding", "hold_short", r"hold(?:ing)? short(?: of)?", _hold_short),
+    ("continue remain", "hold_position", r"(?:continue|remain) holding", _alone),
     ("hold holding", "hold_position", r"hold(?:ing)? (?:your |my |present )?position", _alone),
     ("cross crossing", "cross", r"cross(?:ing)?(?= runway| [0-9])", _on_runway),
     ("proceed proceeding", "direct", r"proceed(?:ing)? direct(?: to)?", _place),

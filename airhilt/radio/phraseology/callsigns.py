@@ -110,8 +110,10 @@ class Naming:
     match: CallsignMatch
     hit: Hit | None = None
     addressed_first: bool = False
-    others: tuple[Hit, ...] = ()
+    again: tuple[Hit, ...] = ()
     """Where the same callsign is said again."""
+    others: tuple[Hit, ...] = ()
+    """Where somebody else is named, or perhaps."""
 
 
 def forms(callsign: str) -> tuple[Form, ...]:
@@ -194,13 +196,11 @@ class Roster:
         chosen = max(longest, key=lambda hit: (hit.score, -hit.start))
         rivals = [hit for hit in near if hit.start < chosen.end and chosen.start < hit.end]
         match = _best(chosen, [*longest, *rivals])
-        others = tuple(
-            hit
-            for hit in hits
-            if hit.callsign == chosen.callsign
-            and (hit.start >= chosen.end or hit.end <= chosen.start)
-        )
-        return Naming(match, chosen, chosen.start <= lead, others)
+        apart = [hit for hit in hits if hit.start >= chosen.end or hit.end <= chosen.start]
+        again = tuple(hit for hit in apart if hit.callsign == chosen.callsign)
+        unread = [hit for hit in near if not _may_be_taxiway(words, hit.start)]
+        others = tuple(hit for hit in (*apart, *unread) if hit.callsign != chosen.callsign)
+        return Naming(match, chosen, chosen.start <= lead, again, others)
 
     def _find(self, words: list[str]) -> tuple[list[Hit], list[Hit]]:
         """Return where a name is said with its number, and where with another."""
@@ -246,6 +246,11 @@ class Roster:
                 elif worth == FULL:
                     unnamed.append(read._replace(score=ONLY_NUMBER))
         return [hit for hit in hits if hit.score >= ACCEPTED], unnamed
+
+
+def _may_be_taxiway(words: list[str], at: int) -> bool:
+    """Return whether a letter and a number are such as taxiways have."""
+    return words[at] in LETTER_OF and len(words[at + 1]) <= 2
 
 
 def _names_before(words: list[str], at: int) -> list[tuple[int, str]]:
@@ -328,6 +333,7 @@ def roster_of(callsigns: tuple[str, ...]) -> Roster:
     return roster
 
 
+@lru_cache(maxsize=4096)
 def similarity(first: str, second: str) -> float:
     """Return how alike two texts are, from 0 to 1 if they are equal, by their edit distance."""
     if first == second:

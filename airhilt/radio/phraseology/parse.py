@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -20,9 +20,10 @@ from airhilt.radio.phraseology.actions import (
     Read,
     Segment,
 )
+from airhilt.radio.phraseology.alphabet import LETTER_OF
 from airhilt.radio.phraseology.call import CLEARANCES, REPORTS, Action, Call, Instruction, Kind
-from airhilt.radio.phraseology.callsigns import Naming, roster_of
-from airhilt.radio.phraseology.denials import is_meant
+from airhilt.radio.phraseology.callsigns import Hit, Naming, roster_of
+from airhilt.radio.phraseology.denials import NAME, is_meant
 from airhilt.radio.phraseology.slots import (
     LEVEL,
     NAMED_RUNWAY,
@@ -34,14 +35,14 @@ from airhilt.radio.phraseology.slots import (
 )
 from airhilt.radio.phraseology.words import MENDED, Words, words_of
 
-NAME = "|"
-"""Stands in the words for the callsign of the call."""
 DISTRESS = "mayday"
 URGENCY = "pan"
 NO_CALLSIGN = 0.5
 """Confidence in a call that names nobody on the frequency, or two that it cannot tell apart."""
 CONDITIONS = frozenset({"behind", "after", "when", "until", "before", "once", "if", "unless"})
 """What begins a condition (ICAO Doc 4444, 12.2.7)."""
+SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
+"""What may be said about an action."""
 LONGEST_CONDITION = 9
 """Words."""
 LONGEST_STATION = 6
@@ -57,7 +58,7 @@ _SAY_AGAIN = re.compile(
     r"(?<!i )say (?:that |it |all )?again|words twice|say your last|repeat (?:that|your)"
     r"|(?:did not|didn) (?:copy|get|understand|catch)|unreadable|say (?:callsign|call sign)"
 )
-_READY = re.compile(r"ready (?:for|to)(?!\S)|fully ready|would like|ready$|ready (?=\|)")
+_READY = re.compile(r"(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|fully ready|would like")
 _DISREGARDED = re.compile(
     r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
     r"|landing|instruction|instructions|all|it))*(?!\S)"
@@ -68,6 +69,17 @@ _PLACES = re.compile(
     r"|(?:on )?final|crosswind|runway vacated|clear of (?:the )?runway|field in sight"
     r"|runway in sight|established)(?!\S)"
 )
+
+
+NAMED_AFTER = CONDITIONS | {
+    "traffic", "follow", "to", "for", "by", "with", "from", "of", "the", "is", "and", "company",
+    "ahead", "via", "taxi", "exit", "vacate", "taxiway", "intersection", "at", "on", "number",
+    "than", "or", "departed", "landed",
+}  # fmt: skip
+"""What stands before the callsign of somebody who is not called."""
+
+
+RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
 
 
 class Found(NamedTuple):
@@ -185,6 +197,7 @@ def _kind(naming: Naming, words: list[str], text: str, told: Told, corrects: boo
         or _PLACES.search(text)
         or LEVEL.search(text)
         or ("wind" in present and wind_of(text))
+        or pressure_of(text)
     )
     return "report" if reports else "unknown"
 
@@ -199,21 +212,32 @@ def _confidence_of_name(words: Words, naming: Naming) -> float:
 
 
 def _without_name(words: Words, naming: Naming) -> Words:
-    """Return the words with a sign for the callsign of the call."""
+    """Return the words with a sign for the callsign of the call, without those for others."""
     if naming.hit is None:
         return words
     rest = Words()
     at = 0
-    for hit in sorted((naming.hit, *naming.others)):
+    other: Hit | None = None
+    for hit in sorted((naming.hit, *naming.again, *naming.others)):
         if hit.start < at:
             continue
-        rest.take(words, at, hit.start)
+        if hit.callsign != naming.hit.callsign:
+            if other is None and at > 0 and not _is_spoken_of(words.texts[hit.start - 1]):
+                other = hit
+            continue
+        rest.take(words, at, other.start if other else hit.start)
+        other = None
         rest.add(NAME, min(words.confidences[hit.start : hit.end]))
         if hit.left_over:
             rest.add(hit.left_over, words.confidences[hit.end - 1])
         at = hit.end
-    rest.take(words, at, len(words.texts))
+    rest.take(words, at, other.start if other else len(words.texts))
     return rest
+
+
+def _is_spoken_of(before: str) -> bool:
+    """Return whether the word before a callsign shows that it is not called, but spoken of."""
+    return before in NAMED_AFTER or before in LETTER_OF or before.endswith("ing")
 
 
 class _Reader:
@@ -333,11 +357,27 @@ def _told(words: Words) -> Told:
         after = bisect_right(starts, read.end - 1)
         sure = min(words.confidences[first:after], default=1.0)
         instruction = replace(read.instruction, confidence=read.instruction.confidence * sure)
-        if instruction in told.instructions:
-            continue
-        told.instructions.append(instruction)
-        told.doing.append(texts[each.first].endswith("ing"))
+        _add(told, instruction, is_doing=texts[each.first].endswith("ing"))
     return told
+
+
+def _add(told: Told, instruction: Instruction, *, is_doing: bool) -> None:
+    """Add what is told, once: what is told again may say more of it."""
+    for index, before in enumerate(told.instructions):
+        if _says_all(before, instruction):
+            return
+        if _says_all(instruction, before):
+            told.instructions[index] = instruction
+            return
+    told.instructions.append(instruction)
+    told.doing.append(is_doing)
+
+
+def _says_all(full: Instruction, part: Instruction) -> bool:
+    """Return whether an instruction says all that another does."""
+    return full.action == part.action and all(
+        getattr(part, slot) in (None, (), False, getattr(full, slot)) for slot in SLOTS
+    )
 
 
 def _blank(text: str, span: Span) -> str:
@@ -386,7 +426,8 @@ def _scan(texts: list[str], text: str, starts: list[int]) -> tuple[list[Found], 
             end = start
             if is_traffic:
                 ahead = re.search(rf"runway {RUNWAY}(?: at \S+)? $", text[open_at:start])
-                end = open_at + ahead.start() if ahead else start
+                is_told = RUNWAY_NEXT.match(text, each.match.end())
+                end = open_at + ahead.start() if ahead and not is_told else start
             spans.append(Span(open_at, end, is_traffic))
             open_at = None
         found.append(each)
@@ -434,7 +475,11 @@ def _attach(conditions: list[Span], reads: list[tuple[Read, Found]], text: str) 
         before = [i for i, (read, _) in enumerate(reads) if read.start < span.start]
         after = [i for i, (read, _) in enumerate(reads) if read.start >= span.end]
         kind = words.split()[0] if words else ""
-        if len(words.split()) < 2:
+        if kind == "behind":
+            if len(after) > 1:
+                after = [i for i in after if reads[i][0].instruction.action in CONDITIONED] or after
+            is_again = before and reads[before[-1]][0].instruction.condition
+        if len(words.split()) < 2 and (kind != "behind" or not before or is_again):
             continue
         behind = kind == "behind" and before and (
             not after or reads[after[0]][0].instruction.action not in CONDITIONED

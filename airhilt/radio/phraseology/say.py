@@ -82,7 +82,8 @@ def speak_altitude(feet: float, style: Style, transition_ft: float = TRANSITION_
     if feet >= transition_ft:
         level = f"{round(feet / 100.0):03d}"
         return f"flight level {speak_digits(level, style)}"
-    return speak_thousands(round(feet / 100.0) * 100, style)
+    spoken = speak_thousands(round(feet / 100.0) * 100, style)
+    return spoken if feet >= 1000.0 else f"{spoken} feet"
 
 
 def speak_heading(heading_deg: float, style: Style) -> str:
@@ -176,7 +177,7 @@ def _on_runway(words: str, immediate: str = "") -> Speak:
     """Return how to tell words about a runway: before them, or after them in a readback."""
 
     def speak(told: Instruction, style: Style, readback: bool) -> str:
-        runway = _runway(told, style) + _at(told, style)
+        runway = _join(_runway(told, style), _at(told, style))
         text = (immediate if told.immediate and immediate else words).strip()
         if readback or not told.runway:
             return _join(text, runway)
@@ -191,7 +192,7 @@ def _then_runway(words: str) -> Speak:
     def speak(told: Instruction, style: Style, readback: bool) -> str:
         del readback
         delay = "without delay" if told.immediate else ""
-        return _join(words, _runway(told, style) + _at(told, style), delay)
+        return _join(words, _runway(told, style), _at(told, style), delay)
 
     return speak
 
@@ -209,7 +210,7 @@ def _alone(words: str, icao: str | None = None, readback: str | None = None) -> 
 def _hold_short(told: Instruction, style: Style, readback: bool) -> str:
     del readback
     point = _runway(told, style) or (_spell(told.hold_short, style) if told.hold_short else "")
-    return _join("hold short", f"of {point}" if point else "") + _at(told, style)
+    return _join("hold short", f"of {point}" if point else "", _at(told, style))
 
 
 def _taxi(told: Instruction, style: Style, readback: bool) -> str:
@@ -225,7 +226,8 @@ def _vacate(told: Instruction, style: Style, readback: bool) -> str:
         verb = "expedite exiting" if style == "faa" else "expedite vacating"
     else:
         verb = "exit" if style == "faa" else "vacate"
-    return _join(verb, _runway(told, style), told.turn or "") + _at(told, style)
+    side = f"to the {told.turn}" if told.turn and told.runway else told.turn or ""
+    return _join(verb, _runway(told, style), side, _at(told, style))
 
 
 def _altitude(told: Instruction, style: Style, readback: bool) -> str:
@@ -243,9 +245,8 @@ def _heading(told: Instruction, style: Style, readback: bool) -> str:
     del readback
     if told.heading_deg is None:
         if told.turn:
-            return _join(f"turn {told.turn}", "immediately" if told.immediate else "") + _at(
-                told, style
-            )
+            now = "immediately" if told.immediate else ""
+            return _join(f"turn {told.turn}", now, _at(told, style))
         verb = "maintain" if told.position == "present heading" else "fly"
         return _join(verb, told.position or "runway heading")
     heading = f"heading {speak_heading(told.heading_deg, style)}"
@@ -294,12 +295,14 @@ def _about(verb: str) -> Speak:
 
 def _wildlife(told: Instruction, style: Style, readback: bool) -> str:
     del readback
-    return _join("wildlife", f"on {_runway(told, style)}" if told.runway else "reported")
+    where = f"on {_runway(told, style)}" if told.runway else "reported"
+    return _join("wildlife", where, _at(told, style))
 
 
 def _wildlife_gone(told: Instruction, style: Style, readback: bool) -> str:
     del readback
-    return _join("wildlife has left", _runway(told, style) if told.runway else "the runway")
+    runway = _runway(told, style) or "the runway"
+    return _join("wildlife has left", runway, _at(told, style))
 
 
 _FORMS: dict[Action, Speak] = {
@@ -360,7 +363,7 @@ def _runway(told: Instruction, style: Style) -> str:
 
 
 def _at(told: Instruction, style: Style) -> str:
-    return f" at {_place(told.position, style)}" if told.position else ""
+    return f"at {_place(told.position, style)}" if told.position else ""
 
 
 def _place(place: str, style: Style) -> str:

@@ -15,6 +15,9 @@ HPA_PER_INHG = 33.8639
 GROUND_MHZ = "121"
 """What may be left out of a frequency of ground control (FAA AIM 4-3-14 b)."""
 HIGHEST_LEVEL = 660
+SHORTENED = 0.75
+"""Confidence in a number that may be the rest of a longer one: a runway or level of which a digit
+was lost is one, too."""
 HIGHEST_FT = 60_000
 
 NUMBER_ENDS = r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes))"
@@ -32,7 +35,8 @@ TAXIWAY = rf"(?:(?:{_LETTER}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
 LEVEL = re.compile(
     r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )"
     r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"
-    r"|(?<!\S)([0-9]{1,2}) thousand(?: ([1-9])00)?(?!\S)(?: feet)?)"
+    r"|(?<!\S)([0-9]{1,2}) thousand(?: ([1-9])00)?(?!\S)(?: feet)?"
+    r"|(?<!\S)([1-9])00 feet(?!\S))"
 )
 BARE_FEET = re.compile(
     r"(?: (?:to|at|and|now|altitude|an|of|immediately))* ([1-9][0-9]{3,4})(?!\S)"
@@ -55,6 +59,16 @@ def designator(number: str, side: str | None) -> str:
     return f"{int(number):02d}{(side or '')[:1].upper()}"
 
 
+def runway_confidence(number: str) -> float:
+    """Return how sure a runway is by its number: one digit may be the rest of two."""
+    return 1.0 if len(number) == 2 else SHORTENED
+
+
+def level_confidence(found: re.Match[str]) -> float:
+    """Return how sure a `LEVEL` is: two digits of a flight level may be the rest of three."""
+    return SHORTENED if found[1] and len(found[1]) == 2 else 1.0
+
+
 def taxiway(text: str) -> str:
     """Return the designator of a taxiway from its words, such as B5."""
     letter, *number = text.split()
@@ -63,10 +77,11 @@ def taxiway(text: str) -> str:
 
 def level_ft(found: re.Match[str]) -> float | None:
     """Return the altitude of a `LEVEL`."""
-    level, thousands, hundreds = found.groups()
+    level, thousands, hundreds, below = found.groups()
     if level:
-        return float(level) * 100.0 if 0 < int(level) <= HIGHEST_LEVEL else None
-    feet = float(thousands) * 1000.0 + float(hundreds or 0) * 100.0
+        is_one = 0 < int(level) <= HIGHEST_LEVEL and (len(level) == 3 or int(level) % 5 == 0)
+        return float(level) * 100.0 if is_one else None
+    feet = float(thousands or 0) * 1000.0 + float(hundreds or below or 0) * 100.0
     return feet if 0.0 < feet <= HIGHEST_FT else None
 
 

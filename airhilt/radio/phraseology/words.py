@@ -31,8 +31,9 @@ SPELLINGS: dict[str, tuple[str, ...]] = {
     "holdposition": ("hold", "position"), "flightlevel": ("flight", "level"),
     "fl": ("flight", "level"), "don't": ("do", "not"), "dont": ("do", "not"),
     "can't": ("can", "not"), "cannot": ("can", "not"),
-    "cant": ("can", "not"), "isn't": ("is", "not"), "won't": ("will", "not"),
-    "wasn't": ("was", "not"), "canceled": ("cancelled",), "centerline": ("centreline",),
+    "cant": ("can", "not"), "won't": ("will", "not"), "didnt": ("did", "not"),
+    "isnt": ("is", "not"), "arent": ("are", "not"), "canceled": ("cancelled",),
+    "centerline": ("centreline",),
     "plough": ("plow",), "snowplow": ("snow", "plow"), "snowplough": ("snow", "plow"),
     "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
     "ft": ("feet",), "rwy": ("runway",), "hdg": ("heading",),
@@ -160,12 +161,11 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
 def _mend(raw: list[Raw]) -> list[Raw]:
     """Leave out fillers and mend what is written otherwise or heard as something else."""
     mended: list[Raw] = []
+    raw = [each for each in raw if each.text not in FILLERS]
     at, size = 0, len(raw)
     while at < size:
         word, confidence = raw[at]
         at += 1
-        if word in FILLERS:
-            continue
         pairs = PAIRS.get(word)
         pair = pairs.get(raw[at].text) if pairs and at < size else None
         if pair is not None:
@@ -177,6 +177,8 @@ def _mend(raw: list[Raw]) -> list[Raw]:
             mended += (Raw(each, confidence) for each in SPELLINGS[word])
         elif word in SOUNDALIKES:
             mended += (Raw(each, confidence * MENDED) for each in SOUNDALIKES[word])
+        elif word.endswith("n't"):
+            mended += (Raw(word[:-3], confidence), Raw("not", confidence))
         elif "'" in word:
             mended.append(Raw(word.split("'")[0] if word != "o'clock" else "oclock", confidence))
         else:

@@ -7,25 +7,34 @@ fluent sentences; and where its best guess is poor it says nothing.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import resources
-from importlib.resources.abc import Traversable
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from airhilt.errors import SpeechError
+from airhilt.errors import SpeechError, first_line, first_problem
+from airhilt.inference import open_network
+from airhilt.messages import Confidence
 from airhilt.radio.voices.engine import Audio
 from airhilt.workers.asr.engine import Recognised
-from airhilt.workers.asr.features import mel_power, normalised
+from airhilt.workers.asr.features import BINS, mel_power, normalised
 
 FILES = ("ctc.onnx", "words.txt", "card.json")
+EXPECTED = "a network of tools/train_asr.py: features [1, n, 64] to logits [1, n / 6, words + 1]"
 LEAST_SAMPLES = 1_600
 """A tenth of a second: less holds no word."""
+STEP_FRAMES = 6
+"""Frames of features to a step of posteriors: 60 ms."""
+WINDOW_STEPS = 500
+"""So many at a time are asked of the network, so that a microphone that is stuck for ten minutes
+takes little memory: half a minute."""
+CONTEXT_STEPS = 80
+"""What the network sees on both sides of a window: more than any step of it looks at, so that
+windows change nothing."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +49,18 @@ class Calibration:
         bounded = min(max(posterior, 1e-6), 1.0 - 1e-6)
         log_odds = float(np.log(bounded / (1.0 - bounded)))
         return float(1.0 / (1.0 + np.exp(-(self.slope * log_odds + self.offset))))
+
+
+class Card(BaseModel):
+    """What `Ctc` reads of ``card.json``."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
+    word_calibration: Calibration
+    """Of the highest posterior of a word."""
+    call_calibration: Calibration
+    """Of the product of the confidences of a call's words."""
+    least_word_confidence: Confidence
+    """Words below it are left out."""
 
 
 class Ctc:
@@ -60,28 +81,29 @@ class Ctc:
     name = "embedded"
 
     def __init__(self, folder: Path | None = None) -> None:
-        where: Traversable = folder or resources.files("airhilt.workers.asr") / "model"
+        where = folder or Path(__file__).parent / "model"
         missing = [name for name in FILES if not (where / name).is_file()]
         if missing:
             raise SpeechError(
                 f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/train_asr.py writes them"
             )
-        self._words = (where / "words.txt").read_text(encoding="utf-8").split()
+        self._words = (where / "words.txt").read_text(encoding="utf-8", errors="replace").split()
         try:
-            card = json.loads((where / "card.json").read_text(encoding="utf-8"))
-            self._word = Calibration(**card["word_calibration"])
-            self._call = Calibration(**card["call_calibration"])
-            self._least = float(card["least_word_confidence"])
-        except (ValueError, KeyError, TypeError) as error:
+            card = Card.model_validate_json((where / "card.json").read_bytes())
+        except ValidationError as error:
             raise SpeechError(
-                f"recogniser {self.name}: {where / 'card.json'} is no model card: {error!r}"
+                f"recogniser {self.name}: {where / 'card.json'} is no model card: "
+                f"{first_problem(error)}; expected it as tools/train_asr.py writes it"
             ) from None
-        self._session = _session(self.name, (where / "ctc.onnx").read_bytes())
-        outputs = self._session.get_outputs()[0].shape[-1]
-        if outputs != len(self._words) + 1:
+        self._word, self._call = card.word_calibration, card.call_calibration
+        self._least = card.least_word_confidence
+        network = where / "ctc.onnx"
+        self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
+        units = self._trial(network)
+        if units != len(self._words) + 1:
             raise SpeechError(
-                f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {outputs} "
+                f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
                 f"units apart, words.txt has {len(self._words)}; expected one unit more than words"
             )
 
@@ -104,8 +126,39 @@ class Ctc:
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
         """Return the posterior of the blank and of each word, shape (steps of 60 ms, units)."""
-        features = normalised(mel_power(audio))[None]
-        logits = self._session.run(None, {"features": features})[0][0]
+        features = normalised(mel_power(audio))
+        steps = -(-len(features) // STEP_FRAMES)
+        windows = [self._window(features, begin) for begin in range(0, steps, WINDOW_STEPS)]
+        return np.concatenate(windows)
+
+    def _trial(self, network: Path) -> int:
+        """Return how many units the network tells apart.
+
+        Raises
+        ------
+        SpeechError
+            It is a network of another kind.
+        """
+        features = np.zeros((1, 2 * STEP_FRAMES + 1, BINS), np.float32)
+        try:
+            shape = self._session.run(None, {"features": features})[0].shape
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
+            found = first_line(error)
+        else:
+            if len(shape) == 3 and shape[:2] == (1, 3):
+                return int(shape[2])
+            found = f"it makes {list(shape)} of {list(features.shape)}"
+        raise SpeechError(
+            f"recogniser {self.name}: {network} is of another kind: {found}; expected {EXPECTED}"
+        )
+
+    def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
+        """Return the posteriors of the window that begins at a step."""
+        first = max(begin - CONTEXT_STEPS, 0)
+        last = begin + WINDOW_STEPS + CONTEXT_STEPS
+        seen = features[first * STEP_FRAMES : last * STEP_FRAMES]
+        logits = self._session.run(None, {"features": seen[None]})[0][0]
+        logits = logits[begin - first : begin - first + WINDOW_STEPS]
         weights = np.exp(logits - logits.max(axis=1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
 
@@ -121,18 +174,3 @@ def best_path(posteriors: NDArray[np.float32]) -> list[tuple[int, float]]:
         for begin, end in pairwise(bounds)
         if units[begin] != 0
     ]
-
-
-def _session(name: str, model: bytes):  # type: ignore[no-untyped-def]  # noqa: ANN202
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1
-    options.inter_op_num_threads = 1
-    options.log_severity_level = 3
-    try:
-        return onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
-    except Exception as error:  # onnxruntime raises classes of its own that share no base
-        raise SpeechError(
-            f"recogniser {name}: ctc.onnx is no model that onnxruntime can run: {error}"
-        ) from None

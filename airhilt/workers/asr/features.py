@@ -5,6 +5,8 @@ The mel scale is that of O'Shaughnessy (Speech Communication, 1987): 2595 log10(
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
@@ -12,6 +14,9 @@ from scipy.fft import rfft
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 
 BINS = 64
+BLOCK_FRAMES = 3_000
+"""So many at a time are worked on, so that a microphone that is stuck for long takes little
+memory: half a minute."""
 HOP = SAMPLE_RATE_HZ // 100
 WINDOW = SAMPLE_RATE_HZ // 40
 LOW_HZ, HIGH_HZ = 150.0, 3_900.0
@@ -21,8 +26,8 @@ FLOOR = 1e-7
 _SIZE = 512
 
 
-def _mel(frequency_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(2595.0 * np.log10(1.0 + frequency_hz / 700.0))
+def _mel(frequency_hz: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+    return np.asarray(2595.0 * np.log10(1.0 + frequency_hz / 700.0), np.float64)
 
 
 def filters() -> NDArray[np.float32]:
@@ -32,7 +37,7 @@ def filters() -> NDArray[np.float32]:
     at = _mel(np.fft.rfftfreq(_SIZE, 1.0 / SAMPLE_RATE_HZ))
     rising = (at - edges[:-2, None]) / (edges[1:-1] - edges[:-2])[:, None]
     falling = (edges[2:, None] - at) / (edges[2:] - edges[1:-1])[:, None]
-    return np.maximum(0.0, np.minimum(rising, falling)).astype(np.float32)
+    return np.asarray(np.maximum(0.0, np.minimum(rising, falling)), np.float32)
 
 
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
@@ -44,9 +49,12 @@ def mel_power(audio: Audio) -> NDArray[np.float32]:
     padded = np.pad(np.asarray(audio, np.float32), (WINDOW // 2, WINDOW))
     count = len(audio) // HOP + 1
     frames = np.lib.stride_tricks.sliding_window_view(padded, WINDOW)[::HOP][:count]
-    spectrum = rfft(frames * _WINDOW, _SIZE, axis=1)
-    power = spectrum.real**2 + spectrum.imag**2
-    return np.asarray(power @ _FILTERS.T, np.float32)
+    power = np.empty((count, BINS), np.float32)
+    for begin in range(0, count, BLOCK_FRAMES):
+        block = slice(begin, begin + BLOCK_FRAMES)
+        spectrum = rfft(frames[block] * _WINDOW, _SIZE, axis=1)
+        power[block] = (spectrum.real**2 + spectrum.imag**2) @ _FILTERS.T
+    return power
 
 
 def normalised(power: NDArray[np.float32]) -> NDArray[np.float32]:

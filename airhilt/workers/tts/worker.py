@@ -41,7 +41,7 @@ class TtsWorker:
     ) -> None:
         self.description = WorkerDescription(
             name=name,
-            modality="speech",
+            modality="voice",
             inputs=(InputSpec(key="advisory/*", policy="fifo"),),
             latency=DeclaredLatency(median_s=0.1),
         )

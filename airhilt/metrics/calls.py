@@ -1,0 +1,121 @@
+"""The calls of a run: who said what, what was received, recognised and understood of it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript, Transmission
+from airhilt.metrics.summary import RadioStatistics
+from airhilt.metrics.words import Score, recognition, score
+from airhilt.radio.phraseology import parse_call
+
+TEXT = "text"
+"""Engine of transcripts that nobody has recognised: the words of a call without sound."""
+REPEAT = re.compile(r"\.repeat-[0-9]+$")
+"""Ends the id of a call that is made again (docs/radio.md)."""
+
+
+@dataclass
+class RadioCall:
+    """One transmission, as far as it is known."""
+
+    said: SpokenTruth | None = None
+    received: Transmission | None = None
+    """None if it reached no receiver of the run."""
+    transcripts: list[Transcript] = field(default_factory=list)
+    """One for each recogniser that had one."""
+    hearings: list[HearingTruth] = field(default_factory=list)
+
+    @property
+    def recognised(self) -> list[Transcript]:
+        """The transcripts that were made from sound."""
+        return [transcript for transcript in self.transcripts if transcript.engine != TEXT]
+
+
+class RadioCalls:
+    """All calls of a run, by their ids, in the order in which they ended."""
+
+    def __init__(self) -> None:
+        self._calls: dict[str, RadioCall] = {}
+
+    def __iter__(self) -> Iterator[RadioCall]:
+        return iter(self._calls.values())
+
+    def take(self, message: Message) -> None:
+        """Take in a message about a call; others are passed over."""
+        match message:
+            case SpokenTruth(id=name):
+                self._call(name).said = message
+            case Transmission(id=name):
+                self._call(name).received = message
+            case Transcript(id=name):
+                self._call(name).transcripts.append(message)
+            case HearingTruth(id=name):
+                self._call(name).hearings.append(message)
+
+    def _call(self, name: str) -> RadioCall:
+        return self._calls.setdefault(name, RadioCall())
+
+    # --- the numbers ------------------------------------------------------------------------
+
+    def statistics(self, callsigns: Sequence[str], *, is_recognised: bool) -> RadioStatistics:
+        """Return the numbers of the radio.
+
+        Parameters
+        ----------
+        callsigns
+            Of the roster.
+        is_recognised
+            Whether somebody was there to recognise speech, so that transcripts may be missing.
+        """
+        spoken = [(call, said) for call in self if (said := call.said) is not None]
+        words = [(call, said) for call, said in spoken if said.text]
+        noise = [call for call, said in spoken if not said.text and not said.blocked_by]
+        clear = [(call, said) for call, said in words if not said.blocked_by]
+        heard = [call for call, _ in clear if call.received is not None and call.received.samples]
+        noise_heard = [transcript for call in noise for transcript in call.recognised]
+        scores = [
+            (said.snr_db, score(said.text, transcript.text, callsigns))
+            for call, said in clear
+            for transcript in call.recognised
+        ]
+        levels = sorted({said.snr_db for _, said in spoken}, key=_quietest_last)
+        return RadioStatistics(
+            **recognition([one for _, one in scores], _only(levels)).model_dump(),
+            transmissions=len(spoken),
+            blocked=len(words) - len(clear),
+            stuck_microphone=len(spoken) - len(words),
+            transcripts_missing=(
+                sum(not call.recognised for call in heard) if is_recognised and heard else None
+            ),
+            hallucinated=(
+                sum(bool(transcript.text) for transcript in noise_heard) if noise_heard else None
+            ),
+            hearing=_outcomes(hearing for call, _ in spoken for hearing in call.hearings),
+            say_agains=sum(
+                parse_call(said.text, callsigns).kind == "say_again" for _, said in words
+            ),
+            repeats=sum(REPEAT.search(said.id) is not None for _, said in words),
+            by_snr=[recognition(_at(level, scores), level) for level in levels]
+            if scores and len(levels) > 1
+            else [],
+        )
+
+
+def _quietest_last(snr_db: float | None) -> float:
+    return float("inf") if snr_db is None else snr_db
+
+
+def _only(levels: Sequence[float | None]) -> float | None:
+    return levels[0] if len(levels) == 1 else None
+
+
+def _at(level: float | None, scores: Iterable[tuple[float | None, Score]]) -> list[Score]:
+    return [one for snr_db, one in scores if snr_db == level]
+
+
+def _outcomes(hearings: Iterable[HearingTruth]) -> dict[str, int]:
+    return dict(sorted(Counter(hearing.outcome for hearing in hearings).items()))

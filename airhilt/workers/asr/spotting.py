@@ -1,0 +1,148 @@
+"""Finds the callsigns of a roster in what a recogniser made of a call.
+
+Who may be on the frequency is known, and a name that is half heard is more likely one of theirs
+than nothing. For each way to say a callsign the likeliest alignment is found (Viterbi over the
+CTC states of its words, begun and ended anywhere in the call), and compared with the likeliest
+path of all over the same time. If little is lost, the callsign is what was said.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from airhilt.radio.phraseology import LETTERS, TELEPHONY
+from airhilt.radio.phraseology.numbers import speak_digits, speak_group
+from airhilt.radio.phraseology.telephony import names
+
+SAME = (("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower"))
+"""Words for the same digit."""
+_AIRLINE = re.compile(r"([A-Z]{3})([0-9]{1,4})([A-Z]{0,2})")
+_AMERICAN = re.compile(r"N([1-9][0-9]{0,4}[A-Z]{0,2})")
+
+
+@dataclass(frozen=True, slots=True)
+class Spotted:
+    """A callsign where it was probably said."""
+
+    callsign: str
+    units: tuple[int, ...]
+    begin: int
+    """First step of its alignment."""
+    end: int
+    """One past the last."""
+    loss: float
+    """Log-likelihood against the likeliest path there, per word; 0 if it is that path."""
+
+
+def spoken_forms(callsign: str) -> Iterator[tuple[str, ...]]:
+    """Yield the ways to say a flight number or a registration of the United States in full."""
+    airline = _AIRLINE.fullmatch(callsign)
+    if airline and airline[1] in TELEPHONY:
+        number, letters = airline[2], _spell(airline[3])
+        for name in names(airline[1]):
+            yield (*name.split(), *_spell(number), *letters)
+            if len(number) > 1 and number[0] != "0" and not letters:
+                yield (*name.split(), *speak_group(int(number), "icao").split())
+    american = _AMERICAN.fullmatch(callsign)
+    if american:
+        signs = _spell(american[1])
+        yield ("november", *signs)
+        if len(signs) >= 3:
+            yield signs
+
+
+def _spell(signs: str) -> tuple[str, ...]:
+    return tuple(
+        speak_digits(sign, "faa") if sign.isdigit() else LETTERS[ord(sign) - ord("A")]
+        for sign in signs
+    )
+
+
+class Spotter:
+    """Looks for the callsigns of one roster.
+
+    Parameters
+    ----------
+    words
+        Of the recogniser; unit 0 is the blank, unit i is word i - 1.
+    """
+
+    def __init__(self, words: Sequence[str], callsigns: Sequence[str]) -> None:
+        unit_of = {word: unit for unit, word in enumerate(words, start=1)}
+        self._same = [
+            tuple(unit_of[word] for word in variants if word in unit_of) for variants in SAME
+        ]
+        standing_for = {
+            word: next((v for v in variants if v in unit_of), word)
+            for variants in SAME
+            for word in variants
+        }
+        self._forms: list[tuple[str, tuple[int, ...]]] = []
+        for callsign in dict.fromkeys(callsigns):
+            for form in dict.fromkeys(spoken_forms(callsign)):
+                said = [standing_for.get(word, word) for word in form]
+                if all(word in unit_of for word in said):
+                    self._forms.append((callsign, tuple(unit_of[word] for word in said)))
+        longest = max((len(units) for _, units in self._forms), default=0)
+        self._units = np.zeros((len(self._forms), longest), np.intp)
+        for row, (_, units) in enumerate(self._forms):
+            self._units[row, : len(units)] = units
+
+    def spot(self, posteriors: NDArray[np.float32]) -> list[Spotted]:
+        """Return where each form fits best, the best one first.
+
+        Parameters
+        ----------
+        posteriors
+            Shape (steps, units).
+        """
+        if not self._forms or not len(posteriors):
+            return []
+        scores, begins = self._align(np.log(np.maximum(posteriors, 1e-8)))
+        found = []
+        for row, (callsign, units) in enumerate(self._forms):
+            ends = scores[:, row, len(units) - 1]
+            end = int(ends.argmax())
+            begin = int(begins[end, row, len(units) - 1])
+            loss = -float(ends[end]) / len(units)
+            found.append(Spotted(callsign, units, begin, end + 1, loss))
+        return sorted(found, key=lambda each: (each.loss, -len(each.units), each.callsign))
+
+    def _align(
+        self, log: NDArray[np.float32]
+    ) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+        """Return the best score of each word's state at each step, and where its path began.
+
+        Shapes (steps, forms, words).
+        """
+        log = log - log.max(axis=1, keepdims=True)
+        for variants in self._same:
+            log[:, list(variants)] = log[:, list(variants)].max(axis=1, keepdims=True)
+        emitted = log[:, self._units]
+        count, size = self._units.shape
+        repeats = np.zeros((count, size), bool)
+        repeats[:, 1:] = self._units[:, 1:] == self._units[:, :-1]
+        scores = np.full((len(log), count, size), -np.inf, np.float32)
+        begins = np.zeros((len(log), count, size), np.intp)
+        word, gap = np.full((2, count, size), -np.inf, np.float32)
+        word_begin, gap_begin = np.zeros((2, count, size), np.intp)
+        for step in range(len(log)):
+            came, came_begin = np.zeros((count, size), np.float32), np.full((count, size), step)
+            came[:, 1:], came_begin[:, 1:] = gap[:, :-1], gap_begin[:, :-1]
+            direct = np.where(repeats, -np.inf, np.roll(word, 1, axis=1))[:, 1:]
+            is_direct = direct > came[:, 1:]
+            came[:, 1:] = np.where(is_direct, direct, came[:, 1:])
+            came_begin[:, 1:] = np.where(is_direct, word_begin[:, :-1], came_begin[:, 1:])
+            is_longer = gap >= word
+            gap_begin = np.where(is_longer, gap_begin, word_begin)
+            gap = np.where(is_longer, gap, word) + log[step, 0]
+            stays = word >= came
+            word_begin = np.where(stays, word_begin, came_begin)
+            word = np.where(stays, word, came) + emitted[step]
+            scores[step], begins[step] = word, word_begin
+        return scores, begins

@@ -1,0 +1,111 @@
+"""How transcripts are compared with what was said."""
+
+from collections import Counter
+
+import pytest
+
+from airhilt.metrics.words import align, in_words, recognition, score, slots_of
+from airhilt.radio.phraseology import parse_call
+
+ROSTER = ("AAL123", "DAL456", "N123AB")
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("Runway 01L, cleared to land.", "runway zero one left cleared to land"),
+        ("Climb and maintain 11,500.", "climb and maintain one one thousand five hundred"),
+        ("descend to ten thousand", "descend to 10,000"),
+        ("United twenty-three thirty", "united two three three zero"),
+        ("contact tower 119.1", "contact tower one one niner point one"),
+        ("cleared for take off", "cleared for takeoff"),
+        ("November one alpha X-ray, lineup", "november one alfa xray line up"),
+        ("fife tree fower niner", "five three four nine"),
+        ("FL350", "flight level three five zero"),
+        ("taxi via B5", "taxi via bravo five"),
+    ],
+)
+def test_the_same_words_are_the_same_however_they_are_written(one, other):
+    assert in_words(one) == in_words(other)
+
+
+def test_words_that_only_sound_alike_are_other_words():
+    assert in_words("cleared two land") != in_words("cleared to land")
+    assert score("cleared to land", "cleared two land", ROSTER).errors == 1
+
+
+@pytest.mark.parametrize("nothing", ["", "  ", "...", ", - ."])
+def test_nothing_has_no_words(nothing):
+    assert in_words(nothing) == []
+
+
+def test_texts_are_laid_side_by_side():
+    stretches = align("American one two three, go around", "american two three go around now")
+    assert [(one.kind, one.said, one.heard) for one in stretches] == [
+        ("equal", ("american",), ("american",)),
+        ("delete", ("one",), ()),
+        ("equal", ("two", "three", "go", "around"), ("two", "three", "go", "around")),
+        ("insert", (), ("now",)),
+    ]
+    assert sum(one.errors for one in stretches) == 2
+
+
+@pytest.mark.parametrize(
+    ("said", "heard", "errors"),
+    [("", "", 0), ("", "cleared to land", 3), ("cleared to land", "", 3), ("one", "two three", 2)],
+)
+def test_words_that_are_wrong_left_out_or_too_many_are_errors(said, heard, errors):
+    assert sum(one.errors for one in align(said, heard)) == errors
+
+
+def test_a_call_recognised_word_by_word_has_all_its_slots():
+    text = "American one two three, runway zero one, cleared to land"
+    right = score(text, text.lower().replace(",", ""), ROSTER)
+    assert (right.words, right.errors, right.callsign_found) == (10, 0, True)
+    assert (right.slots, right.slots_found, right.false_slots) == (2, 2, 0)
+
+
+def test_a_slot_with_another_value_is_missed_and_another_one_is_false():
+    wrong = score(
+        "American one two three, runway zero one, cleared to land",
+        "american one two three runway one niner cleared to land",
+        ROSTER,
+    )
+    assert (wrong.slots, wrong.slots_found, wrong.false_slots) == (2, 1, 1)
+
+
+def test_a_callsign_is_found_as_the_roster_knows_it():
+    said = "American one two three, turn left heading two seven zero"
+    assert score(said, "american won two three turn left", ROSTER).has_callsign
+    other = score(said, "delta four five six turn left heading two seven zero", ROSTER)
+    assert (other.has_callsign, other.callsign_found) == (True, False)
+    stranger = score("Speedbird nine, go around", "speedbird nine go around", ROSTER)
+    assert (stranger.has_callsign, stranger.callsign_found) == (False, False)
+
+
+def test_the_slots_of_a_call_are_those_of_all_its_instructions():
+    call = parse_call(
+        "American one two three, climb and maintain eight thousand, turn right heading zero niner "
+        "zero, contact departure one one eight decimal niner five",
+        ROSTER,
+    )
+    assert slots_of(call) == Counter(
+        [("action", "altitude"), ("altitude_ft", 8000.0), ("action", "heading"),
+         ("heading_deg", 90.0), ("action", "contact"), ("frequency_khz", 118_950)]
+    )  # fmt: skip
+
+
+def test_shares_of_nothing_are_not_known():
+    nothing = recognition([], None)
+    assert (nothing.calls, nothing.words) == (0, 0)
+    assert nothing.wer is nothing.callsign_accuracy is nothing.slot_accuracy is None
+    assert nothing.false_slots is None
+    empty = recognition([score("Washington, good day", "washington good day", ROSTER)], 10.0)
+    assert (empty.wer, empty.callsign_accuracy, empty.slot_accuracy) == (0.0, None, None)
+    assert empty.snr_db == 10.0
+
+
+def test_rates_are_over_all_words_and_not_the_mean_of_calls():
+    long = score("one two three four five six seven", "one two three four five six seven", ROSTER)
+    short = score("one", "two", ROSTER)
+    assert recognition([long, short], None).wer == pytest.approx(1 / 8)

@@ -1,0 +1,171 @@
+"""Whose callsign a call says, among those on the frequency, and how sure that is."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.radio.phraseology import AIRLINES, TELEPHONY, parse_call, tokens
+
+KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
+AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLOW4")
+
+
+@pytest.mark.parametrize(
+    ("text", "callsign", "addressed_first"),
+    [
+        ("American one two three, climb and maintain FL330.", "AAL123", True),
+        ("Climb and maintain FL330, American one two three.", "AAL123", False),
+        ("Okay, American one two three, climb FL330", "AAL123", True),
+        ("AAL123 climb FL330", "AAL123", True),
+        ("climb FL330 AAL123", "AAL123", False),
+        ("American one twenty three heavy, climb FL330", "AAL123", True),
+        ("American won two tree, climb FL330", "AAL123", True),
+        ("Air Canada eight eight, descend flight level two zero zero", "ACA88", True),
+        ("Air Canada eighty eight, descend flight level two zero zero", "ACA88", True),
+        ("Air France seven, climb FL200", "AFR7", True),
+        ("Airfrans seven, climb FL200", "AFR7", True),
+        ("November one two, climb FL200", "N12", True),
+        ("November one three, climb FL200", None, False),
+        ("N12, climb FL200", "N12", True),
+        ("Delta four five, climb FL200", None, False),
+        ("United five five, climb FL330", None, False),
+        ("Delta four five six, traffic American one two three", "DAL456", True),
+        ("climb flight level three three zero", None, False),
+    ],
+)
+def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
+    text, callsign, addressed_first
+):
+    call = parse_call(text, KNOWN)
+    assert (call.callsign, call.addressed_first) == (callsign, addressed_first)
+
+
+@pytest.mark.parametrize(
+    ("spoken", "callsign"),
+    [
+        ("ops one", "OPS1"),
+        ("operations one", "OPS1"),
+        ("OPS 1", "OPS1"),
+        ("tug two", "TUG2"),
+        ("fire three", "FIRE3"),
+        ("fire truck three", "FIRE3"),
+        ("snow plow four", "PLOW4"),
+        ("plow fower", "PLOW4"),
+        ("Cessna one seven two sierra papa", "N172SP"),
+        ("november 172 sierra papa", "N172SP"),
+        ("Skyhawk one seven two s p", "N172SP"),
+        ("American one three two", "AAL132"),
+    ],
+)
+def test_vehicles_and_registrations_are_heard_as_they_are_spoken(spoken, callsign):
+    call = parse_call(f"{spoken}, hold position", AIRPORT)
+    assert (call.callsign, call.addressed_first) == (callsign, True)
+    call = parse_call(f"holding position, {spoken}", AIRPORT)
+    assert (call.callsign, call.addressed_first) == (callsign, False)
+
+
+@pytest.mark.parametrize(
+    ("spoken", "callsign"),
+    [
+        ("two sierra papa", None),
+        ("Cessna two sierra papa", "N172SP"),
+        ("November sierra papa", "N172SP"),
+        ("Golf charlie delta", "G-ABCD"),
+        ("Golf alfa bravo charlie delta", "G-ABCD"),
+        ("Speedbird eight", None),
+    ],
+)
+def test_registrations_are_abbreviated_to_their_first_sign_and_last_ones(spoken, callsign):
+    known = ("N172SP", "G-ABCD", "BAW38")
+    assert parse_call(f"{spoken}, hold position", known).callsign == callsign
+
+
+def test_an_abbreviation_that_two_could_have_is_ambiguous():
+    call = parse_call("November two sierra papa, hold position", ("N172SP", "N552SP"))
+    assert call.callsign is None
+    assert call.match.ambiguous
+    assert {each.callsign for each in call.match.candidates} == {"N172SP", "N552SP"}
+    assert call.confidence <= 0.5
+    full = parse_call("November one seven two sierra papa, hold position", ("N172SP", "N552SP"))
+    assert (full.callsign, full.match.ambiguous) == ("N172SP", False)
+
+
+@pytest.mark.parametrize(
+    ("spoken", "callsign"),
+    [
+        ("amercan one two three", "AAL123"),
+        ("americans one two three", "AAL123"),
+        ("speed bird three eight", "BAW38"),
+        ("lufthanza four alfa bravo", "DLH4AB"),
+        ("fed ex sixteen oh two", "FDX1602"),
+        ("southwests five", "SWA5"),
+        ("banana one two three", None),
+        ("united one two three", None),
+    ],
+)
+def test_misspelt_airlines_are_known_by_their_number(spoken, callsign):
+    known = ("AAL123", "BAW38", "DLH4AB", "FDX1602", "SWA5")
+    call = parse_call(f"{spoken}, hold position", known)
+    assert call.callsign == callsign
+    assert 0.8 <= call.match.score <= 1.0 or callsign is None
+
+
+def test_a_number_without_a_name_is_a_candidate_and_no_more():
+    match = parse_call("one two three, hold position", KNOWN).match
+    assert (match.callsign, match.candidates[0].callsign, match.score) == (None, "AAL123", 0.5)
+
+
+def test_who_ends_a_call_is_its_speaker_whoever_else_is_named():
+    call = parse_call("Behind American 123, line up runway 01, Delta 456", AIRPORT)
+    assert (call.callsign, call.addressed_first) == ("DAL456", False)
+
+
+def test_the_digits_of_the_callsign_are_not_those_of_the_level():
+    call = parse_call("Descend flight level two niner zero American one two three", KNOWN)
+    assert (call.callsign, call.altitude_ft) == ("AAL123", 29_000)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "American 123, hold position, Delta 456, runway 01, cleared to land",
+        "American 123, hold position, Delta four five, runway 01, cleared to land",
+        "American 123, hold position, Delta 456, cross runway 01",
+    ],
+)
+def test_what_is_told_to_somebody_else_in_the_same_call_is_not_for_the_first(text):
+    call = parse_call(text, AIRPORT)
+    assert call.callsign == "AAL123"
+    assert [each.action for each in call.instructions] == ["hold_position"]
+
+
+def test_there_are_the_airlines_that_a_user_meets():
+    assert len(AIRLINES) >= 150
+    assert all(TELEPHONY[each] == airline.telephony for each, airline in AIRLINES.items())
+    assert all(tokens(name) for name in TELEPHONY.values())
+
+
+@settings(deadline=None)
+@given(st.sampled_from(sorted(TELEPHONY)), st.integers(1, 9999))
+def test_a_flight_is_heard_by_its_designator_and_by_its_airlines_telephony(airline, number):
+    callsign = f"{airline}{number}"
+    for form in (callsign, f"{TELEPHONY[airline]} {' '.join(str(number))}"):
+        call = parse_call(f"{form}, climb FL330", [callsign])
+        assert (call.callsign, call.addressed_first) == (callsign, True)
+        assert (call.sense, call.altitude_ft) == ("climb", 33_000)
+
+
+@settings(deadline=None)
+@given(
+    st.lists(st.sampled_from([*KNOWN, *AIRPORT]), unique=True),
+    st.lists(st.sampled_from(["american", "delta", "one", "two", "three", "four", "five", "six",
+                              "november", "sierra", "papa", "hold", "position", "ops"]),
+             max_size=10),
+)  # fmt: skip
+def test_nobody_is_named_who_is_not_on_the_frequency(callsigns, words):
+    call = parse_call(" ".join(words), callsigns)
+    assert call.callsign is None or call.callsign in callsigns
+    assert {each.callsign for each in call.match.candidates} <= set(callsigns)
+    assert all(0.0 <= each.score <= 1.0 for each in call.match.candidates)

@@ -1,0 +1,78 @@
+"""Make the tiny recogniser of the tests: three words, each of them a tone.
+
+    python tools/make_tiny_recogniser.py tests/data/tiny_recogniser
+
+The network looks at four mel bands in every sixth frame and gives the posteriors that belong to
+the loudest, or those of silence where none stands out. Needs ``onnx``, which AIRHILT does not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import onnx
+from onnx import TensorProto, helper, numpy_helper
+
+WORDS = ("alfa", "bravo", "charlie")
+BANDS = (15, 30, 45, 60)
+"""With centres near 588, 1202, 2108 and 3446 Hz."""
+POSTERIORS = (
+    (0.97, 0.01, 0.01, 0.01),
+    (0.04, 0.90, 0.03, 0.03),
+    (0.10, 0.05, 0.80, 0.05),
+    (0.02, 0.02, 0.01, 0.95),
+    (0.30, 0.60, 0.05, 0.05),
+)
+"""Of the blank and the words: in silence, and in each band."""
+STANDS_OUT = 5.0
+"""Above the mean of its band over the call, in the natural logarithm of power."""
+
+
+def main() -> None:
+    """Write the network, its words and its card."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    out = parser.parse_args().out
+    out.mkdir(parents=True, exist_ok=True)
+    constants = {
+        "begin": np.array([0], np.int64),
+        "end": np.array([np.iinfo(np.int64).max], np.int64),
+        "frames": np.array([1], np.int64),
+        "step": np.array([6], np.int64),
+        "bands": np.array(BANDS, np.int64),
+        "one_more": np.array([0, 0, 1, 0, 0, 0], np.int64),
+        "stands_out": np.array(STANDS_OUT, np.float32),
+        "table": np.log(np.array(POSTERIORS)).astype(np.float32),
+    }
+    graph = helper.make_graph(
+        [
+            helper.make_node("Slice", ["features", "begin", "end", "frames", "step"], ["sixth"]),
+            helper.make_node("Gather", ["sixth", "bands"], ["tones"], axis=2),
+            helper.make_node("Pad", ["tones", "one_more", "stands_out"], ["all"]),
+            helper.make_node("ArgMax", ["all"], ["loudest"], axis=2, keepdims=0),
+            helper.make_node("Gather", ["table", "loudest"], ["logits"], axis=0),
+        ],
+        "tiny_recogniser",
+        [helper.make_tensor_value_info("features", TensorProto.FLOAT, [1, "n", 64])],
+        [helper.make_tensor_value_info("logits", TensorProto.FLOAT, [1, "steps", 1 + len(WORDS)])],
+        [numpy_helper.from_array(value, name) for name, value in constants.items()],
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    onnx.checker.check_model(model)
+    (out / "ctc.onnx").write_bytes(model.SerializeToString())
+    (out / "words.txt").write_text("\n".join(WORDS) + "\n", encoding="utf-8")
+    as_it_is = {"slope": 1.0, "offset": 0.0}
+    card = {
+        "made_by": "tools/make_tiny_recogniser.py",
+        "word_calibration": as_it_is,
+        "call_calibration": as_it_is,
+        "least_word_confidence": 0.5,
+    }
+    (out / "card.json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
