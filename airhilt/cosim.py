@@ -474,7 +474,7 @@ class Simulation:
             lost=lambda worker, cause: self._lose(worker.name, worker.modality, cause),
         )
         self._exchange.listen(AudioRecorder(folder.audio_path).take)
-        self._exchange.listen(self._collector.take)
+        self._exchange.observe(self._collector.take)
         self._exchange.listen(self._pool.offer)
         self._advised = Advised(self._director, cast, self._event, is_voiced=team.does("voice"))
         self._exchange.listen(self._radio.take)

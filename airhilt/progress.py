@@ -196,8 +196,9 @@ def _radio(radio: RadioStatistics) -> str:
         "without a transcript": radio.transcripts_missing or 0,
         "words of noise alone": radio.hallucinated or 0,
     }
+    plural = "" if radio.transmissions == 1 else "s"
     counts = [f"{count} {what}" for what, count in wrong.items() if count]
-    return ", ".join([f"{radio.transmissions} transmissions", *counts])
+    return ", ".join([f"{radio.transmissions} transmission{plural}", *counts])
 
 
 def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:

@@ -15,8 +15,9 @@ from pydantic import ValidationError
 
 from airhilt.cosim import FOREIGN, Foreign, Observer, Options, Recorded, run
 from airhilt.errors import RunFolderError, first_problem
-from airhilt.messages import Event
+from airhilt.messages import HEADERS, WORKER_OUTPUTS, Event
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
+from airhilt.record.audio import recorded_pcm
 from airhilt.record.folder import versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
@@ -84,13 +85,14 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             tts=info.options.tts,
             run_name=info.run,
         )
-        result = run(scenario, options, observer, _recorded(path, info, latencies, recorded_log))
+        recorded = _recorded(folder, info, latencies, recorded_log)
+        result = run(scenario, options, observer, recorded)
         repeated = list(read_log(RunFolder(result.folder).log_path))
     return _compare(recorded_log, repeated, info)
 
 
 def _recorded(
-    path: Path, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
+    folder: RunFolder, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
 ) -> Recorded:
     breaks_off = info.phase != "finished"
     attached = [worker.description for worker in info.workers if worker.where == "attached"]
@@ -105,15 +107,15 @@ def _recorded(
             failure = (unfinished.seq, loss.cause)
         elif loss is not None:
             losses[name] = loss
-        published = [logged for logged in log if logged.publisher == name]
+        given = [_given(folder, logged) for logged in log if logged.publisher == name]
         worker = RecordedWorker(
-            published, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
+            given, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
         )
         workers.append(Participant(description, worker, attached=True))
     return Recorded(
         latency=LatencySpec(
             "replay",
-            replay_of=str(path),
+            replay_of=str(folder.path),
             recorded=latencies.latencies_ns,
             breaks_off=breaks_off,
         ),
@@ -129,13 +131,23 @@ def _recorded(
     )
 
 
+def _given(folder: RunFolder, logged: Logged) -> Output:
+    """Return what a worker gave: the message, or the raw bytes that it is the header of."""
+    model = WORKER_OUTPUTS[logged.key.split("/")[0]]
+    if not issubclass(model, HEADERS):
+        return Output(logged.key, logged.data, logged.t_ns)
+    header = model.model_validate_json(logged.data)
+    pcm = recorded_pcm(folder.audio_path, header)
+    return Output(logged.key, pcm, logged.t_ns, header.model_dump(mode="json"))
+
+
 class RecordedWorker:
     """Gives what a worker of another process gave, step by step.
 
     Parameters
     ----------
-    published
-        Its messages, in order.
+    given
+        All that it gave, in order.
     outputs
         How many of them each step gave.
     wakes_ns
@@ -146,12 +158,12 @@ class RecordedWorker:
 
     def __init__(
         self,
-        published: Sequence[Logged],
+        given: Sequence[Output],
         outputs: dict[int, int],
         wakes_ns: dict[int, int | None],
         failure: tuple[int, str] | None,
     ) -> None:
-        self._published = deque(published)
+        self._given = deque(given)
         self._outputs = outputs
         self._wakes_ns = wakes_ns
         self._failure = failure
@@ -160,9 +172,8 @@ class RecordedWorker:
         """Return the step as it was."""
         if self._failure is not None and self._failure[0] == seq:
             return RecordedStep(Reply((), 0.0), self._failure[1])
-        count = min(self._outputs.get(seq, 0), len(self._published))
-        taken = [self._published.popleft() for _ in range(count)]
-        outputs = tuple(Output(item.key, item.data, item.t_ns) for item in taken)
+        count = min(self._outputs.get(seq, 0), len(self._given))
+        outputs = tuple(self._given.popleft() for _ in range(count))
         return RecordedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
 
 

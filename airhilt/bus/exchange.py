@@ -22,10 +22,15 @@ class Exchange:
         self._bus = bus
         self._log = log
         self._listeners: list[Listener] = []
+        self._observers: list[Listener] = []
 
     def listen(self, listener: Listener) -> None:
         """Call ``listener`` with every message that is not truth."""
         self._listeners.append(listener)
+
+    def observe(self, observer: Listener) -> None:
+        """Call ``observer`` with every message, truth too: for what measures the run."""
+        self._observers.append(observer)
 
     def publish(
         self, key: str, message: Message, publisher: str = RUN, raw: bytes | None = None
@@ -43,13 +48,16 @@ class Exchange:
             self._bus.put(key, data)
         else:
             self._bus.put(key, raw, data)
+        payload = data if raw is None else raw
+        for observer in self._observers:
+            observer(key, message, payload)
         if not key.startswith("truth/"):
             for listener in self._listeners:
-                listener(key, message, data if raw is None else raw)
+                listener(key, message, payload)
 
     def heard(self, key: str, message: Message, publisher: str) -> None:
         """Take in what another process has put on the bus itself."""
         data = message.model_dump_json().encode()
         self._log.write(key, publisher, type(message), message.t_ns, data)
-        for listener in self._listeners:
+        for listener in (*self._observers, *self._listeners):
             listener(key, message, data)

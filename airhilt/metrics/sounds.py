@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import base64
-import hashlib
 import io
 import os
 import wave
 from pathlib import Path
 from urllib.parse import quote
 
-from airhilt.errors import SpeechError
+from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.radio.voices.wav import SAMPLE_BYTES, read_wav, to_pcm
-from airhilt.record.audio import audio_file
+from airhilt.radio.voices.wav import SAMPLE_BYTES, from_pcm, to_pcm
+from airhilt.record.audio import audio_file, recorded_pcm
 
 RATE_HZ = 8_000
 """In the page. Aeronautical VHF carries 300 to 3400 Hz (ETSI EN 300 676-1), which this leaves."""
@@ -47,19 +46,16 @@ class Sounds:
         """Return the sound of a message, None if it has none."""
         if not message.samples:
             return None
-        path = audio_file(self._folder, message)
         try:
-            audio = read_wav(path)
-        except SpeechError:
-            self.missing += 1
-            return None
-        if hashlib.sha256(to_pcm(audio)).hexdigest() != message.sha256:
+            audio = from_pcm(recorded_pcm(self._folder, message))
+        except RunFolderError:
             self.missing += 1
             return None
         size = 4 * -(-len(audio) * SAMPLE_BYTES * RATE_HZ // SAMPLE_RATE_HZ // 3)
         if size > self._room:
             self.linked += 1
-            return {"href": quote(os.path.relpath(path, self._page.parent).replace(os.sep, "/"))}
+            path = os.path.relpath(audio_file(self._folder, message), self._page.parent)
+            return {"href": quote(path.replace(os.sep, "/"))}
         source = "data:audio/wav;base64," + base64.b64encode(_small_wav(audio)).decode()
         self._room -= len(source)
         return {"src": source}

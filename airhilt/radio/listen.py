@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -14,8 +13,9 @@ from pydantic import ValidationError
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.radio.voices.wav import read_wav, to_pcm, write_wav
+from airhilt.radio.voices.wav import from_pcm, write_wav
 from airhilt.record import RunFolder, read_log
+from airhilt.record.audio import recorded_pcm
 from airhilt.units import SECOND_NS
 
 
@@ -95,9 +95,10 @@ def listen(
     Raises
     ------
     RunFolderError
-        There is no run, or nothing was said on that frequency.
+        There is no run, nothing was said on that frequency, or a sound file is not what was
+        received.
     SpeechError
-        The run has no sound, or a sound file is not what was received.
+        The run has no sound.
     """
     folder = RunFolder.open(run_folder)
     tape = _read(folder, frequency_khz)
@@ -198,7 +199,8 @@ def _splice(folder: RunFolder, tuned: Sequence[Transmission]) -> Audio:
         if tx.samples == 0:
             continue
         begin = max(_sample(tx.t_tx_ns), free_at)
-        pieces.append((begin, _received(folder, tx)[begin - _sample(tx.t_tx_ns) :]))
+        received = from_pcm(recorded_pcm(folder.audio_path, tx))
+        pieces.append((begin, received[begin - _sample(tx.t_tx_ns) :]))
         free_at = max(_sample(tx.t_end_ns), free_at)
     if not pieces:
         raise SpeechError(
@@ -209,14 +211,6 @@ def _splice(folder: RunFolder, tuned: Sequence[Transmission]) -> Audio:
     for begin, piece in pieces:
         timeline[begin : begin + len(piece)] = piece
     return timeline
-
-
-def _received(folder: RunFolder, tx: Transmission) -> Audio:
-    path = folder.audio_path / f"{tx.id}.wav"
-    audio = read_wav(path)
-    if hashlib.sha256(to_pcm(audio)).hexdigest() != tx.sha256:
-        raise SpeechError(f"{path}: not the sound of this run: its SHA-256 is not {tx.sha256}")
-    return audio
 
 
 def _sample(t_ns: int) -> int:

@@ -6,11 +6,13 @@ the log vouches for them.
 
 from __future__ import annotations
 
+import hashlib
+from contextlib import suppress
 from pathlib import Path
 
-from airhilt.errors import RunFolderError
+from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import AdvisoryAudio, Message, Transmission
-from airhilt.radio.voices.wav import from_pcm, write_wav
+from airhilt.radio.voices.wav import encode_wav, from_pcm, read_wav, to_pcm
 
 
 def audio_file(folder: Path, message: Transmission | AdvisoryAudio) -> Path:
@@ -18,8 +20,8 @@ def audio_file(folder: Path, message: Transmission | AdvisoryAudio) -> Path:
     match message:
         case Transmission(id=name):
             stem = name
-        case AdvisoryAudio(id=name, revision=revision):
-            stem = f"advisory-{name}-{revision}"
+        case AdvisoryAudio(id=name, revision=revision, recipient=recipient):
+            stem = f"advisory-{name}-{revision}-{recipient}"
     return folder / f"{''.join(c if c.isalnum() or c in '._-' else '_' for c in stem)}.wav"
 
 
@@ -39,8 +41,34 @@ class AudioRecorder:
         """
         if not isinstance(message, (Transmission, AdvisoryAudio)) or not payload:
             return
+        path = audio_file(self._folder, message)
         try:
             self._folder.mkdir(exist_ok=True)
+            path.write_bytes(encode_wav(from_pcm(payload)))
         except OSError as error:
-            raise RunFolderError(f"{self._folder}: cannot be made: {error.strerror}") from None
-        write_wav(audio_file(self._folder, message), from_pcm(payload))
+            with suppress(OSError):
+                path.unlink()
+            raise disk_failed(str(path), error) from None
+
+
+def recorded_pcm(folder: Path, message: Transmission | AdvisoryAudio) -> bytes:
+    """Return the PCM of a message from the ``audio`` folder of its run.
+
+    Raises
+    ------
+    RunFolderError
+        Its file is missing, or holds something else than the message vouches for.
+    """
+    path = audio_file(folder, message)
+    try:
+        pcm = to_pcm(read_wav(path))
+    except SpeechError as error:
+        raise RunFolderError(
+            f"{error}; expected the sound of {message.id!r}, as the run wrote it"
+        ) from None
+    if hashlib.sha256(pcm).hexdigest() != message.sha256:
+        raise RunFolderError(
+            f"{path}: not the sound that the log vouches for; expected the SHA-256 of its samples "
+            f"to be {message.sha256}"
+        )
+    return pcm

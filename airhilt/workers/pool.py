@@ -20,6 +20,7 @@ from airhilt.messages import (
     Transcript,
     WorkerDescription,
 )
+from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
 from airhilt.sim import (
     Director,
     Endpoint,
@@ -212,6 +213,11 @@ def _check_audio(worker: str, key: str, header: AdvisoryAudio, pcm: bytes) -> No
         raise WorkerError(
             f"worker {worker!r} published on {key!r} the voice of advisory {header.id!r}; expected "
             "its id in the key"
+        )
+    if header.sample_rate_hz != SAMPLE_RATE_HZ:
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} audio at {header.sample_rate_hz} Hz; expected "
+            f"{SAMPLE_RATE_HZ} Hz"
         )
     if len(pcm) != 2 * header.samples or hashlib.sha256(pcm).hexdigest() != header.sha256:
         raise WorkerError(

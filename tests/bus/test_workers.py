@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
-import sys
 import textwrap
 import time
 from collections.abc import Iterator
@@ -13,6 +12,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
+from processes import ActsAt, process
 
 from airhilt import run
 from airhilt.bus import Bus, free_endpoint
@@ -26,35 +26,9 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @contextmanager
-def process(*command: str | Path) -> Iterator[subprocess.Popen[bytes]]:
-    """A process beside the test; it is ended with it."""
-    started = subprocess.Popen([sys.executable, *command], stderr=subprocess.PIPE)
-    try:
-        yield started
-    finally:
-        started.send_signal(signal.SIGCONT)
-        started.kill()
-        started.communicate()
-
-
-@contextmanager
 def decision_worker(endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
     with process("-m", "airhilt", "worker", "decision", "--connect", endpoint) as started:
         yield started
-
-
-class ActsAt(Observer):
-    """Does something to a worker once a simulation time has come."""
-
-    def __init__(self, t_s: float, worker: subprocess.Popen[bytes], number: int) -> None:
-        self._t_s, self._worker, self._number = t_s, worker, number
-
-    def snapshot(self, snapshot: Snapshot) -> None:
-        if snapshot.t_s >= self._t_s and self._number:
-            self._worker.send_signal(self._number)
-            if self._number == signal.SIGKILL:
-                self._worker.wait()
-            self._number = 0
 
 
 def test_a_worker_in_another_process_gives_the_same_log(

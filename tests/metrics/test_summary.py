@@ -6,12 +6,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.commands import AltitudeCommand
-from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity, Status, Transcript
+from airhilt.messages import (
+    Advisory,
+    AdvisoryAudio,
+    Evidence,
+    Severity,
+    SpokenTruth,
+    Status,
+    Transcript,
+    Transmission,
+)
 from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.outline import Gap
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.runways import Incursion
 from airhilt.metrics.summary import LatencyStatistics, severest
+from airhilt.progress import print_summary
+from airhilt.radio.phraseology.say import speak_callsign
 from airhilt.radio.script import planned_ends_ns
 from airhilt.radio.speech import Text
 from airhilt.scenario import load
@@ -350,3 +361,55 @@ def test_the_margin_over_tcas_is_counted_from_the_voice():
     told.watch.fly(3.0)
     told.take(voice(3.0, t_dec_s=0.0))
     assert told.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)
+
+
+# --- with a radio ---------------------------------------------------------------------------
+
+
+def call(heard=None, snr_db=None):
+    times = {"id": "a", "frequency_khz": 134_325, "t_tx_ns": 0, "t_end_ns": SECOND_NS}
+    text = f"{SPOKEN}, maintain flight level three five zero"
+    said = SpokenTruth(**times, speaker="Centre", addressed=FIRST, text=text, snr_db=snr_db)
+    messages = [said, Transmission(**times, samples=16_000, snr_db=snr_db)]
+    if heard is not None:
+        transcript = Transcript(
+            t_ns=round(1.25 * SECOND_NS), **times, text=heard, confidence=0.9, engine="embedded"
+        )
+        messages.append(transcript)
+    return messages
+
+
+SPOKEN = speak_callsign(FIRST, "faa")
+
+
+def test_the_radio_is_measured_with_the_callsigns_of_the_roster():
+    told = Told()
+    for message in call(f"{SPOKEN} maintain flight level three four zero", snr_db=10.0):
+        told.take(message)
+    radio = told.summary().radio
+    assert (radio.transmissions, radio.calls, radio.snr_db) == (1, 1, 10.0)
+    assert (radio.callsign_accuracy, radio.slot_accuracy, radio.false_slots) == (1.0, 0.5, 1)
+
+
+@pytest.mark.parametrize(("state", "missing"), [("on", 1), ("lost", 1), ("off", None)])
+def test_transcripts_are_missing_only_where_somebody_was_to_make_them(state, missing):
+    told = Told()
+    told.collector.modalities["speech"] = state
+    for message in call():
+        told.take(message)
+    assert told.summary().radio.transcripts_missing == missing
+
+
+def test_the_terminal_tells_how_well_speech_was_recognised(capsys, tmp_path):
+    told = Told()
+    for message in call(f"{SPOKEN} maintain flight level three five zero"):
+        told.take(message)
+    print_summary(told.summary(), tmp_path)
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "radio 1 transmission" in shown
+    assert "word error rate 0.0 %, callsigns 100.0 %, slots 100.0 %, p95 250 ms after" in shown
+
+
+def test_the_terminal_says_nothing_of_recognition_where_there_was_none(capsys, tmp_path):
+    print_summary(Told().summary(), tmp_path)
+    assert "recognition" not in capsys.readouterr().out

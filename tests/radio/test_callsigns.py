@@ -131,7 +131,7 @@ def test_the_digits_of_the_callsign_are_not_those_of_the_level():
     "text",
     [
         "American 123, hold position, Delta 456, runway 01, cleared to land",
-        "American 123, hold position, Delta four five, runway 01, cleared to land",
+        "American 123, hold position, Delta four five seven, runway 01, cleared to land",
         "American 123, hold position, Delta 456, cross runway 01",
     ],
 )

@@ -1,17 +1,45 @@
 """Workers get what they asked for and may publish only what is theirs."""
 
+import hashlib
 from dataclasses import dataclass, field
+from functools import partial
 
 import pytest
 
 from airhilt.errors import WorkerError
-from airhilt.messages import InputSpec, Transcript, WorkerDescription
+from airhilt.messages import (
+    AdvisoryAudio,
+    InputSpec,
+    Transcript,
+    Transmission,
+    WorkerDescription,
+)
 from airhilt.sim import Director, Input, Output, Priority, Virtual, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step
 
 SAID = Transcript(
     id="1", frequency_khz=134325, t_tx_ns=0, t_end_ns=5, text="hello", confidence=1.0, engine="text"
+)
+PCM = bytes(range(200)) * 16
+RECEIVED = Transmission(
+    t_ns=7,
+    id="1",
+    frequency_khz=134325,
+    t_tx_ns=2,
+    t_end_ns=7,
+    samples=len(PCM) // 2,
+    sha256=hashlib.sha256(PCM).hexdigest(),
+)
+VOICE = AdvisoryAudio(
+    id="decision-1",
+    revision=0,
+    recipient="AAL123",
+    text="Traffic",
+    t_dec_ns=4,
+    engine="tone",
+    samples=len(PCM) // 2,
+    sha256=hashlib.sha256(PCM).hexdigest(),
 )
 
 
@@ -25,6 +53,7 @@ class Listener:
     output: Output | None = None
     failure: Exception | None = None
     heard: list = field(default_factory=list)
+    inputs: list = field(default_factory=list)
 
     @property
     def description(self):
@@ -35,6 +64,7 @@ class Listener:
         if self.failure is not None:
             raise self.failure
         self.heard += [(t_ns, item.key) for item in inputs]
+        self.inputs += inputs
         return Step(() if self.output is None else (self.output,))
 
 
@@ -45,21 +75,28 @@ class Run:
 
     def __post_init__(self):
         self.director = Director(Virtual())
-        self.published, self.steps, self.losses = [], [], []
+        self.published, self.raw, self.steps, self.losses = [], [], [], []
         self.pool = WorkerPool(
             self.director,
             [Participant(w.description, LocalWorker(w), attached=False) for w in self.workers],
             parse_latency(self.latency),
             1,
-            publish=lambda key, message, worker: self.published.append((key, message, worker)),
+            publish=self.publish,
             done=self.steps.append,
             lost=lambda description, cause: self.losses.append((description.name, cause)),
         )
 
+    def publish(self, key, message, publisher, raw=None):
+        self.published.append((key, message, publisher))
+        self.raw.append(raw)
+
     def say(self, key, t_ns=0):
         message = SAID.model_copy(update={"t_ns": t_ns})
-        data = message.model_dump_json().encode()
-        self.director.at(t_ns, lambda: self.pool.offer(key, message, data), Priority.SENSOR)
+        self.offer(key, message, message.model_dump_json().encode())
+
+    def offer(self, key, message, data):
+        give = partial(self.pool.offer, key, message, data)
+        self.director.at(message.t_ns, give, Priority.SENSOR)
 
 
 @pytest.mark.parametrize(
@@ -144,13 +181,72 @@ def test_a_step_that_the_end_of_the_run_cuts_off_is_told():
 
 
 def test_an_input_carries_the_time_at_which_it_came():
-    seen = []
     listener = Listener("asr/*", "one")
-    listener.step = lambda t_ns, inputs: seen.extend(inputs) or Step()
     run = Run([listener])
     run.say("asr/1", 5)
     run.director.run()
-    (item,) = seen
+    (item,) = listener.inputs
     assert isinstance(item, Input)
     assert (item.key, item.t_in_ns) == ("asr/1", 5)
     assert Transcript.model_validate_json(item.payload).text == "hello"
+    assert item.attachment is None
+
+
+def test_audio_comes_as_raw_bytes_with_its_header_beside_it():
+    listener = Listener("radio/*/tx")
+    run = Run([listener])
+    run.offer("radio/134325/tx", RECEIVED, PCM)
+    run.director.run()
+    (item,) = listener.inputs
+    assert (item.key, item.t_in_ns, item.payload) == ("radio/134325/tx", 7, PCM)
+    assert Transmission.model_validate(item.attachment) == RECEIVED
+
+
+def test_a_voice_is_published_as_raw_bytes_with_its_header():
+    voice = Output("tts/decision-1", PCM, attachment=VOICE.model_dump(mode="json"))
+    run = Run([Listener("asr/*", "tts", output=voice)])
+    run.say("asr/1", 500)
+    run.director.run()
+    stamped = VOICE.model_copy(update={"t_ns": 1_000_000_500})
+    assert run.published == [("tts/decision-1", stamped, "tts")]
+    assert run.raw == [PCM]
+
+
+def test_what_is_no_audio_is_published_without_raw_bytes():
+    run = Run([Listener("asr/1", output=Output("asr/134325", SAID.model_dump_json().encode()))])
+    run.say("asr/1")
+    run.director.run()
+    assert run.raw == [None]
+
+
+@pytest.mark.parametrize(
+    ("key", "pcm", "said"),
+    [
+        ("tts/decision-2", PCM, "voice of advisory 'decision-1'; expected its id in the key"),
+        ("tts/decision-1", PCM[:-2], "3198 bytes .* expected 1600 samples of 16 bits"),
+        ("tts/decision-1", PCM[:-1], "3199 bytes"),
+        ("tts/decision-1", b"", "0 bytes"),
+        ("tts/decision-1", PCM[::-1], f"SHA-256 {VOICE.sha256}"),
+    ],
+    ids=["another key", "too short", "half a sample", "nothing", "other samples"],
+)
+def test_a_voice_that_is_not_what_its_header_says_is_refused(key, pcm, said):
+    with pytest.raises(WorkerError, match=f"worker 'w' published on '{key}' .*{said}"):
+        parse_output("w", key, pcm, 10, VOICE.model_dump(mode="json"))
+
+
+@pytest.mark.parametrize("header", [None, {}, [], "header", {"id": "decision-1"}])
+def test_a_voice_without_a_header_is_refused(header):
+    with pytest.raises(WorkerError, match=r"worker 'w' .* no AdvisoryAudio.*airhilt schema"):
+        parse_output("w", "tts/decision-1", PCM, 10, header)
+
+
+def test_a_voice_at_another_rate_is_refused():
+    header = VOICE.model_dump(mode="json") | {"sample_rate_hz": 22_050}
+    with pytest.raises(WorkerError, match="at 22050 Hz; expected 16000 Hz"):
+        parse_output("w", "tts/decision-1", PCM, 10, header)
+
+
+def test_a_worker_may_not_speak_on_the_radio():
+    with pytest.raises(WorkerError, match="expected a key under advisory, asr, tts"):
+        parse_output("w", "radio/134325/tx", PCM, 10, RECEIVED.model_dump(mode="json"))

@@ -162,7 +162,7 @@ def test_a_sound_file_that_was_exchanged_is_refused(recording: Recording) -> Non
     recording.call("1", 0.0, 0.1)
     folder = recording.close()
     write_wav(folder / "audio" / "1.wav", np.full(16_000, 0.3, np.float32))
-    with pytest.raises(SpeechError, match=r"1\.wav: not the sound of this run"):
+    with pytest.raises(RunFolderError, match=r"1\.wav: not the sound that the log vouches for"):
         listen(folder)
 
 
@@ -170,7 +170,7 @@ def test_a_sound_file_that_is_gone_is_named(recording: Recording) -> None:
     recording.call("1", 0.0, 0.1)
     folder = recording.close()
     (folder / "audio" / "1.wav").unlink()
-    with pytest.raises(SpeechError, match=r"1\.wav: cannot be read"):
+    with pytest.raises(RunFolderError, match=r"1\.wav: cannot be read"):
         listen(folder)
 
 

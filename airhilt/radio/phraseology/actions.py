@@ -395,6 +395,7 @@ _FORMS: tuple[tuple[str, Action, str, Builder], ...] = (
     ("position", "line_up", r"position and hold", _on_runway),
     ("hold holding", "hold_short", r"hold(?:ing)? short(?: of)?", _hold_short),
     ("continue remain", "hold_position", r"(?:continue|remain) holding", _alone),
+    ("holding", "hold_position", r"holding(?= \||$)", _alone),
     ("hold holding", "hold_position", r"hold(?:ing)? (?:your |my |present )?position", _alone),
     ("cross crossing", "cross", r"cross(?:ing)?(?= runway| [0-9])", _on_runway),
     ("proceed proceeding", "direct", r"proceed(?:ing)? direct(?: to)?", _place),

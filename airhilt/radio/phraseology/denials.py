@@ -45,6 +45,8 @@ BETWEEN = frozenset(
      "is", "it", "cleared", "clear", "longer", "currently", "actually", "really"}
 )  # fmt: skip
 """Words that may stand between."""
+STOPS = DENIALS | OPEN | {"delay"}
+"""Words that are not passed over."""
 AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative"})
 """After a clearance that is none: "cleared to land, cancelled"."""
 CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
@@ -83,9 +85,9 @@ def is_meant(
         if tuple(words[at : at + 2]) in _PHRASES:
             return False
         if words[at] not in BETWEEN and not words[at][0].isdigit():
-            if not skips or words[at] in DENIALS or words[at] in OPEN or at == floor:
+            if not skips or words[at] in STOPS or at == floor:
                 break
-            skips = False
+            skips = words[at] == "or"
         at -= 1
     if at < floor:
         return True

@@ -273,17 +273,27 @@ class _Reader:
         new = _told(part)
         told.traffic += new.traffic
         if marker == "correction" and told.instructions:
-            if new.instructions:
+            if _corrects_itself(told.instructions[-1], new):
                 _replace(told, new)
+                return
+            corrected = _corrected(told.instructions[-1], " ".join(part.texts[1:]))
+            if corrected is not None:
+                told.instructions[-1] = corrected
+            elif new.instructions:
+                _replace(told, new)
+                return
             else:
-                corrected = _corrected(told.instructions.pop(), " ".join(part.texts[1:]))
-                doing = told.doing.pop()
-                if corrected is not None:
-                    told.instructions.append(corrected)
-                    told.doing.append(doing)
-            return
+                told.instructions.pop()
+                told.doing.pop()
         told.instructions += new.instructions
         told.doing += new.doing
+
+
+def _corrects_itself(last: Instruction, new: Told) -> bool:
+    """Return whether what follows "correction" is an instruction and not a value of the last."""
+    return any(
+        each.action == last.action or (each.runway and last.runway) for each in new.instructions
+    )
 
 
 def _replace(told: Told, new: Told) -> None:

@@ -260,8 +260,8 @@ def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool
     """
     sound = raw[at - 1].text
     following = raw[at].text if at < len(raw) else ""
-    if sound in ("to", "too", "for", "fore") and following == "thousand":
-        return True
+    if following == "thousand" and sound in ("to", "too", "for", "fore"):
+        return joining or sound != "to"
     digits, after = _digits_from(raw, at)
     introduced = words.texts[-1] if words.texts else ""
     if sound in ("oh", "o", "won", "ate"):

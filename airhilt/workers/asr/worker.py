@@ -58,6 +58,8 @@ class AsrWorker:
             self._callsigns = tuple(entry.callsign for entry in briefing.roster)
             return None
         header = Transmission.model_validate(item.attachment)
+        if not header.samples and not item.payload:
+            return None  # In a run without sound, its words arrive as text.
         heard = self._engine.recognise(pcm_to_audio(header, item.payload), self._callsigns)
         return Transcript(
             id=header.id,

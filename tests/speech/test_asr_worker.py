@@ -1,0 +1,191 @@
+"""The worker that listens to the radio."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from airhilt.errors import SpeechError
+from airhilt.messages import Briefing, DeclaredLatency, RosterEntry, Transcript, Transmission, Word
+from airhilt.radio.voices.engine import Audio
+from airhilt.radio.voices.wav import to_pcm
+from airhilt.sim.worker import Input, Output
+from airhilt.workers.asr.engine import Recognised
+from airhilt.workers.asr.worker import AsrWorker
+from airhilt.workers.pool import parse_output, policy_of
+
+
+class Counting:
+    """An `AsrEngine` that hears how many samples there were."""
+
+    name = "counting"
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[Audio, tuple[str, ...]]] = []
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        self.asked.append((audio, tuple(callsigns)))
+        words = (("samples", 0.5), (str(len(audio)), 0.75))
+        return Recognised(f"samples {len(audio)}", words, 0.625)
+
+
+class Deaf:
+    name = "deaf"
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        return Recognised("", (), 0.0)
+
+
+class Broken:
+    name = "broken"
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        raise SpeechError("recogniser broken: no ears")
+
+
+def transmission(name: str = "call", samples: int = 1_600, **changes: Any) -> Input:
+    pcm = to_pcm(np.linspace(-0.5, 0.5, samples, dtype=np.float32))
+    header = {
+        "id": name,
+        "frequency_khz": 134_325,
+        "t_tx_ns": 1_000_000_000,
+        "t_end_ns": 3_000_000_000,
+        "samples": samples,
+        "sha256": hashlib.sha256(pcm).hexdigest(),
+    }
+    attachment = Transmission.model_validate(header | changes).model_dump(mode="json")
+    return Input(f"radio/{attachment['frequency_khz']}/tx", 3_000_000_000, pcm, attachment)
+
+
+def briefing(*callsigns: str) -> Input:
+    roster = tuple(
+        RosterEntry(callsign=callsign, category="aircraft", type="B738") for callsign in callsigns
+    )
+    message = Briefing(
+        controller="TOWER",
+        horizontal_separation_nm=3.0,
+        vertical_separation_ft=1_000.0,
+        roster=roster,
+    )
+    return Input("briefing", 0, message.model_dump_json().encode())
+
+
+def transcripts(worker: AsrWorker, *inputs: Input) -> list[Transcript]:
+    outputs = worker.step(3_000_000_000, inputs).outputs
+    return [checked(output) for output in outputs]
+
+
+def checked(output: Output) -> Transcript:
+    message = parse_output("asr", output.key, output.payload, 10**12, output.attachment)
+    assert isinstance(message, Transcript)
+    return message
+
+
+def test_a_transmission_becomes_a_transcript_of_it() -> None:
+    (transcript,) = transcripts(AsrWorker(Counting()), transmission("readback", 1_600))
+    assert transcript == Transcript(
+        id="readback",
+        frequency_khz=134_325,
+        t_tx_ns=1_000_000_000,
+        t_end_ns=3_000_000_000,
+        text="samples 1600",
+        words=(Word(text="samples", confidence=0.5), Word(text="1600", confidence=0.75)),
+        confidence=0.625,
+        engine="counting",
+    )
+
+
+def test_the_engine_hears_the_samples_that_were_sent() -> None:
+    engine = Counting()
+    sent = transmission(samples=320)
+    transcripts(AsrWorker(engine), sent)
+    ((audio, _),) = engine.asked
+    assert audio.dtype == np.float32
+    assert to_pcm(audio) == sent.payload
+
+
+def test_transmissions_are_taken_in_order_each_on_its_frequency() -> None:
+    sent = [
+        transmission("first", 16),
+        transmission("second", 32, frequency_khz=119_100),
+        transmission("third", 48),
+    ]
+    worker = AsrWorker(Counting())
+    assert [output.key for output in worker.step(0, sent).outputs] == [
+        "asr/134325",
+        "asr/119100",
+        "asr/134325",
+    ]
+    assert [(one.id, one.text) for one in transcripts(worker, *sent)] == [
+        ("first", "samples 16"),
+        ("second", "samples 32"),
+        ("third", "samples 48"),
+    ]
+
+
+def test_nothing_recognised_is_told_too_so_that_nobody_waits_for_it() -> None:
+    (transcript,) = transcripts(AsrWorker(Deaf()), transmission())
+    assert (transcript.text, transcript.words, transcript.confidence) == ("", (), 0.0)
+
+
+def test_a_run_without_sound_has_nothing_to_recognise() -> None:
+    engine = Counting()
+    assert transcripts(AsrWorker(engine), transmission(samples=0)) == []
+    assert engine.asked == []
+
+
+def test_a_briefing_tells_who_may_be_on_the_frequency_and_is_no_call() -> None:
+    engine = Counting()
+    worker = AsrWorker(engine)
+    assert transcripts(worker, briefing("AAL123", "DAL456")) == []
+    transcripts(worker, transmission())
+    transcripts(worker, transmission())
+    assert [callsigns for _, callsigns in engine.asked] == [("AAL123", "DAL456")] * 2
+
+
+def test_before_a_briefing_nobody_is_expected() -> None:
+    engine = Counting()
+    transcripts(AsrWorker(engine), transmission(), briefing("AAL123"), transmission())
+    assert [callsigns for _, callsigns in engine.asked] == [(), ("AAL123",)]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"samples": 1_601}, "3200 bytes at 16000 Hz; expected 1601 samples"),
+        ({"samples": 0}, "expected 0 samples"),
+        ({"sample_rate_hz": 8_000}, "at 8000 Hz; expected 1600 samples of 16 bits at 16000 Hz"),
+    ],
+)
+def test_audio_that_is_not_what_its_header_says_is_refused(
+    changes: dict[str, int], said: str
+) -> None:
+    engine = Counting()
+    sent = transmission("call-7")
+    wrong = Input(sent.key, sent.t_in_ns, sent.payload, sent.attachment | changes)
+    with pytest.raises(SpeechError, match=f"transmission call-7: .*{said}"):
+        transcripts(AsrWorker(engine), wrong)
+    assert engine.asked == []
+
+
+def test_an_engine_that_fails_says_so_itself() -> None:
+    with pytest.raises(SpeechError, match="no ears"):
+        transcripts(AsrWorker(Broken()), transmission())
+
+
+def test_it_asks_for_all_frequencies_and_loses_no_call() -> None:
+    description = AsrWorker(Counting()).description
+    policies = {wanted.key: wanted.policy for wanted in description.inputs}
+    assert description.modality == "speech"
+    assert policy_of("radio/134325/tx", policies) == "fifo"
+    assert policy_of("briefing", policies) == "fifo"
+    assert policy_of("asr/134325", policies) is None
+
+
+def test_how_slow_it_says_that_it_is_can_be_chosen() -> None:
+    slow = DeclaredLatency(median_s=2.0)
+    assert AsrWorker(Counting(), slow).description.latency == slow
