@@ -83,8 +83,8 @@ Examples:
     "--assistant",
     type=click.Choice(["reference", "none", "external"]),
     metavar="NAME",
-    help="reference, none, or external (attached workers only).  [default: reference, "
-    "external with --attach]",
+    help="reference, none, or external (who decides is attached).  [default: reference, "
+    "external if an attached program may decide]",
 )
 @click.option(
     "--pace", metavar="PACE", help="virtual (as fast as it goes), realtime, or a factor such as 4x."
@@ -134,12 +134,23 @@ Examples:
 @click.option(
     "--radio-profile",
     metavar="NAME",
-    help="Named settings of the radio channel.  [default: the scenario's]",
+    help="vhf, vhf_833, fading, noisy_cockpit, line, or a learned channel, FILE.onnx.  [default: "
+    "the scenario's, or vhf]",
 )
 @click.option(
-    "--asr", default="embedded", show_default=True, metavar="ENGINE", help="What recognises speech."
+    "--asr",
+    default="embedded",
+    show_default=True,
+    metavar="ENGINE",
+    help="What recognises speech: embedded, whisper:FOLDER, or the address of a service.",
 )
-@click.option("--tts", default="espeak", show_default=True, metavar="ENGINE", help="What speaks.")
+@click.option(
+    "--tts",
+    default="espeak",
+    show_default=True,
+    metavar="ENGINE",
+    help="What speaks: espeak, flite, coqui:FOLDER, or the address of a service.",
+)
 @click.option(
     "--topology",
     type=click.Choice(["parallel", "asr_first", "gated_fusion"]),
@@ -373,9 +384,11 @@ def doctor(as_json: bool) -> None:
     epilog="""\b
 Examples:
   airhilt worker decision --connect tcp/127.0.0.1:7447
+  airhilt worker asr --engine whisper:models/base.en --connect tcp/127.0.0.1:7447
 """
 )
-@click.argument("kind", type=click.Choice(["decision"]))
+@click.argument("kind", type=click.Choice(["decision", "asr", "tts"]))
+@click.option("--engine", metavar="ENGINE", help="Of asr or tts, as for `airhilt cosim`.")
 @click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."
@@ -390,13 +403,18 @@ Examples:
     help="How long to wait for the run to come up.",
 )
 def worker(
-    kind: str, connect: str, run_name: str | None, name: str | None, patience: float
+    kind: str,
+    engine: str | None,
+    connect: str,
+    run_name: str | None,
+    name: str | None,
+    patience: float,
 ) -> None:
     """Attach a reference worker to a run from this process."""
     from airhilt.workers import serve
-    from airhilt.workers.decision import DecisionWorker
+    from airhilt.workers.reference import reference_worker
 
-    serve(DecisionWorker(name=name or kind), connect, run_name, patience)
+    serve(reference_worker(kind, engine, name or kind), connect, run_name, patience)
 
 
 cli.add_command(airport)

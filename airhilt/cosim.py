@@ -87,7 +87,7 @@ from airhilt.truth import minima_of, truth_of, zone_of
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import LocalWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
-from airhilt.workers.reference import AssistantName, reference_workers
+from airhilt.workers.reference import ASR, TTS, AssistantName, reference_workers
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -129,9 +129,9 @@ class Options:
     """None: that of the scenario."""
     topology: Topology | None = None
     """None: that of the scenario."""
-    asr: str = "embedded"
+    asr: str = ASR
     """Engine, as in the command line."""
-    tts: str = "espeak"
+    tts: str = TTS
     """Engine, as in the command line."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
+import shutil
 import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,7 +24,13 @@ NEEDED = (
     "shapely",
     "networkx",
     "pygeomag",
+    "scipy",
+    "onnxruntime",
+    "espeakng-loader",
+    "jiwer",
 )
+OPTIONAL = {"faster-whisper": "whisper", "coqui-tts": "coqui", "resvg-py": "plot"}
+"""Extras by the package that they bring."""
 
 
 @dataclass(frozen=True)
@@ -53,16 +60,46 @@ def examine() -> list[Finding]:
         Finding("python", platform.python_version(), needed=True),
         *[_package(name) for name in NEEDED],
         *[_library(kind) for kind in ("aircraft", "scenarios")],
+        _jsbsim_models(),
+        _recogniser(),
     ]
-    return [*findings, _jsbsim_models()]
+    return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()], _flite()]
 
 
 def _package(name: str) -> Finding:
+    remedy = f"{sys.executable} -m pip install {name}"
+    return Finding(name, _version(name), needed=True, remedy=remedy)
+
+
+def _extra(name: str, extra: str) -> Finding:
+    remedy = f"{sys.executable} -m pip install 'airhilt[{extra}]'"
+    return Finding(name, _version(name), needed=False, remedy=remedy)
+
+
+def _version(name: str) -> str:
     try:
-        found = importlib.metadata.version(name)
+        return importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
-        found = ""
-    return Finding(name, found, needed=True, remedy=f"{sys.executable} -m pip install {name}")
+        return ""
+
+
+def _recogniser() -> Finding:
+    """Load the recogniser that ships with AIRHILT."""
+    from airhilt.errors import SpeechError
+    from airhilt.workers.asr.engines import asr_engine
+
+    try:
+        asr_engine("embedded")
+    except SpeechError as error:
+        return Finding("speech recogniser", "", needed=True, remedy=str(error))
+    return Finding("speech recogniser", "(embedded)", needed=True)
+
+
+def _flite() -> Finding:
+    found = shutil.which("flite") or ""
+    return Finding(
+        "flite", found, needed=False, remedy="for --tts flite; such as apt install flite"
+    )
 
 
 def _library(kind: str) -> Finding:

@@ -16,11 +16,9 @@ HERE = Path(__file__).parent
 TELEPHONY = HERE.parent / "airhilt" / "radio" / "phraseology" / "telephony.csv"
 FORMS = HERE / "asr_forms.txt"
 
-DIGITS = "zero one two three four five six seven eight nine".split()  # noqa: SIM905
-TEENS = (
-    "ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen".split()  # noqa: SIM905
-)
-TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()  # noqa: SIM905
+DIGITS = "zero one two three four five six seven eight nine".split()
+TEENS = "ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen".split()
+TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()
 LETTERS = (
     "alfa bravo charlie delta echo foxtrot golf hotel india juliett kilo lima mike november "
     "oscar papa quebec romeo sierra tango uniform victor whiskey xray yankee zulu"
@@ -29,7 +27,7 @@ MAKERS = (
     "cessna|piper|cirrus|beech|bonanza|cherokee|skyhawk|diamond|mooney|citation|learjet|"
     "gulfstream|king air|november|helicopter"
 ).split("|")
-COMMON = "AAL DAL UAL SWA JBU BAW DLH AFR KLM RPA SKW ASA FDX UPS ACA EJA SWR RYR".split()  # noqa: SIM905
+COMMON = "AAL DAL UAL SWA JBU BAW DLH AFR KLM RPA SKW ASA FDX UPS ACA EJA SWR RYR".split()
 PLACES = (
     "washington|potomac|kennedy|newark|boston|chicago|atlanta|denver|seattle|miami|dallas|"
     "houston|oakland|san francisco|norcal|socal|los angeles|phoenix|memphis|minneapolis|"
@@ -39,7 +37,7 @@ PLACES = (
     "istanbul|dubai|tokyo|haneda|narita|osaka|singapore|sydney|melbourne|shannon|dublin|"
     "brussels|rhein|maastricht|reykjavik|toronto|montreal|vancouver|gander|moncton"
 ).split("|")
-UNITS = "tower ground approach departure center centre control radar director delivery".split()  # noqa: SIM905
+UNITS = "tower ground approach departure center centre control radar director delivery".split()
 VEHICLES = (
     "ops|ops|follow me|fire truck|snow plow|sweeper|tug|car|security|maintenance|inspector|"
     "rescue|truck|checker|leader|bird control"
@@ -50,7 +48,7 @@ TYPES = (
     "seven fifty seven|three twenty|three thirty|skyhawk|helicopter|twin cessna"
 ).split("|")
 ANIMALS = "deer|coyote|fox|dog|geese|birds|gulls|flock of birds|flock of geese|animal".split("|")
-POINTS = "north south east west northeast northwest southeast southwest".split()  # noqa: SIM905
+POINTS = "north south east west northeast northwest southeast southwest".split()
 
 _CHOICE = re.compile(r"\(([^()]*)\)")
 _VARIABLE = re.compile(r"\{(\w+)\}")

@@ -15,6 +15,7 @@ import argparse
 import json
 import random
 import subprocess
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -28,16 +29,90 @@ from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
 from airhilt.radio.voices.espeak import ACCENTS, Espeak
 
 SHARD = 2_000
-UNSEEN_TIMBRES = "f3 m2 m4 Mike linda Gene adam ed steph2 victor anika john".split()
+UNSEEN_TIMBRES = [
+    "f3",
+    "m2",
+    "m4",
+    "Mike",
+    "linda",
+    "Gene",
+    "adam",
+    "ed",
+    "steph2",
+    "victor",
+    "anika",
+    "john",
+]
 """Timbres of espeak-ng that no training utterance has."""
-TIMBRES = (
-    "m1 m3 m5 m6 m7 m8 f1 f2 f4 f5 Alex Alicia Andrea Andy Annie Denis Diogo Gene2 Henrique Hugo "
-    "Jacky Lee Marco Mario Michael Nguyen Reed announcer antonio aunty belinda benjamin boris "
-    "caleb david edward edward2 grandma grandpa gustave ian iven iven2 iven3 klatt klatt2 klatt3 "
-    "klatt4 marcelo max michel miguel mike2 norbert pablo paul pedro quincy rob robert sandro "
-    "shelby steph steph3 travis zac"
-).split()
-FLITE = "slt rms kal16 kal".split()
+TIMBRES = [
+    "m1",
+    "m3",
+    "m5",
+    "m6",
+    "m7",
+    "m8",
+    "f1",
+    "f2",
+    "f4",
+    "f5",
+    "Alex",
+    "Alicia",
+    "Andrea",
+    "Andy",
+    "Annie",
+    "Denis",
+    "Diogo",
+    "Gene2",
+    "Henrique",
+    "Hugo",
+    "Jacky",
+    "Lee",
+    "Marco",
+    "Mario",
+    "Michael",
+    "Nguyen",
+    "Reed",
+    "announcer",
+    "antonio",
+    "aunty",
+    "belinda",
+    "benjamin",
+    "boris",
+    "caleb",
+    "david",
+    "edward",
+    "edward2",
+    "grandma",
+    "grandpa",
+    "gustave",
+    "ian",
+    "iven",
+    "iven2",
+    "iven3",
+    "klatt",
+    "klatt2",
+    "klatt3",
+    "klatt4",
+    "marcelo",
+    "max",
+    "michel",
+    "miguel",
+    "mike2",
+    "norbert",
+    "pablo",
+    "paul",
+    "pedro",
+    "quincy",
+    "rob",
+    "robert",
+    "sandro",
+    "shelby",
+    "steph",
+    "steph3",
+    "travis",
+    "zac",
+]
+FLITE = ["slt", "rms", "kal16", "kal"]
 FLITE_UNSEEN = ["awb"]
 
 
@@ -77,14 +152,13 @@ def _with_pauses(text: str, rng: random.Random) -> str:
 
 
 def _flite(text: str, voice: str, stretch: float) -> NDArray[np.int16]:
-    path = Path(f"/dev/shm/flite-{id(text)}.wav")
-    subprocess.run(
-        ["flite", "-voice", voice, "--setf", f"duration_stretch={stretch:.2f}",
-         "-t", text, "-o", str(path)],
-        check=True,
-    )  # fmt: skip
-    rate, samples = wavfile.read(path)
-    path.unlink()
+    with tempfile.NamedTemporaryFile(suffix=".wav") as spoken:
+        subprocess.run(
+            ["flite", "-voice", voice, "--setf", f"duration_stretch={stretch:.2f}",
+             "-t", text, "-o", spoken.name],
+            check=True,
+        )  # fmt: skip
+        rate, samples = wavfile.read(spoken.name)
     if rate == SAMPLE_RATE_HZ:
         return np.asarray(samples, np.int16)
     return np.asarray(

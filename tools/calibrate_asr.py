@@ -105,7 +105,9 @@ def best_threshold(
         kept = [
             " ".join(
                 word
-                for word, trust in zip(hypothesis, logistic(curve, np.array(posteriors)), strict=True)
+                for word, trust in zip(
+                    hypothesis, logistic(curve, np.array(posteriors)), strict=True
+                )
                 if trust >= least
             )
             for _, hypothesis, posteriors in calls

@@ -107,7 +107,12 @@ def reliability(scores: list[Score]) -> list[tuple[str, int, float, float]]:
         if chosen.any():
             label = f"{low:.1f} to {low + 0.1:.1f}"
             rows.append(
-                (label, int(chosen.sum()), float(confidences[chosen].mean()), float(right[chosen].mean()))
+                (
+                    label,
+                    int(chosen.sum()),
+                    float(confidences[chosen].mean()),
+                    float(right[chosen].mean()),
+                )
             )
     return rows
 
@@ -128,7 +133,11 @@ def main() -> None:
         scores: list[Score] = []
         factors = []
         for name, title in SETS.items():
-            utterances = [u for path in sorted(given.folder.glob(f"{name}-[0-9]*.jsonl")) for u in spoken(path)]
+            utterances = [
+                u
+                for path in sorted(given.folder.glob(f"{name}-[0-9]*.jsonl"))
+                for u in spoken(path)
+            ]
             utterances = utterances[: given.limit]
             if not utterances:
                 continue
@@ -138,7 +147,9 @@ def main() -> None:
                 scores.append(got)
                 factors.append(factor)
                 rate, right = 100 * got.word_error_rate, 100 * float(np.mean(got.callsigns))
-                numbers.append({"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right})
+                numbers.append(
+                    {"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right}
+                )
                 cells.append(f"{rate:.1f} ({right:.0f})")
             print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
             sys.stdout.flush()

@@ -118,7 +118,7 @@ class Flight(NamedTuple):
 
     def scattered(self, what: str) -> float:
         """Return a number in [-1, 1] that the seed determines."""
-        return random.Random(f"{what} {self.seed}").uniform(-1.0, 1.0)  # noqa: S311
+        return random.Random(f"{what} {self.seed}").uniform(-1.0, 1.0)
 
     def begin(self, initial: InitialCondition | OnGround) -> Aircraft:
         """Return the aircraft."""

@@ -55,6 +55,7 @@ class Residual(nn.Module):
         self.drop = nn.Dropout(0.05)
 
     def forward(self, x: Tensor) -> Tensor:
+        """Return the same shape."""
         return x + self.drop(torch.relu(self.norm(self.convolve(x))))
 
 
@@ -71,6 +72,7 @@ class Recogniser(nn.Module):
         self.head = nn.Conv1d(WIDTH, words + 1, 1)
 
     def forward(self, features: Tensor) -> Tensor:
+        """Return the logits."""
         return self.head(self.body(self.front(features.transpose(1, 2)))).transpose(1, 2)
 
 
@@ -79,7 +81,9 @@ class Recogniser(nn.Module):
 
 def prepare(folder: Path) -> None:
     """Turn shards of speech into shards of mel powers, those that are not yet."""
-    profiles = [PROFILES[name] for name in ("vhf", "vhf", "vhf_833", "fading", "noisy_cockpit", "line")]
+    profiles = [
+        PROFILES[name] for name in ("vhf", "vhf", "vhf_833", "fading", "noisy_cockpit", "line")
+    ]
     for path in sorted(folder.glob("*.jsonl"), reverse=True):
         target = folder / f"{path.stem}.mel.npz"
         if target.exists() or not path.with_suffix(".npy").exists():
@@ -122,6 +126,8 @@ def _trimmed(speech: np.ndarray, rng: np.random.Generator) -> np.ndarray:
 
 @dataclass
 class Utterance:
+    """One call as mel powers, clean or as it was received."""
+
     mel: np.ndarray
     units: list[int]
     real: bool
@@ -167,6 +173,7 @@ class Mixer:
         self._bank = noise_bank()
 
     def mix(self, utterance: Utterance, easy: bool) -> np.ndarray:
+        """Return the features of a call as they may be, without much noise if it is ``easy``."""
         rng = self._rng
         log = utterance.mel.astype(np.float32)
         if utterance.real:
@@ -204,7 +211,9 @@ class Mixer:
             part = (at - low)[:, None].astype(np.float32)
             log = log[low] * (1 - part) + log[high] * part
         if rng.random() < 0.7:
-            at = np.clip(np.arange(BINS) * rng.uniform(0.9, 1.12) + rng.uniform(-1.5, 1.5), 0, BINS - 1.001)
+            at = np.clip(
+                np.arange(BINS) * rng.uniform(0.9, 1.12) + rng.uniform(-1.5, 1.5), 0, BINS - 1.001
+            )
             low = at.astype(int)
             part = (at - low)[None, :].astype(np.float32)
             log = log[:, low] * (1 - part) + log[:, low + 1] * part
@@ -222,6 +231,7 @@ class Mixer:
         return log
 
     def noise_alone(self) -> np.ndarray:
+        """Return the features of an open channel on which nobody speaks."""
         rng = self._rng
         noise = self._bank[rng.integers(len(self._bank))]
         start, size = rng.integers(0, 1_000), rng.integers(30, 500)
@@ -299,7 +309,8 @@ def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
             mean += 0.02 * (loss.item() - mean)
             if step % 50 == 0:
                 spent = (time.time() - begun) / 60
-                print(f"{spent:6.1f} min  step {step}  seen {seen}  of {len(utterances)}  loss {mean:.3f}  lr {now:.1e}{'  easy' if easy else ''}", flush=True)
+                drawn = f"{seen} of {len(utterances)} drawn{', easy ones' if easy else ''}"
+                print(f"{spent:6.1f} min  step {step}  loss {mean:.3f}  {drawn}", flush=True)
             if easy and mean < 1.0:
                 easy = False
                 print("all utterances from here on", flush=True)
@@ -334,7 +345,7 @@ def export(folder: Path, target: Path) -> None:
     shards = sorted((folder / "train").glob("*.mel.npz"))
     lines = {path.name: _lines(path) for path in shards}
     card = {
-        "made_by": "tools/train_asr.py; speech by tools/asr_speech.py, texts by tools/asr_corpus.py",
+        "made_by": "tools/asr_corpus.py, tools/asr_speech.py, tools/train_asr.py",
         "parameters": sum(p.numel() for p in network.parameters()),
         "utterances": sum(lines.values()),
         "training_minutes": round(sum(json.loads((folder / "minutes.json").read_text())), 1),

@@ -19,7 +19,17 @@ from airhilt.messages import WorkerDescription
 from airhilt.scenario.models import Topology
 
 FORMAT = 1
-RECORDED_VERSIONS = ("jsbsim", "numpy", "eclipse-zenoh", "pydantic", "mcap", "zstandard")
+RECORDED_VERSIONS = (
+    "jsbsim",
+    "numpy",
+    "scipy",
+    "onnxruntime",
+    "espeakng-loader",
+    "eclipse-zenoh",
+    "pydantic",
+    "mcap",
+    "zstandard",
+)
 
 
 class RunOptions(BaseModel):

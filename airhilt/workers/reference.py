@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Literal
 
+from airhilt.errors import WorkerError
 from airhilt.messages import Modality
 from airhilt.scenario.models import Topology
 from airhilt.workers.decision import DecisionConfig, DecisionWorker
 from airhilt.workers.protocol import Worker
+
+ASR = "embedded"
+TTS = "espeak"
+"""The engines unless others are named."""
 
 AssistantName = Literal["reference", "none", "external"]
 
@@ -40,16 +45,45 @@ def reference_workers(
     workers: list[Worker] = []
     is_assisted = assistant != "none"
     if asr is not None and "speech" not in taken and (is_assisted or topology == "asr_first"):
-        # Not at the top: a run without speech starts without the libraries behind it.
-        from airhilt.workers.asr.engines import asr_engine
-        from airhilt.workers.asr.worker import AsrWorker
-
-        workers.append(AsrWorker(asr_engine(asr)))
+        workers.append(reference_worker("asr", asr))
     if tts is not None and "voice" not in taken and is_assisted:
-        from airhilt.radio.voices.engines import tts_engine
-        from airhilt.workers.tts.worker import TtsWorker
-
-        workers.append(TtsWorker(tts_engine(tts)))
+        workers.append(reference_worker("tts", tts))
     if assistant == "reference" and "decision" not in taken:
         workers.append(DecisionWorker(DecisionConfig(is_gated=topology == "gated_fusion")))
     return workers
+
+
+def reference_worker(kind: str, engine: str | None = None, name: str | None = None) -> Worker:
+    """Return one worker with its default settings.
+
+    Parameters
+    ----------
+    kind
+        ``decision``, ``asr`` or ``tts``.
+    engine
+        Of ``asr`` or ``tts``.
+
+    Raises
+    ------
+    airhilt.errors.SpeechError
+        The engine cannot be loaded.
+    WorkerError
+        There is no such worker, or it has no engine.
+    """
+    # Not at the top: a run without speech starts without the libraries behind it.
+    match kind:
+        case "asr":
+            from airhilt.workers.asr.engines import asr_engine
+            from airhilt.workers.asr.worker import AsrWorker
+
+            return AsrWorker(asr_engine(engine or ASR), name=name or kind)
+        case "tts":
+            from airhilt.radio.voices.engines import tts_engine
+            from airhilt.workers.tts.worker import TtsWorker
+
+            return TtsWorker(tts_engine(engine or TTS), name=name or kind)
+        case "decision" if engine is None:
+            return DecisionWorker(name=name or kind)
+        case "decision":
+            raise WorkerError(f"worker decision has no engines to choose from; got {engine!r}")
+    raise WorkerError(f"no reference worker {kind!r}; expected decision, asr or tts")

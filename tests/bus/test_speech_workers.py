@@ -35,20 +35,6 @@ class Hashing:
         return Recognised(said, (), 1.0)
 serve(AsrWorker(Hashing()), sys.argv[1])
 """
-EMBEDDED_RECOGNISER = """
-import sys
-from airhilt.workers import serve
-from airhilt.workers.asr.engines import asr_engine
-from airhilt.workers.asr.worker import AsrWorker
-serve(AsrWorker(asr_engine("embedded")), sys.argv[1])
-"""
-VOICE = """
-import sys
-from airhilt.radio.voices.espeak import Espeak
-from airhilt.workers import serve
-from airhilt.workers.tts.worker import TtsWorker
-serve(TtsWorker(Espeak()), sys.argv[1])
-"""
 
 
 @pytest.fixture(scope="module")
@@ -58,8 +44,14 @@ def short(encounter: Scenario) -> Scenario:
 
 
 @contextmanager
-def worker(program: str, endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
-    with process("-c", program, endpoint) as started:
+def reference_worker(kind: str, endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
+    with process("-m", "airhilt", "worker", kind, "--connect", endpoint) as started:
+        yield started
+
+
+@contextmanager
+def hashing_recogniser(endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
+    with process("-c", HASHING_RECOGNISER, endpoint) as started:
         yield started
 
 
@@ -81,7 +73,7 @@ def test_speech_workers_in_other_processes_give_the_same_log(
 ) -> None:
     inside = run(short, out=tmp_path / "inside", latency="fixed").folder
     endpoint = free_endpoint()
-    with worker(EMBEDDED_RECOGNISER, endpoint), worker(VOICE, endpoint):
+    with reference_worker("asr", endpoint), reference_worker("tts", endpoint):
         outside = run(
             short, out=tmp_path / "outside", latency="fixed", listen=endpoint,
             attach=("asr", "tts"),
@@ -97,7 +89,7 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
     short: Scenario, tmp_path: Path
 ) -> None:
     endpoint = free_endpoint()
-    with worker(HASHING_RECOGNISER, endpoint) as recogniser:
+    with hashing_recogniser(endpoint) as recogniser:
         result = run(short, out=tmp_path / "run", listen=endpoint, attach=("asr",))
         assert recogniser.wait(timeout=10.0) == 0
     sent = logged(result.folder, "radio/", Transmission)
@@ -114,7 +106,7 @@ def test_a_recogniser_that_dies_or_freezes_is_lost_and_the_run_goes_on(
     short: Scenario, tmp_path: Path, number: signal.Signals
 ) -> None:
     endpoint = free_endpoint()
-    with worker(HASHING_RECOGNISER, endpoint) as recogniser:
+    with hashing_recogniser(endpoint) as recogniser:
         result = run(
             short, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("asr",),
             step_timeout_s=1.0, observer=ActsAt(10.0, recogniser, number),
@@ -134,7 +126,7 @@ def voiced(short: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run in which the voice was that of another process."""
     out = tmp_path_factory.mktemp("voiced") / "run"
     endpoint = free_endpoint()
-    with worker(VOICE, endpoint):
+    with reference_worker("tts", endpoint):
         run(short, out=out, listen=endpoint, attach=("tts",))
     return out
 
@@ -174,7 +166,7 @@ def test_a_replay_needs_the_recorded_voice(voiced: Path) -> None:
 
 def test_without_the_voice_that_died_advisories_are_read(short: Scenario, tmp_path: Path) -> None:
     endpoint = free_endpoint()
-    with worker(VOICE, endpoint) as voice:
+    with reference_worker("tts", endpoint) as voice:
         result = run(
             short, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("tts",),
             step_timeout_s=1.0, observer=ActsAt(1.0, voice, signal.SIGKILL),

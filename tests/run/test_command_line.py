@@ -42,7 +42,7 @@ def test_json_prints_the_summary_alone(airhilt_command: Any, encounter_file: Pat
     assert json.loads((folder / "summary.json").read_text()) == summary
     assert set(summary["latencies"]["adsb"]) == {"n", "p50_s", "p95_s", "max_s"}
     assert sorted(path.name for path in folder.iterdir()) == [
-        "latency.jsonl", "log.mcap", "report.html", "run.json", "summary.json",
+        "audio", "latency.jsonl", "log.mcap", "report.html", "run.json", "summary.json",
     ]  # fmt: skip
 
 
@@ -61,7 +61,8 @@ def test_modalities_left_out_are_off(airhilt_command: Any, encounter_file: Path)
     )  # fmt: skip
     modalities = json.loads(done.stdout)["modalities"]
     assert modalities == {
-        "adsb": "on", "radio": "on", "speech": "off", "vision": "off", "decision": "off",
+        "adsb": "on", "radio": "on", "speech": "off", "voice": "off", "vision": "off",
+        "decision": "off",
     }  # fmt: skip
 
 

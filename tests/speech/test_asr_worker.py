@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
-from airhilt.messages import Briefing, DeclaredLatency, RosterEntry, Transcript, Transmission, Word
+from airhilt.messages import Briefing, RosterEntry, Transcript, Transmission, Word
 from airhilt.radio.voices.engine import Audio
 from airhilt.radio.voices.wav import to_pcm
 from airhilt.sim.worker import Input, Output
@@ -186,6 +186,6 @@ def test_it_asks_for_all_frequencies_and_loses_no_call() -> None:
     assert policy_of("asr/134325", policies) is None
 
 
-def test_how_slow_it_says_that_it_is_can_be_chosen() -> None:
-    slow = DeclaredLatency(median_s=2.0)
-    assert AsrWorker(Counting(), slow).description.latency == slow
+def test_it_may_have_another_name() -> None:
+    assert AsrWorker(Counting()).description.name == "asr"
+    assert AsrWorker(Counting(), name="second-asr").description.name == "second-asr"

@@ -113,9 +113,7 @@ class Spotter:
             found.append(Spotted(callsign, units, begin, end + 1, loss))
         return sorted(found, key=lambda each: (each.loss, -len(each.units), each.callsign))
 
-    def _align(
-        self, log: NDArray[np.float32]
-    ) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+    def _align(self, log: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
         """Return the best score of each word's state at each step, and where its path began.
 
         Shapes (steps, forms, words).

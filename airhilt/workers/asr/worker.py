@@ -20,20 +20,18 @@ from airhilt.sim.worker import Input, Output
 from airhilt.workers.asr.engine import AsrEngine
 from airhilt.workers.protocol import Step
 
-NAME = "asr"
-
 
 class AsrWorker:
     """Gives each transmission to an engine, one after the other, and publishes what it hears."""
 
-    def __init__(self, engine: AsrEngine, latency: DeclaredLatency | None = None) -> None:
+    def __init__(self, engine: AsrEngine, name: str = "asr") -> None:
         self._engine = engine
         self._callsigns: tuple[str, ...] = ()
         self.description = WorkerDescription(
-            name=NAME,
+            name=name,
             modality="speech",
             inputs=(InputSpec(key="radio/*/tx"), InputSpec(key="briefing")),
-            latency=latency or DeclaredLatency(median_s=0.05),
+            latency=DeclaredLatency(median_s=0.05),
         )
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002

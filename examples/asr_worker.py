@@ -1,0 +1,44 @@
+"""A recogniser of one's own, with AIRHILT's SDK: put your model where `recognise` is.
+
+    airhilt cosim --scenario s01a_bad_readback --snr 10 --listen tcp/127.0.0.1:7447 --attach mine
+    python examples/asr_worker.py tcp/127.0.0.1:7447
+
+This one writes down how long each call was. It takes the place of the embedded recogniser, and the
+report compares what it gives with what was said.
+"""
+
+import sys
+
+import numpy as np
+
+from airhilt.messages import InputSpec, Transcript, Transmission, WorkerDescription
+from airhilt.sim import Input, Output
+from airhilt.workers import Step, serve
+
+
+def recognise(audio: np.ndarray) -> tuple[str, float]:
+    """Return the words of a call (16 kHz, mono, from -1 to 1) and how sure they are."""
+    return f"about {len(audio) / 16_000:.0f} seconds of speech", 0.1
+
+
+class MyRecogniser:
+    description = WorkerDescription(
+        name="mine", modality="speech", inputs=(InputSpec(key="radio/*/tx"),)
+    )
+
+    def step(self, t_ns: int, inputs: list[Input]) -> Step:
+        return Step(tuple(self.transcript(item) for item in inputs))
+
+    def transcript(self, item: Input) -> Output:
+        call = Transmission.model_validate(item.attachment)
+        audio = np.frombuffer(item.payload, "<i2").astype(np.float32) / 32_768.0
+        text, confidence = recognise(audio)
+        transcript = Transcript(
+            id=call.id, frequency_khz=call.frequency_khz, t_tx_ns=call.t_tx_ns,
+            t_end_ns=call.t_end_ns, text=text, confidence=confidence, engine="mine",
+        )  # fmt: skip
+        return Output(f"asr/{call.frequency_khz}", transcript.model_dump_json().encode())
+
+
+if __name__ == "__main__":
+    serve(MyRecogniser(), connect=sys.argv[1])
