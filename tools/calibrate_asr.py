@@ -16,15 +16,14 @@ from pathlib import Path
 
 import jiwer
 import numpy as np
-from eval_asr import spoken
+from eval_asr import rosters_for, spoken
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from airhilt.radio.channel import PROFILES, VhfChannel
-from airhilt.workers.asr.ctc import Ctc, best_path
+from airhilt.workers.asr.ctc import Ctc
 
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
-SILENT_CALLS = 200
 
 
 def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
@@ -60,13 +59,14 @@ def main() -> None:
     word_right: list[bool] = []
     calls = []
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
+    rosters = rosters_for(utterances)
     for index, each in enumerate(utterances):
         for snr_db in RATIOS:
             rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
             heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
-            path = best_path(engine.posteriors(heard))
-            hypothesis = [words[unit - 1] for unit, _ in path]
-            posteriors = [posterior for _, posterior in path]
+            path = engine.path(engine.posteriors(heard), rosters[index])
+            hypothesis = [words[emission.unit - 1] for emission in path]
+            posteriors = [emission.posterior for emission in path]
             right = [False] * len(path)
             if path:
                 aligned = jiwer.process_words(each.text, " ".join(hypothesis)).alignments[0]

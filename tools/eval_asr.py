@@ -71,27 +71,33 @@ def spoken(path: Path) -> Iterator[Spoken]:
         yield Spoken(about["text"], about["callsign"], speech)
 
 
+def rosters_for(utterances: list[Spoken]) -> list[tuple[str, ...]]:
+    """Return who is on the frequency of each call: ten, its speaker or addressee among them."""
+    everybody = [each.callsign for each in utterances if each.callsign]
+    rng = random.Random(0)
+    return [tuple(filter(None, (each.callsign, *rng.sample(everybody, 9)))) for each in utterances]
+
+
 def score(utterances: list[Spoken], engine_name: str, snr_db: float | None) -> tuple[Score, float]:
     """Return the score of an engine, and its real-time factor (CPU)."""
     engine = asr_engine(engine_name)
     channel = VhfChannel(PROFILES["vhf"])
-    everybody = [each.callsign for each in utterances if each.callsign]
-    rng = random.Random(0)
+    rosters = rosters_for(utterances)
     result = Score([], [], [], [])
     spent = heard_s = 0.0
     for index, each in enumerate(utterances):
         noise = np.random.default_rng([index, 1 if snr_db is None else int(snr_db) + 100])
         audio = channel.transmit(each.speech, snr_db, noise, (), "cockpit")
         begun = time.process_time()
-        recognised = engine.recognise(audio, ())
+        recognised = engine.recognise(audio, rosters[index])
         spent += time.process_time() - begun
         heard_s += len(audio) / SAMPLE_RATE_HZ
         result.references.append(each.text)
         result.hypotheses.append(recognised.text)
         result.confidences.append(recognised.confidence)
         if each.callsign is not None:
-            roster = [each.callsign, *rng.sample(everybody, 9)]
-            result.callsigns.append(parse_call(recognised.text, roster).callsign == each.callsign)
+            named = parse_call(recognised.text, rosters[index]).callsign
+            result.callsigns.append(named == each.callsign)
     return result, spent / heard_s
 
 

@@ -91,12 +91,12 @@ def with_card(folder: Path, **changes: object) -> Ctc:
 def test_a_unit_counts_again_after_a_blank_or_another(units: list[int], path: list[int]) -> None:
     posteriors = np.full((len(units), 4), 0.1, np.float32)
     posteriors[np.arange(len(units)), units] = 0.7
-    assert [unit for unit, _ in best_path(posteriors)] == path
+    assert [each.unit for each in best_path(posteriors)] == path
 
 
 def test_a_unit_is_as_sure_as_its_surest_step() -> None:
     posteriors = np.array([[0.9, 0.1], [0.4, 0.6], [0.2, 0.8], [0.45, 0.55]], np.float32)
-    assert best_path(posteriors) == [(1, pytest.approx(0.8))]
+    assert [each.posterior for each in best_path(posteriors)] == [pytest.approx(0.8)]
 
 
 def test_a_calibration_maps_log_odds_and_is_never_out_of_bounds() -> None:

@@ -22,6 +22,7 @@ from airhilt.messages import Confidence
 from airhilt.radio.voices.engine import Audio
 from airhilt.workers.asr.engine import Recognised
 from airhilt.workers.asr.features import BINS, mel_power, normalised
+from airhilt.workers.asr.spotting import Spotted, Spotter
 
 FILES = ("ctc.onnx", "words.txt", "card.json")
 EXPECTED = "a network of tools/train_asr.py: features [1, n, 64] to logits [1, n / 6, words + 1]"
@@ -63,6 +64,16 @@ class Card(BaseModel):
     """Words below it are left out."""
 
 
+@dataclass(frozen=True, slots=True)
+class Emission:
+    """One word of a path."""
+
+    unit: int
+    posterior: float
+    begin: int
+    """Step at which it begins."""
+
+
 class Ctc:
     """Recognises with the embedded model, or another of its kind.
 
@@ -98,6 +109,7 @@ class Ctc:
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
         self._least = card.least_word_confidence
+        self._roster: tuple[tuple[str, ...], Spotter] | None = None
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
         units = self._trial(network)
@@ -107,22 +119,32 @@ class Ctc:
                 f"units apart, words.txt has {len(self._words)}; expected one unit more than words"
             )
 
-    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:  # noqa: ARG002
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return the words of a call; see `AsrEngine.recognise`."""
         if len(audio) < LEAST_SAMPLES:
             return Recognised("", (), 0.0)
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
-        posteriors = self.posteriors(audio)
         words = [
-            (self._words[unit - 1], self._word(posterior))
-            for unit, posterior in best_path(posteriors)
+            (self._words[step.unit - 1], self._word(step.posterior))
+            for step in self.path(self.posteriors(audio), callsigns)
         ]
         kept = tuple(each for each in words if each[1] >= self._least)
         if not kept:
             return Recognised("", (), 0.0)
         whole = float(np.prod([confidence for _, confidence in words]))
         return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
+
+    def path(self, posteriors: NDArray[np.float32], callsigns: Sequence[str]) -> list[Emission]:
+        """Return the words of the likeliest path, with the callsign of the roster that is in it."""
+        path = best_path(posteriors)
+        spotted = self._spotter(tuple(callsigns)).spot(posteriors)
+        return path if spotted is None else with_callsign(path, spotted)
+
+    def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
+        if self._roster is None or self._roster[0] != callsigns:
+            self._roster = (callsigns, Spotter(self._words, callsigns))
+        return self._roster[1]
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
         """Return the posterior of the blank and of each word, shape (steps of 60 ms, units)."""
@@ -163,14 +185,26 @@ class Ctc:
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
 
 
-def best_path(posteriors: NDArray[np.float32]) -> list[tuple[int, float]]:
-    """Return the units of the likeliest path without blanks, each with its highest posterior."""
+def best_path(posteriors: NDArray[np.float32]) -> list[Emission]:
+    """Return the words of the likeliest path, each with its highest posterior."""
     units = posteriors.argmax(axis=1)
     peaks = posteriors.max(axis=1)
     changes = np.flatnonzero(np.diff(units)) + 1
     bounds = [0, *changes.tolist(), len(units)]
     return [
-        (int(units[begin]), float(peaks[begin:end].max()))
+        Emission(int(units[begin]), float(peaks[begin:end].max()), begin)
         for begin, end in pairwise(bounds)
         if units[begin] != 0
+    ]
+
+
+def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
+    """Return a path with a callsign in the place of what is in it there."""
+    if spotted.loss == 0.0:
+        return list(path)
+    posterior = float(np.exp(-spotted.loss))
+    return [
+        *(each for each in path if each.begin < spotted.begin),
+        *(Emission(unit, posterior, spotted.begin) for unit in spotted.units),
+        *(each for each in path if each.begin >= spotted.end),
     ]
