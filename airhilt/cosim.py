@@ -23,7 +23,7 @@ from airhilt.actors.advised import Advised
 from airhilt.actors.cues import Cues
 from airhilt.briefing import briefing_of
 from airhilt.bus.attach import attach
-from airhilt.bus.exchange import Exchange
+from airhilt.bus.exchange import FOREIGN, Exchange
 from airhilt.bus.session import Bus
 from airhilt.commands import Command
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
@@ -99,8 +99,6 @@ RUNWAY_PERIOD_NS = SECOND_NS // 5
 END_PERIOD_NS = SECOND_NS // 2
 """How often the conditions that end the run are."""
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
-FOREIGN = "unregistered"
-"""Publisher, in the log, of what an unregistered program put on the bus."""
 
 
 @dataclass(frozen=True)

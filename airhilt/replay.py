@@ -13,7 +13,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from airhilt.cosim import FOREIGN, Foreign, Observer, Options, Recorded, run
+from airhilt.bus.exchange import FOREIGN
+from airhilt.cosim import Foreign, Observer, Options, Recorded, run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.messages import HEADERS, WORKER_OUTPUTS, Event
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log

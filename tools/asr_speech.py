@@ -29,89 +29,15 @@ from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
 from airhilt.radio.voices.espeak import ACCENTS, Espeak
 
 SHARD = 2_000
-UNSEEN_TIMBRES = [
-    "f3",
-    "m2",
-    "m4",
-    "Mike",
-    "linda",
-    "Gene",
-    "adam",
-    "ed",
-    "steph2",
-    "victor",
-    "anika",
-    "john",
-]
+UNSEEN_TIMBRES = ("f3 m2 m4 Mike linda Gene adam ed steph2 victor anika john").split()
 """Timbres of espeak-ng that no training utterance has."""
-TIMBRES = [
-    "m1",
-    "m3",
-    "m5",
-    "m6",
-    "m7",
-    "m8",
-    "f1",
-    "f2",
-    "f4",
-    "f5",
-    "Alex",
-    "Alicia",
-    "Andrea",
-    "Andy",
-    "Annie",
-    "Denis",
-    "Diogo",
-    "Gene2",
-    "Henrique",
-    "Hugo",
-    "Jacky",
-    "Lee",
-    "Marco",
-    "Mario",
-    "Michael",
-    "Nguyen",
-    "Reed",
-    "announcer",
-    "antonio",
-    "aunty",
-    "belinda",
-    "benjamin",
-    "boris",
-    "caleb",
-    "david",
-    "edward",
-    "edward2",
-    "grandma",
-    "grandpa",
-    "gustave",
-    "ian",
-    "iven",
-    "iven2",
-    "iven3",
-    "klatt",
-    "klatt2",
-    "klatt3",
-    "klatt4",
-    "marcelo",
-    "max",
-    "michel",
-    "miguel",
-    "mike2",
-    "norbert",
-    "pablo",
-    "paul",
-    "pedro",
-    "quincy",
-    "rob",
-    "robert",
-    "sandro",
-    "shelby",
-    "steph",
-    "steph3",
-    "travis",
-    "zac",
-]
+TIMBRES = (
+    "m1 m3 m5 m6 m7 m8 f1 f2 f4 f5 Alex Alicia Andrea Andy Annie Denis Diogo Gene2 Henrique "
+    "Hugo Jacky Lee Marco Mario Michael Nguyen Reed announcer antonio aunty belinda benjamin "
+    "boris caleb david edward edward2 grandma grandpa gustave ian iven iven2 iven3 klatt klatt2 "
+    "klatt3 klatt4 marcelo max michel miguel mike2 norbert pablo paul pedro quincy rob robert "
+    "sandro shelby steph steph3 travis zac"
+).split()
 FLITE = ["slt", "rms", "kal16", "kal"]
 FLITE_UNSEEN = ["awb"]
 

@@ -7,10 +7,14 @@ import re
 import time
 from collections.abc import Callable, Sequence
 
+from airhilt.bus.exchange import FOREIGN, RUN
 from airhilt.bus.session import Bus
 from airhilt.bus.workers import RemoteWorker
 from airhilt.errors import BusError
 from airhilt.messages import WORKER_NAME, WorkerDescription
+
+RESERVED = (RUN, FOREIGN)
+"""Publishers in the log that are no workers."""
 
 
 def attach(
@@ -39,6 +43,11 @@ def attach(
             raise BusError(
                 f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
                 "'decision'"
+            )
+        if name in RESERVED:
+            raise BusError(
+                f"worker name {name!r}: the log calls others so; expected another than "
+                f"{', '.join(RESERVED)}"
             )
     if len(set(names)) < len(names):
         raise BusError(f"workers {', '.join(names)}: expected each name once")

@@ -10,6 +10,8 @@ from airhilt.record.log import LogWriter
 
 RUN = "run"
 """Publisher of what the run itself publishes."""
+FOREIGN = "unregistered"
+"""Publisher of what an unregistered program put on the bus."""
 
 Listener = Callable[[str, Message, bytes], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""

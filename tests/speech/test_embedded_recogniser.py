@@ -147,7 +147,7 @@ def test_a_word_that_is_too_unsure_is_left_out_and_makes_the_call_unsure(folder:
 def test_where_nothing_is_said_nothing_is_heard(audio: Audio) -> None:
     heard = Ctc(TINY).recognise(audio, ())
     assert (heard.text, heard.words) == ("", ())
-    assert heard.confidence == 0.0
+    assert heard.confidence > 0.5
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

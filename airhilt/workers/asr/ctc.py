@@ -122,7 +122,7 @@ class Ctc:
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return the words of a call; see `AsrEngine.recognise`."""
         if len(audio) < LEAST_SAMPLES:
-            return Recognised("", (), 0.0)
+            return Recognised("", (), 1.0)
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
@@ -131,7 +131,8 @@ class Ctc:
         ]
         kept = tuple(each for each in words if each[1] >= self._least)
         if not kept:
-            return Recognised("", (), 0.0)
+            likeliest = max((confidence for _, confidence in words), default=0.0)
+            return Recognised("", (), 1.0 - likeliest)
         whole = float(np.prod([confidence for _, confidence in words]))
         return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
 

@@ -18,7 +18,7 @@ class Recognised:
     words: tuple[tuple[str, float], ...]
     """The words of `text` one by one with their confidences; empty if the engine has none."""
     confidence: float
-    """In [0, 1], of the whole."""
+    """In [0, 1], of the whole; of an empty one, that nothing was said."""
 
 
 class AsrEngine(Protocol):
