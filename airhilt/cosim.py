@@ -325,7 +325,7 @@ def _team(
     may_decide = "decision" in taken or bool(programs)
     assistant = options.assistant or ("external" if may_decide else "reference")
     engines = (options.asr, options.tts) if options.speech else (None, None)
-    for worker in reference_workers(assistant, scenario.radio.topology, taken, *engines):
+    for worker in reference_workers(assistant, scenario.radio, taken, *engines):
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
     return Team(assistant, tuple(participants), tuple(programs))
 

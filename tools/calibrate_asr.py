@@ -16,13 +16,16 @@ from pathlib import Path
 
 import jiwer
 import numpy as np
-from eval_asr import rosters_for, spoken
+from eval_asr import noise_alone, rosters_for, spoken
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from airhilt.radio.channel import PROFILES, VhfChannel
 from airhilt.workers.asr.ctc import Ctc
 
+MOST_TALKATIVE = 0.005
+"""Of transmissions without speech, the share that may give words."""
+SILENT_CALLS = 600
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
 
 
@@ -77,8 +80,12 @@ def main() -> None:
             word_posteriors += posteriors
             word_right += right
             calls.append((each.text.split(), hypothesis, posteriors))
+    silent = [
+        [emission.posterior for emission in engine.path(engine.posteriors(audio), rosters[0])]
+        for audio in noise_alone(SILENT_CALLS, seed=6)
+    ]
     word_curve = fit(np.array(word_posteriors), np.array(word_right))
-    least, errors = best_threshold(word_curve, calls)
+    least, errors, talkative = best_threshold(word_curve, calls, silent)
     confidences, whole = [], []
     for reference, hypothesis, posteriors in calls:
         if not posteriors:
@@ -91,17 +98,30 @@ def main() -> None:
     card["word_calibration"] = word_curve
     card["call_calibration"] = fit(np.array(confidences), np.array(whole))
     card["least_word_confidence"] = least
-    card["calibrated_on"] = {"calls": len(calls), "word_error_rate": round(errors, 4)}
+    card["calibrated_on"] = {
+        "calls": len(calls),
+        "word_error_rate": round(errors, 4),
+        "transmissions_without_speech": len(silent),
+        "of_those_with_words": round(talkative, 4),
+    }
     (given.model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
     print(json.dumps(card, indent=2))
 
 
 def best_threshold(
-    curve: dict[str, float], calls: list[tuple[list[str], list[str], list[float]]]
-) -> tuple[float, float]:
-    """Return the least confidence of a word that is kept, and the word error rate with it."""
-    rates = []
-    for least in np.arange(0.0, 0.55, 0.05):
+    curve: dict[str, float],
+    calls: list[tuple[list[str], list[str], list[float]]],
+    silent: list[list[float]],
+) -> tuple[float, float, float]:
+    """Return the least confidence of a word that is kept, and what comes of it.
+
+    That is the word error rate, and the share of transmissions without speech that give words,
+    of which there may be `MOST_TALKATIVE`.
+    """
+    references = [" ".join(reference) for reference, _, _ in calls]
+    surest = np.array([max(posteriors, default=0.0) for posteriors in silent])
+    found = []
+    for least in np.arange(0.0, 0.95, 0.05):
         kept = [
             " ".join(
                 word
@@ -112,9 +132,11 @@ def best_threshold(
             )
             for _, hypothesis, posteriors in calls
         ]
-        rates.append((float(jiwer.wer([" ".join(r) for r, _, _ in calls], kept)), float(least)))
-    errors, least = min(rates)
-    return round(least, 2), errors
+        talkative = float(np.mean((surest > 0.0) & (logistic(curve, surest) >= least)))
+        is_too_much = talkative > MOST_TALKATIVE
+        found.append((is_too_much, float(jiwer.wer(references, kept)), float(least), talkative))
+    _, errors, least, talkative = min(found)
+    return round(least, 2), errors, talkative
 
 
 if __name__ == "__main__":

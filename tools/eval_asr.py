@@ -28,6 +28,8 @@ from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.workers.asr.engines import asr_engine
 
 RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
+MISLEADING_DB = 10.0
+SILENT_CALLS = 300
 SETS = {
     "espeak": "seen voices",
     "flite": "seen flite voices",
@@ -76,6 +78,50 @@ def rosters_for(utterances: list[Spoken]) -> list[tuple[str, ...]]:
     everybody = [each.callsign for each in utterances if each.callsign]
     rng = random.Random(0)
     return [tuple(filter(None, (each.callsign, *rng.sample(everybody, 9)))) for each in utterances]
+
+
+def misled(utterances: list[Spoken], engine_name: str, snr_db: float) -> float:
+    """Return the share of calls taken for a roster's callsign that is one digit off theirs."""
+    engine = asr_engine(engine_name)
+    channel = VhfChannel(PROFILES["vhf"])
+    rng = random.Random(1)
+    everybody = [each.callsign for each in utterances if each.callsign]
+    taken = []
+    for index, each in enumerate(utterances):
+        if each.callsign is None:
+            continue
+        other = one_digit_off(each.callsign, rng)
+        roster = [other, *(name for name in rng.sample(everybody, 9) if name != each.callsign)]
+        noise = np.random.default_rng([index, int(snr_db) + 100])
+        audio = channel.transmit(each.speech, snr_db, noise, (), "cockpit")
+        text = engine.recognise(audio, roster).text
+        taken.append(parse_call(text, roster).callsign == other)
+    return float(np.mean(taken))
+
+
+def noise_alone(count: int, seed: int) -> Iterator[Audio]:
+    """Yield transmissions in which nobody speaks, of all profiles and with all noises."""
+    for index in range(count):
+        rng = np.random.default_rng([index, seed])
+        channel = VhfChannel(PROFILES[rng.choice(list(PROFILES))])
+        silence = np.zeros(SAMPLE_RATE_HZ * int(rng.integers(1, 12)), np.float32)
+        background = "cockpit" if index % 2 else "none"
+        yield channel.transmit(silence, float(rng.uniform(-3, 30)), rng, (), background)
+
+
+def talkative(engine_name: str) -> float:
+    """Return the share of transmissions without speech that give words."""
+    engine = asr_engine(engine_name)
+    roster = ("AAL123", "DAL456", "N54G")
+    noises = noise_alone(SILENT_CALLS, seed=5)
+    return float(np.mean([bool(engine.recognise(audio, roster).text) for audio in noises]))
+
+
+def one_digit_off(callsign: str, rng: random.Random) -> str:
+    """Return a callsign with another digit in one place."""
+    at = rng.choice([index for index, sign in enumerate(callsign) if sign.isdigit()])
+    digit = rng.choice([sign for sign in "123456789" if sign != callsign[at]])
+    return callsign[:at] + digit + callsign[at + 1 :]
 
 
 def score(utterances: list[Spoken], engine_name: str, snr_db: float | None) -> tuple[Score, float]:
@@ -138,6 +184,7 @@ def main() -> None:
         print("|---|" + "---|" * len(RATIOS))
         scores: list[Score] = []
         factors = []
+        all_utterances: list[Spoken] = []
         for name, title in SETS.items():
             utterances = [
                 u
@@ -147,6 +194,7 @@ def main() -> None:
             utterances = utterances[: given.limit]
             if not utterances:
                 continue
+            all_utterances += utterances
             cells = []
             for snr in RATIOS:
                 got, factor = score(utterances, engine, snr)
@@ -159,6 +207,15 @@ def main() -> None:
                 cells.append(f"{rate:.1f} ({right:.0f})")
             print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
             sys.stdout.flush()
+        wrong = misled([u for u in all_utterances if u.callsign], engine, MISLEADING_DB)
+        print(
+            f"\nWith a callsign one digit off on the roster instead of the right one, that one is "
+            f"taken in {100 * wrong:.1f} % of calls at {MISLEADING_DB:g} dB."
+        )
+        print(
+            f"\nOf {SILENT_CALLS} transmissions without speech {100 * talkative(engine):.1f} % "
+            "give words."
+        )
         print(f"\nReal-time factor {np.mean(factors):.4f}, one core.\n")
         print("| confidence | calls | mean confidence | wholly right |\n|---|---|---|---|")
         for label, count, mean, share in reliability(scores):

@@ -7,7 +7,8 @@ from typing import Literal
 
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality
-from airhilt.scenario.models import Topology
+from airhilt.radio.phraseology.numbers import Style
+from airhilt.scenario.models import Radio
 from airhilt.workers.decision import DecisionConfig, DecisionWorker
 from airhilt.workers.protocol import Worker
 
@@ -20,7 +21,7 @@ AssistantName = Literal["reference", "none", "external"]
 
 def reference_workers(
     assistant: AssistantName,
-    topology: Topology,
+    radio: Radio,
     taken: Collection[Modality],
     asr: str | None,
     tts: str | None,
@@ -44,16 +45,18 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != "none"
-    if asr is not None and "speech" not in taken and (is_assisted or topology == "asr_first"):
+    if asr is not None and "speech" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
     if tts is not None and "voice" not in taken and is_assisted:
-        workers.append(reference_worker("tts", tts))
+        workers.append(reference_worker("tts", tts, style=radio.phraseology))
     if assistant == "reference" and "decision" not in taken:
-        workers.append(DecisionWorker(DecisionConfig(is_gated=topology == "gated_fusion")))
+        workers.append(DecisionWorker(DecisionConfig(is_gated=radio.topology == "gated_fusion")))
     return workers
 
 
-def reference_worker(kind: str, engine: str | None = None, name: str | None = None) -> Worker:
+def reference_worker(
+    kind: str, engine: str | None = None, name: str | None = None, style: Style = "faa"
+) -> Worker:
     """Return one worker with its default settings.
 
     Parameters
@@ -62,6 +65,8 @@ def reference_worker(kind: str, engine: str | None = None, name: str | None = No
         ``decision``, ``asr`` or ``tts``.
     engine
         Of ``asr`` or ``tts``.
+    style
+        Of ``tts``: how numbers are said.
 
     Raises
     ------
@@ -81,7 +86,7 @@ def reference_worker(kind: str, engine: str | None = None, name: str | None = No
             from airhilt.radio.voices.engines import tts_engine
             from airhilt.workers.tts.worker import TtsWorker
 
-            return TtsWorker(tts_engine(engine or TTS), name=name or kind)
+            return TtsWorker(tts_engine(engine or TTS), style=style, name=name or kind)
         case "decision" if engine is None:
             return DecisionWorker(name=name or kind)
         case "decision":

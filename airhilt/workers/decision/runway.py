@@ -205,7 +205,7 @@ def _words(recipient: str, threat: Threat, advice: dict[str, Recommendation | No
     order = "" if recommended is None else f" {_order(recommended)},"
     is_other = recipient in threat.parties[1:]
     text = threat.text_for_other if is_other and threat.text_for_other else threat.text
-    return f"{recipient}{order} {text}{when}"
+    return f"{recipient}{order} {text.removeprefix(f'{recipient} ')}{when}"
 
 
 def _order(recommendation: Recommendation) -> str:

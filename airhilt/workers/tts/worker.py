@@ -13,6 +13,8 @@ from airhilt.messages import (
     Severity,
     WorkerDescription,
 )
+from airhilt.radio.phraseology.aloud import read_aloud
+from airhilt.radio.phraseology.numbers import Style
 from airhilt.radio.voices.engine import TtsEngine
 from airhilt.radio.voices.wav import SAMPLE_BYTES, to_pcm
 from airhilt.sim.worker import Input, Output
@@ -34,10 +36,16 @@ class TtsWorker:
     ----------
     speak_min_level
         The least severity that is spoken.
+    style
+        How numbers are said.
     """
 
     def __init__(
-        self, engine: TtsEngine, speak_min_level: Severity = SPEAK_MIN_LEVEL, name: str = "tts"
+        self,
+        engine: TtsEngine,
+        speak_min_level: Severity = SPEAK_MIN_LEVEL,
+        style: Style = "faa",
+        name: str = "tts",
     ) -> None:
         self.description = WorkerDescription(
             name=name,
@@ -48,6 +56,7 @@ class TtsWorker:
         self._engine = engine
         self._voice = engine.voice_of(ASSISTANT)
         self._speak_min_level = speak_min_level
+        self._style = style
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Speak the advisories that are active and urgent enough."""
@@ -60,12 +69,13 @@ class TtsWorker:
         return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
 
     def _speak(self, advisory: Advisory) -> Output:
-        pcm = to_pcm(self._engine.synthesise(advisory.message, self._voice))
+        text = read_aloud(advisory.message, advisory.recipient, self._style)
+        pcm = to_pcm(self._engine.synthesise(text, self._voice))
         header = AdvisoryAudio(
             id=advisory.id,
             revision=advisory.revision,
             recipient=advisory.recipient,
-            text=advisory.message,
+            text=text,
             t_dec_ns=advisory.t_ns,
             engine=self._engine.name,
             samples=len(pcm) // SAMPLE_BYTES,
