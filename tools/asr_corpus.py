@@ -277,8 +277,7 @@ class Talk:
     def call(self) -> str:
         """Return a call of any kind."""
         rng, kind = self._rng, self._rng.random()
-        who = self.callsign()
-        self.callsign_of_call = None if 0.90 <= kind < 0.97 else self._last
+        who, callsign = self.callsign(), self._last
         count = rng.choices((1, 2, 3), (0.55, 0.35, 0.1))[0]
         what = " ".join(self.instruction() for _ in range(count))
         if kind < 0.36:
@@ -303,4 +302,6 @@ class Talk:
             parts = [what]
         else:
             parts = [self.station(), who]
-        return " ".join(" ".join(parts).split())
+        text = " ".join(" ".join(parts).split())
+        self.callsign_of_call = callsign if who in text else None
+        return text

@@ -5,13 +5,15 @@
 The calls of the folder (not those of training, nor those that scores are given of) go through the
 channel at many ratios. Two logistic curves are fitted by maximum likelihood (Platt, 1999): from
 the posterior of a word, and from the product of a call's, to how often they are right. Words
-below the threshold that costs least errors are left out of transcripts.
+below the threshold that costs least errors are left out of transcripts, and transmissions whose
+surest word is no surer than in noise alone are empty.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 from pathlib import Path
 
 import jiwer
@@ -20,7 +22,8 @@ from eval_asr import noise_alone, rosters_for, spoken
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from airhilt.radio.channel import PROFILES, VhfChannel
+from airhilt.radio.channel import VhfChannel
+from airhilt.radio.profiles import PROFILES
 from airhilt.workers.asr.ctc import Ctc
 
 MOST_TALKATIVE = 0.005
@@ -85,7 +88,8 @@ def main() -> None:
         for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
     word_curve = fit(np.array(word_posteriors), np.array(word_right))
-    least, errors, talkative = best_threshold(word_curve, calls, silent)
+    least_surest, talkative = quietest_threshold(word_curve, silent)
+    least, errors = best_threshold(word_curve, calls)
     confidences, whole = [], []
     for reference, hypothesis, posteriors in calls:
         if not posteriors:
@@ -98,6 +102,7 @@ def main() -> None:
     card["word_calibration"] = word_curve
     card["call_calibration"] = fit(np.array(confidences), np.array(whole))
     card["least_word_confidence"] = least
+    card["least_surest_word"] = least_surest
     card["calibrated_on"] = {
         "calls": len(calls),
         "word_error_rate": round(errors, 4),
@@ -108,20 +113,24 @@ def main() -> None:
     print(json.dumps(card, indent=2))
 
 
-def best_threshold(
-    curve: dict[str, float],
-    calls: list[tuple[list[str], list[str], list[float]]],
-    silent: list[list[float]],
-) -> tuple[float, float, float]:
-    """Return the least confidence of a word that is kept, and what comes of it.
+def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tuple[float, float]:
+    """Return how sure the surest word must be, and how many silent transmissions pass.
 
-    That is the word error rate, and the share of transmissions without speech that give words,
-    of which there may be `MOST_TALKATIVE`.
+    That is the least at which `MOST_TALKATIVE` of them do.
     """
+    surest = logistic(curve, np.array([max(each, default=0.0) for each in silent]))
+    least = math.ceil(100.0 * float(np.quantile(surest, 1.0 - MOST_TALKATIVE))) / 100.0
+    has_words = np.array([bool(each) for each in silent])
+    return least, float(np.mean(has_words & (surest >= least)))
+
+
+def best_threshold(
+    curve: dict[str, float], calls: list[tuple[list[str], list[str], list[float]]]
+) -> tuple[float, float]:
+    """Return the least confidence of a word that is kept, and the word error rate with it."""
     references = [" ".join(reference) for reference, _, _ in calls]
-    surest = np.array([max(posteriors, default=0.0) for posteriors in silent])
-    found = []
-    for least in np.arange(0.0, 0.95, 0.05):
+    rates = []
+    for least in np.arange(0.0, 0.8, 0.05):
         kept = [
             " ".join(
                 word
@@ -132,11 +141,9 @@ def best_threshold(
             )
             for _, hypothesis, posteriors in calls
         ]
-        talkative = float(np.mean((surest > 0.0) & (logistic(curve, surest) >= least)))
-        is_too_much = talkative > MOST_TALKATIVE
-        found.append((is_too_much, float(jiwer.wer(references, kept)), float(least), talkative))
-    _, errors, least, talkative = min(found)
-    return round(least, 2), errors, talkative
+        rates.append((float(jiwer.wer(references, kept)), float(least)))
+    errors, least = min(rates)
+    return round(least, 2), errors
 
 
 if __name__ == "__main__":

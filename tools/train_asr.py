@@ -27,7 +27,8 @@ import torch
 from asr_corpus import Talk
 from torch import Tensor, nn
 
-from airhilt.radio.channel import PROFILES, VhfChannel
+from airhilt.radio.channel import VhfChannel
+from airhilt.radio.profiles import PROFILES
 from airhilt.workers.asr.features import BINS, FLOOR, mel_power
 
 STRIDE = 6
@@ -352,6 +353,7 @@ def export(folder: Path, target: Path) -> None:
         "word_calibration": {"slope": 1.0, "offset": 0.0},
         "call_calibration": {"slope": 1.0, "offset": 0.0},
         "least_word_confidence": 0.0,
+        "least_surest_word": 0.0,
     }
     (target / "card.json").write_text(json.dumps(card, indent=2) + "\n")
 

@@ -62,6 +62,8 @@ class Card(BaseModel):
     """Of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
     """Words below it are left out."""
+    least_surest_word: Confidence
+    """Nobody speaks in a transmission whose surest word is below it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +111,7 @@ class Ctc:
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
         self._least = card.least_word_confidence
+        self._least_surest = card.least_surest_word
         self._roster: tuple[tuple[str, ...], Spotter] | None = None
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
@@ -129,10 +132,10 @@ class Ctc:
             (self._words[step.unit - 1], self._word(step.posterior))
             for step in self.path(self.posteriors(audio), callsigns)
         ]
+        surest = max((confidence for _, confidence in words), default=0.0)
         kept = tuple(each for each in words if each[1] >= self._least)
-        if not kept:
-            likeliest = max((confidence for _, confidence in words), default=0.0)
-            return Recognised("", (), 1.0 - likeliest)
+        if not kept or surest < self._least_surest:
+            return Recognised("", (), 1.0 - surest)
         whole = float(np.prod([confidence for _, confidence in words]))
         return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
 
