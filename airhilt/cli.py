@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import click
+from click.core import ParameterSource
 
 from airhilt._version import __version__
 from airhilt.cli_airport import airport
@@ -121,7 +122,7 @@ Examples:
     default=5.0,
     show_default=True,
     metavar="SECONDS",
-    help="Wall time after which a worker that does not answer is lost.",
+    help="Wall time after which an attached worker that does not answer is lost.",
 )
 @click.option("--no-cameras", is_flag=True, help="Leave cameras and vision out.")
 @click.option("--no-speech", is_flag=True, help="Radio calls as text, not as sound.")
@@ -134,8 +135,8 @@ Examples:
 @click.option(
     "--radio-profile",
     metavar="NAME",
-    help="vhf, vhf_833, fading, noisy_cockpit, line, or a learned channel, FILE.onnx.  [default: "
-    "the scenario's, or vhf]",
+    help="vhf, vhf_833, fading, noisy_cockpit, monitor, line, or a learned channel, FILE.onnx.  "
+    "[default: the scenario's, or vhf]",
 )
 @click.option(
     "--asr",
@@ -171,6 +172,8 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
     from airhilt.progress import ProgressLine, print_summary
     from airhilt.scenario import load
 
+    if given["no_speech"]:
+        _refuse_given("--no-speech leaves sound out", "asr", "tts", "radio_profile")
     options = Options(
         seed=given["seed"],
         out=given["out"],
@@ -198,6 +201,24 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
         click.echo(f"run folder: {result.folder}", err=True)
     else:
         print_summary(result.summary, result.folder)
+
+
+def _refuse_given(why: str, *names: str) -> None:
+    """Refuse options of this command that were given but would do nothing.
+
+    Raises
+    ------
+    AirhiltError
+        One of them was.
+    """
+    context = click.get_current_context()
+    for name in names:
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            option = f"--{name.replace('_', '-')}"
+            raise AirhiltError(
+                f"{option} {context.params[name]!r} would do nothing: {why}; expected only one of "
+                "the two"
+            )
 
 
 @cli.command(

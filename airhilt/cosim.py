@@ -52,8 +52,8 @@ from airhilt.metrics.runways import Incursion, RunwayMonitor
 from airhilt.metrics.summary import Summary
 from airhilt.radio.loop import RadioLoop
 from airhilt.radio.script import planned_ends_ns
-from airhilt.radio.sounds import sound_of
-from airhilt.radio.speech import Sound
+from airhilt.radio.sounds import models_of, sound_of
+from airhilt.radio.speech import Fragile, Sound, Text
 from airhilt.radio.stations import Stations
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.audio import AudioRecorder
@@ -150,6 +150,8 @@ class Recorded:
     """Instead of that of the options."""
     end_ns: int | None = None
     """Where the earlier run broke off."""
+    sound: Sound | None = None
+    """Instead of voices and channel; None where those of the options speak again."""
     workers: tuple[Participant, ...] = ()
     programs: tuple[str, ...] = ()
     """Names of those that took no grants."""
@@ -214,9 +216,12 @@ def run(
     folder.require_free(options.overwrite)
     setting = Setting.of(realised)
     cast = build_cast(realised, setting, options.seed, TICK_S)
-    sound = sound_of(realised.radio, options.seed, options.tts if options.speech else None)
+    tts = options.tts if options.speech else None
+    sound = recorded.sound or sound_of(realised.radio, options.seed, tts)
     lines = as_it_happens(realised)
-    ends_ns = planned_ends_ns(lines, sound)
+    # For the summary alone; a record knows what was said, but not what was planned and was not.
+    planned = sound if recorded.sound is None else Text(realised.radio.words_per_minute)
+    ends_ns = planned_ends_ns(lines, planned)
     with closing(Bus(name, options.listen)) as bus:
         _tell_clock(bus, 0, "waiting", pace)
         team = _team(options, realised, bus, observer, recorded)
@@ -377,6 +382,7 @@ def _info(
         started_at=datetime.now(UTC).isoformat(timespec="seconds"),
         versions=versions(),
         platform=machine(),
+        models=models_of(realised.radio) if options.speech else {},
     )
 
 
@@ -446,19 +452,21 @@ class Simulation:
         compiled = self._conditions.compile
         self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
         self._ends = [compiled(condition) for condition in scenario.end_when]
+        self._sound = Fragile(sound, scenario.radio.words_per_minute, self._lose_radio)
         self._radio = RadioLoop(
             self._director,
             scenario,
             lines,
             Stations(cast, setting, scenario.radio.lines),
-            sound,
+            self._sound,
             options.seed,
             self._ended_lines,
             once=self._once,
             publish=self._exchange.publish,
             do=self._do,
             failed=self._failed,
-            microphone_stuck=partial(self._event, "failure"),
+            microphone_stuck=self._microphone_stuck,
+            microphones_free=self._microphones_free,
         )
         plans = Plans(lines, ends_ns)
         self._collector = Collector(scenario, setting.ground_m, self._monitor, self._runways, plans)
@@ -524,6 +532,7 @@ class Simulation:
         self._event(phase, "run", cause or "came to its end")
         self._publish_clock()
         with closing(self._latency_log), closing(self._log):
+            self._radio.close()
             for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
                 self._latency_log.step(step)
         summary = self._summary(cause, wall_s, cpu_s)
@@ -707,6 +716,18 @@ class Simulation:
         for text in happening.failures:
             self._event("failure", happening.declared.id, text)
 
+    def _microphone_stuck(self, callsign: str, text: str) -> None:
+        self._event("failure", callsign, text)
+        self._set_modality("radio", "lost", f"{callsign}: {text}")
+        self._observer.notice(
+            f"radio blocked at {self._director.now_ns / SECOND_NS:.1f} s by {callsign}: {text}"
+        )
+
+    def _microphones_free(self) -> None:
+        if not self._sound.is_lost:
+            self._set_modality("radio", "on")
+        self._observer.notice(f"radio free again at {self._director.now_ns / SECOND_NS:.1f} s")
+
     def _do(self, callsign: str, command: Command) -> None:
         """Let an actor do what a line or its plan says."""
         if self._cast[callsign].body.ended is None:
@@ -730,12 +751,18 @@ class Simulation:
         self._collector.step(record)
 
     def _lose(self, name: str, modality: Modality, cause: str) -> None:
-        now_ns = self._director.now_ns
         if modality == "voice":
             self._advised.voice_lost()
-        self._latency_log.lost(name, now_ns, cause)
+        self._latency_log.lost(name, self._director.now_ns, cause)
+        self._go_on_without(modality, "worker_lost", name, cause)
+
+    def _lose_radio(self, cause: str) -> None:
+        self._go_on_without("radio", "radio_lost", "radio", cause)
+
+    def _go_on_without(self, modality: Modality, kind: EventKind, subject: str, cause: str) -> None:
+        now_ns = self._director.now_ns
         self._set_modality(modality, "lost", cause)
-        self._event("worker_lost", name, cause)
+        self._event(kind, subject, cause)
         self._observer.notice(f"lost at {now_ns / SECOND_NS:.1f} s: {cause}")
         if self._options.strict:
             raise RunStopped(

@@ -126,7 +126,8 @@ class Transmission(Message):
     """``radio/<freq_khz>/tx``: attachment to one transmission as received, PCM 16 kHz mono.
 
     ``samples`` is 0 in a run without speech: the transmission took its time on the frequency,
-    and its words arrive as a `Transcript` with the engine ``text``.
+    and its words arrive as a `Transcript` with the engine ``text``. So it is once the sound of
+    the radio is lost, and then the words do not arrive either.
     """
 
     id: str
@@ -422,6 +423,7 @@ EventKind = Literal[
     "failure",
     "pilot_reacts",
     "worker_lost",
+    "radio_lost",
     "unregistered",
     "refused",
     "finished",

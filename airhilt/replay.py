@@ -5,26 +5,42 @@ from __future__ import annotations
 import json
 import tempfile
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import takewhile, zip_longest
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
 from airhilt.bus.exchange import FOREIGN
 from airhilt.cosim import Foreign, Observer, Options, Recorded, run
-from airhilt.errors import RunFolderError, first_problem
-from airhilt.messages import HEADERS, WORKER_OUTPUTS, Event
+from airhilt.errors import RunFolderError, SpeechError, first_problem
+from airhilt.messages import (
+    HEADERS,
+    WORKER_OUTPUTS,
+    Event,
+    SpokenTruth,
+    Transmission,
+    WorkerDescription,
+)
+from airhilt.radio.bus import OnAir
+from airhilt.radio.service import is_service
+from airhilt.radio.speech import Reception
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.audio import recorded_pcm
-from airhilt.record.folder import versions
+from airhilt.record.folder import RunOptions, sha256, versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
+
+if TYPE_CHECKING:
+    from airhilt.radio.channel import Background
+
+UNENDING_S = 86_400.0
+"""A call lasts longer than any run that its run has cut off."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +70,8 @@ class Verdict:
 def replay(path: Path, observer: Observer | None = None) -> Verdict:
     """Run a run again with the seed and the latencies that it had, and compare.
 
-    Workers of this process compute afresh; what came from other processes comes from the record.
+    Workers of this process compute afresh; what came from other processes, and from services,
+    comes from the record.
 
     Raises
     ------
@@ -96,11 +113,11 @@ def _recorded(
     folder: RunFolder, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
 ) -> Recorded:
     breaks_off = info.phase != "finished"
-    attached = [worker.description for worker in info.workers if worker.where == "attached"]
-    programs = tuple(set(info.options.attached) - {described.name for described in attached})
+    attached = {worker.description.name for worker in info.workers if worker.where == "attached"}
+    programs = tuple(set(info.options.attached) - attached)
     losses = {name: loss for name, loss in latencies.losses.items() if name in programs}
     workers = []
-    for description in attached:
+    for description in _elsewhere(info):
         name = description.name
         loss, unfinished = latencies.losses.get(name), latencies.unfinished.get(name)
         failure = None
@@ -121,6 +138,7 @@ def _recorded(
             breaks_off=breaks_off,
         ),
         end_ns=log[-1].t_ns if breaks_off and log else None,
+        sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
         workers=tuple(workers),
         programs=programs,
         losses=losses,
@@ -130,6 +148,45 @@ def _recorded(
             if logged.publisher == FOREIGN
         ),
     )
+
+
+def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
+    """Return the workers whose results cannot be had again by computing them here."""
+    engines = {"speech": info.options.asr, "voice": info.options.tts}
+    return [
+        worker.description
+        for worker in info.workers
+        if worker.where == "attached" or is_service(engines.get(worker.description.modality, ""))
+    ]
+
+
+def _is_spoken_elsewhere(options: RunOptions) -> bool:
+    return options.speech and is_service(options.tts)
+
+
+def _sound(folder: RunFolder, log: Sequence[Logged]) -> RecordedSound:
+    """Return what was on the air, and why that ended."""
+    durations_s: dict[tuple[str, str], float] = {}
+    received: dict[str, Transmission] = {}
+    lost: Event | None = None
+    is_over = False
+    for logged in log:
+        kind = logged.key.split("/")
+        if kind[:2] == ["truth", "radio"]:
+            said = SpokenTruth.model_validate_json(logged.data)
+            if lost is None or said.t_tx_ns < lost.t_ns:
+                duration_s = (said.t_end_ns - said.t_tx_ns) / SECOND_NS
+                durations_s.setdefault(
+                    (said.speaker, said.text), UNENDING_S if is_over else duration_s
+                )
+        elif kind[0] == "radio":
+            header = Transmission.model_validate_json(logged.data)
+            received[header.id] = header
+        elif logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            is_over = is_over or event.kind in ("finished", "stopped")
+            lost = event if event.kind == "radio_lost" else lost
+    return RecordedSound(folder.audio_path, durations_s, received, lost.text if lost else None)
 
 
 def _given(folder: RunFolder, logged: Logged) -> Output:
@@ -198,6 +255,66 @@ class RecordedStep:
         return self.reply
 
 
+class RecordedSound:
+    """The voices of an earlier run, and what its receiver gave out.
+
+    Parameters
+    ----------
+    audio
+        Folder with the sound of what was received.
+    durations_s
+        Of each text, by its speaker.
+    received
+        Headers by the ids of the calls.
+    failure
+        Why the sound was lost; None if it was not.
+    """
+
+    def __init__(
+        self,
+        audio: Path,
+        durations_s: Mapping[tuple[str, str], float],
+        received: Mapping[str, Transmission],
+        failure: str | None,
+    ) -> None:
+        self._audio = audio
+        self._durations_s = durations_s
+        self._received = received
+        self._failure = failure
+
+    def speak(self, speaker: str, text: str) -> tuple[None, float]:
+        """Return how long it took to say a text.
+
+        Raises
+        ------
+        SpeechError
+            It was this text that could not be said.
+        """
+        duration_s = self._durations_s.get((speaker, text))
+        if duration_s is None and self._failure is not None:
+            raise SpeechError(self._failure)
+        return None, UNENDING_S if duration_s is None else duration_s
+
+    def receive(
+        self,
+        on_air: OnAir,
+        heard_over: tuple[OnAir, ...],  # noqa: ARG002
+        snr_db: float | None,  # noqa: ARG002
+        background: Background,  # noqa: ARG002
+    ) -> Reception:
+        """Return the transmission as it was received.
+
+        Raises
+        ------
+        SpeechError
+            It was in this transmission that the sound was lost.
+        """
+        header = self._received.get(on_air.utterance.id)
+        if header is None or not header.samples:
+            raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")
+        return Reception(header, recorded_pcm(self._audio, header))
+
+
 def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:
     notes = []
     now = versions()
@@ -208,8 +325,13 @@ def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunIn
     ]
     if changed:
         notes.append(f"versions differ from the recording: {', '.join(changed)}")
+    notes += [
+        f"{name} is not the file of the recording any more"
+        for name, was_sha256 in info.models.items()
+        if not Path(name).is_file() or sha256(Path(name)) != was_sha256
+    ]
     if info.phase != "finished":
-        recorded = [logged for logged in recorded if not _is_stop(logged)]
+        recorded = list(takewhile(lambda logged: not _is_stop(logged), recorded))
         repeated = repeated[: len(recorded)]
         notes.append("the recording breaks off; compared up to there")
     for index, (was, now_is) in enumerate(zip_longest(recorded, repeated)):

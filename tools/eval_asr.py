@@ -23,8 +23,8 @@ import jiwer
 import numpy as np
 
 from airhilt.radio.channel import VhfChannel
-from airhilt.radio.profiles import PROFILES
 from airhilt.radio.phraseology import parse_call
+from airhilt.radio.profiles import PROFILES
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.workers.asr.engines import asr_engine
 

@@ -56,6 +56,9 @@ class Listener:
     ) -> Understanding:
         """Return what somebody makes of a call that is for him.
 
+        By ear, the words that were said are sure. Who reads does not know what was said: he goes by
+        the confidence of what he reads.
+
         Parameters
         ----------
         known_by
@@ -63,17 +66,21 @@ class Listener:
             it as it comes.
         bound_runway
             Where he is going, which is what a call without a runway is about.
+        word_confidences
+            Of what he reads; None by ear.
         """
-        if words(heard) == words(said):
+        is_the_same = words(heard) == words(said)
+        if is_the_same and word_confidences is None:
             return Understanding("as_said")
         taken = self.parse(heard, self.callsigns, word_confidences)
-        kind = self._is_not_for(taken, known_by)
-        if kind is not None:
-            return Understanding(kind, taken)
-        if taken.confidence < TAU_ASR:
-            return Understanding("unclear", taken)
+        doubt = self._is_not_for(taken, known_by)
+        if doubt == "not_for_me" and not is_the_same:
+            return Understanding(doubt, taken)
         meant = self.parse(said, self.callsigns, None)
-        if _mean_the_same(taken.instructions, meant.instructions):
+        is_in_doubt = doubt == "unclear" or taken.confidence < TAU_ASR
+        if is_in_doubt and (_wants_something(taken) or _wants_something(meant)):
+            return Understanding("unclear", taken)
+        if is_the_same or _mean_the_same(taken.instructions, meant.instructions):
             return Understanding("as_said", taken)
         if not taken.instructions:
             return Understanding("unclear", taken)
@@ -119,6 +126,11 @@ class Listener:
         return None if not known_by or taken.callsign in known_by else "not_for_me"
 
 
+def _wants_something(call: Call) -> bool:
+    """Return whether a call orders or asks something, so that its words matter."""
+    return bool(call.instructions) or call.kind in ("request", "say_again", "disregard")
+
+
 def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
     """Return whether instructions come to the same: conditions may be worded in many ways."""
     return len(heard) == len(said) and all(
@@ -136,7 +148,9 @@ def _agree(one: Instruction, other: Instruction) -> bool:
 
 
 def _details(instruction: Instruction) -> tuple[object, ...]:
+    """Return what may not differ; of a condition, which has many wordings, that there is one."""
     return (
+        instruction.condition is not None,
         instruction.runway,
         instruction.hold_short,
         instruction.sense,

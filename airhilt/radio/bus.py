@@ -50,7 +50,7 @@ class OnAir:
     speech: Audio | None
     """None without sound, and of a stuck microphone."""
     overlapping: list[OnAir] = field(default_factory=list)
-    """Others on the frequency at the same time, whoever hears them."""
+    """Those of others on the frequency at the same time, whoever hears them."""
 
     @property
     def is_carrier(self) -> bool:
@@ -93,18 +93,34 @@ class RadioBus:
         """
         self._transmit(utterance, None, for_s)
 
+    def close(self) -> list[OnAir]:
+        """Cut off what is on the air, and return it."""
+        now_ns = self._director.now_ns
+        cut = [
+            on_air
+            for together in self._on_air.values()
+            for on_air in together
+            if on_air.t_tx_ns < now_ns
+        ]
+        for on_air in cut:
+            on_air.t_end_ns = now_ns
+        self._on_air.clear()
+        return cut
+
     def _begin(self, utterance: Utterance, *, has_waited: bool) -> None:
-        if utterance.listens_first:
-            heard = self._heard_by(utterance, has_waited)
-            if heard:
-                again_ns = max(other.t_end_ns for other in heard) + seconds_to_ns(GAP_S)
-                begin = partial(self._begin, utterance, has_waited=True)
-                self._director.at(again_ns, begin, Priority.SCRIPT)
-                return
-        self._transmit(utterance, *self._speak(utterance.speaker, utterance.text))
+        heard = self._heard_by(utterance, has_waited)
+        if heard:
+            again_ns = max(other.t_end_ns for other in heard) + seconds_to_ns(GAP_S)
+            begin = partial(self._begin, utterance, has_waited=True)
+            self._director.at(again_ns, begin, Priority.SCRIPT)
+        else:
+            self._transmit(utterance, *self._speak(utterance.speaker, utterance.text))
 
     def _heard_by(self, utterance: Utterance, has_waited: bool) -> list[OnAir]:
-        """Return whom a speaker would interrupt; who has waited pays attention until the end."""
+        """Return whom a speaker would interrupt, himself at least, so that he waits.
+
+        Who has waited pays attention until the end.
+        """
         unnoticed_ns = self._director.now_ns - seconds_to_ns(REACTION_S)
         return [
             other
@@ -112,11 +128,13 @@ class RadioBus:
             if not other.is_carrier
             and other.t_end_ns > self._director.now_ns
             and (
-                has_waited
-                or other.t_tx_ns <= unnoticed_ns
-                or other.utterance.speaker == utterance.speaker
+                other.utterance.speaker == utterance.speaker
+                or (
+                    utterance.listens_first
+                    and (has_waited or other.t_tx_ns <= unnoticed_ns)
+                    and self._audible(other.utterance.speaker, utterance.speaker)
+                )
             )
-            and self._audible(other.utterance.speaker, utterance.speaker)
         ]
 
     def _transmit(self, utterance: Utterance, speech: Audio | None, duration_s: float) -> None:
@@ -124,7 +142,7 @@ class RadioBus:
         on_air = OnAir(utterance, now_ns, now_ns + seconds_to_ns(duration_s), speech)
         together = self._on_air.setdefault(utterance.frequency_khz, [])
         for other in together:
-            if other.t_end_ns > now_ns:
+            if other.t_end_ns > now_ns and other.utterance.speaker != utterance.speaker:
                 other.overlapping.append(on_air)
                 on_air.overlapping.append(other)
         together.append(on_air)

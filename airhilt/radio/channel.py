@@ -2,7 +2,7 @@
 
 Double-sideband amplitude modulation (ICAO Annex 10 volume III part II, 2.1 to 2.3): the audio
 band is narrow, the receiver's gain follows the carrier, noise comes through at a level that
-depends on the received power, and two carriers at once whistle.
+depends on the received power, and two carriers at once whistle over all that is said.
 
 The signal-to-noise ratio is that of speech to noise within the audio band, over the time in
 which somebody speaks (`active`), and is met exactly before the receiver's gain control.
@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
 from airhilt.errors import SpeechError
+from airhilt.radio.profiles import ChannelProfile
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 
 Background = Literal["cockpit", "tower", "none"]
@@ -29,54 +30,27 @@ LEVEL_RMS = 0.1
 _FRAME = SAMPLE_RATE_HZ // 50
 _MARGIN = 10.0**-1.59
 """Below the active level by 15.9 dB, a frame is a pause (ITU-T P.56, 5.2)."""
-_BLOCKED_LEVEL_DB = 3.0
-"""Spread of the received powers of two that talk at once."""
+PEAK_MODULATION = 0.85
+"""Of a carrier, which every transmitter reaches (ICAO Annex 10 volume III part II, chapter 2)."""
+MODULATION = PEAK_MODULATION * 10.0 ** (-12.0 / 20.0)
+"""Of a carrier by active speech, RMS: 0.21, as the peaks of speech lie some 12 dB above its level
+(10 to 13 dB in what this channel makes of synthetic voices)."""
+_OPEN_MICROPHONE = PEAK_MODULATION / 3.0
+"""Of a carrier by noise, RMS. Where nobody speaks, the transmitter raises what there is: it is to
+keep its average modulation as high as it can (ibid.), and the peaks of noise are 3 sigma."""
+WHISTLES_HZ = (400.0, 1_200.0)
+"""How far two carriers are apart. Airborne transmitters may be off by 5 parts in a million where
+channels are 8.33 kHz wide (ibid.): two of them by 1.2 kHz at most at 120 MHz."""
 
 
-@dataclass(frozen=True)
-class ChannelProfile:
-    """One kind of radio. The attributes in dB are relative to active speech."""
+class Other(NamedTuple):
+    """Somebody who talks at the same time."""
 
-    name: str
-    low_hz: float
-    high_hz: float
-    order: int = 6
-    """Of the Butterworth band-pass."""
-    cockpit_db: float = -28.0
-    tower_db: float = -40.0
-    microphone_drive: float = 1.5
-    """How far speech is driven into the limiter of the transmitter (tanh)."""
-    fade_db: float = 0.0
-    """Depth of slow fading."""
-    fade_hz: float = 0.3
-    gain_control: float = 0.6
-    """0: none; 1: the receiver evens all levels out."""
-    squelch_tail_s: float = 0.12
-    wet: float = 1.0
-    """Share of the channel in what is heard; the rest is the voice as it was spoken."""
-
-
-PROFILES: dict[str, ChannelProfile] = {
-    profile.name: profile
-    for profile in (
-        ChannelProfile("vhf", 300.0, 3_400.0),
-        ChannelProfile("vhf_833", 300.0, 2_500.0),
-        ChannelProfile("fading", 300.0, 3_400.0, fade_db=8.0),
-        ChannelProfile("noisy_cockpit", 300.0, 3_400.0, cockpit_db=-15.0, microphone_drive=2.5),
-        ChannelProfile(
-            "line",
-            50.0,
-            7_500.0,
-            order=2,
-            cockpit_db=-60.0,
-            tower_db=-60.0,
-            microphone_drive=0.1,
-            gain_control=0.0,
-            squelch_tail_s=0.0,
-        ),
-    )
-}
-"""25 kHz VHF, 8.33 kHz VHF, VHF at the edge of coverage, a loud cockpit, and a wired line."""
+    speech: Audio
+    begin: int
+    """Sample of ours at which it begins."""
+    whistle_hz: float
+    """How far the two carriers are apart."""
 
 
 class Channel(Protocol):
@@ -92,7 +66,7 @@ class Channel(Protocol):
         speech: Audio,
         snr_db: float | None,
         rng: np.random.Generator,
-        others: Sequence[tuple[Audio, int]] = (),
+        others: Sequence[Other] = (),
         background: Background = "none",
     ) -> Audio:
         """Return what is heard of ``speech``; at least as long as it.
@@ -102,7 +76,7 @@ class Channel(Protocol):
         snr_db
             Speech to noise; None leaves noise out.
         others
-            Who talks at the same time: speech, and the sample of ours at which it begins.
+            Who talks at the same time.
         """
         ...
 
@@ -129,7 +103,7 @@ class VhfChannel:
         speech: Audio,
         snr_db: float | None,
         rng: np.random.Generator,
-        others: Sequence[tuple[Audio, int]] = (),
+        others: Sequence[Other] = (),
         background: Background = "none",
     ) -> Audio:
         """Return what is heard: the call, noise, and the squelch tail."""
@@ -154,7 +128,7 @@ class VhfChannel:
         speech: Audio,
         snr_db: float | None,
         rng: np.random.Generator,
-        others: Sequence[tuple[Audio, int]] = (),
+        others: Sequence[Other] = (),
         background: Background = "none",
     ) -> Parts:
         """Return the parts of what is received, each as long as ``speech``.
@@ -174,9 +148,7 @@ class VhfChannel:
             noise = _band(rng.standard_normal(count, np.float32), self._profile)
             wanted = _power(signal, is_active) if is_active.any() else LEVEL_RMS**2
             noise *= np.sqrt(wanted / 10.0 ** (snr_db / 10.0) / _power(noise, is_active))
-        interference = np.zeros(count, np.float32)
-        for other, offset in others:
-            interference += self._interference(_checked(other), offset, count, rng)
+        interference = self.interference(signal, others, rng)
         return Parts(signal, noise, interference, is_active)
 
     def _modulated(
@@ -196,20 +168,37 @@ class VhfChannel:
             signal = signal * np.float32(LEVEL_RMS / np.sqrt(_power(signal, is_active)))
         return signal, is_active
 
-    def _interference(
-        self, other: Audio, offset: int, count: int, rng: np.random.Generator
+    def interference(
+        self, signal: Audio, others: Sequence[Other], rng: np.random.Generator
     ) -> Audio:
-        """Return somebody else's call where it lies over ours, shape (count,)."""
+        """Return what others add to a detected signal, and take from it, shape (count,).
+
+        Carriers add up before the detector, which gives out the envelope of their sum, as far as
+        one fully modulated carrier would drive it. All are taken to be received as strongly as
+        ours, and to come from cockpits. Their beat then is nearly the whole carrier, 7 to 9 dB
+        more than speech, which modulates it by `MODULATION`; speech comes through in shreds.
+        """
+        count = len(signal)
+        field = (1.0 + MODULATION / LEVEL_RMS * signal).astype(np.complex64)
+        begin, end = count, 0
+        for other in others:
+            overlap = _checked(other.speech)[max(-other.begin, 0) : max(count - other.begin, 0)]
+            if not len(overlap):
+                continue
+            theirs, speaks = self._modulated(overlap, rng, "cockpit")
+            depth = MODULATION / LEVEL_RMS
+            if not speaks.any():
+                depth = _OPEN_MICROPHONE / (theirs.std() or 1.0)
+            first, after = max(other.begin, 0), max(other.begin, 0) + len(overlap)
+            turns = other.whistle_hz / SAMPLE_RATE_HZ * np.arange(len(overlap))
+            field[first:after] += np.exp(2j * np.pi * turns) * (1.0 + depth * theirs)
+            begin, end = min(begin, first), max(end, after)
         placed = np.zeros(count, np.float32)
-        overlap = other[max(-offset, 0) : max(count - offset, 0)]
-        if not len(overlap):
-            return placed
-        signal, _ = self._modulated(overlap, rng, "none")
-        gain = 10.0 ** (rng.uniform(-_BLOCKED_LEVEL_DB, _BLOCKED_LEVEL_DB) / 20.0)
-        times_s = np.arange(len(signal), dtype=np.float32) / SAMPLE_RATE_HZ
-        whistle = np.sin(2.0 * np.pi * rng.uniform(400.0, 1_200.0) * times_s, dtype=np.float32)
-        begin = max(offset, 0)
-        placed[begin : begin + len(signal)] = gain * signal + LEVEL_RMS * whistle
+        if begin < end:
+            envelope = np.abs(field[begin:end])
+            audio = np.clip(envelope - envelope.mean(), -PEAK_MODULATION, PEAK_MODULATION)
+            detected = _band(audio * np.float32(LEVEL_RMS / MODULATION), self._profile)
+            placed[begin:end] = detected - signal[begin:end]
         return placed
 
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from airhilt.errors import SpeechError, first_line
 from airhilt.inference import open_network
-from airhilt.radio.channel import LEVEL_RMS, PROFILES, Background, VhfChannel, active
+from airhilt.radio.channel import LEVEL_RMS, Background, Other, VhfChannel, active
+from airhilt.radio.profiles import PROFILES
 from airhilt.radio.voices.engine import Audio
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
@@ -43,19 +44,20 @@ class LearnedChannel:
         self._input = inputs[0].name
         for count in TRIAL_SAMPLES:
             self._apply(np.sin(np.arange(count, dtype=np.float32)) * np.float32(LEVEL_RMS))
-        self._others = VhfChannel(PROFILES["vhf"])
+        self._vhf = VhfChannel(PROFILES["vhf"])
 
     def transmit(
         self,
         speech: Audio,
         snr_db: float | None,
         rng: np.random.Generator,
-        others: Sequence[tuple[Audio, int]] = (),
+        others: Sequence[Other] = (),
         background: Background = "none",  # noqa: ARG002
     ) -> Audio:
         """Return what is heard of ``speech``, as long as it; the model has its own background."""
-        parts = self._others.parts(speech, snr_db, rng, others)
-        heard = self._signal(np.asarray(speech, np.float32)) + parts.noise + parts.interference
+        noise = self._vhf.parts(speech, snr_db, rng).noise
+        signal = self._signal(np.asarray(speech, np.float32))
+        heard = signal + noise + self._vhf.interference(signal, others, rng)
         return np.asarray(np.clip(heard, -1.0, 1.0), np.float32)
 
     def _signal(self, speech: Audio) -> Audio:

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from airhilt.errors import RunFolderError, SpeechError, first_problem
+from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.radio.voices.wav import from_pcm, write_wav
@@ -108,7 +109,7 @@ def listen(
     text = wav.with_suffix(".txt")
     write_wav(wav, tape.audio)
     try:
-        text.write_text(tape.text(), encoding="utf-8")
+        replace_file(text, tape.text().encode())
     except OSError as error:
         raise SpeechError(f"{text}: cannot be written: {error.strerror}") from None
     return tape, wav, text

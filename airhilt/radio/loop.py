@@ -74,6 +74,8 @@ class RadioLoop:
         Called with each line that something is wrong with.
     microphone_stuck
         Called with an actor's callsign and what happens, in words.
+    microphones_free
+        Called when no microphone is stuck any more.
     ended_lines
         Gets the ids of the calls that have been on the air.
     """
@@ -93,6 +95,7 @@ class RadioLoop:
         do: Callable[[str, Command], None],
         failed: Callable[[HappeningLine], None],
         microphone_stuck: Callable[[str, str], None],
+        microphones_free: Callable[[], None],
     ) -> None:
         self._ended_lines = ended_lines
         self._director = director
@@ -106,6 +109,9 @@ class RadioLoop:
         self._publish = publish
         self._do = do
         self._microphone_stuck = microphone_stuck
+        self._microphones_free = microphones_free
+        self._stuck = 0
+        """How many microphones are."""
         self._bus = RadioBus(director, sound.speak, stations.audible, self._ended)
         self._exchanges = exchanges_of(scenario, lines)
         self._on_air: dict[str, Exchange] = {}
@@ -122,10 +128,17 @@ class RadioLoop:
 
     def _stick(self, failure: StuckMicrophone) -> None:
         actor = failure.actor
+        self._stuck += 1
         self._microphone_stuck(actor, f"its microphone is stuck for {failure.for_s:g} s")
+        self._after(failure.for_s, self._unstick)
         for frequency_khz in self._stations.frequencies_of(actor):
             name = f"stuck-microphone.{actor}.{failure.at_s:g}.{frequency_khz}"
             self._bus.press(Utterance(name, frequency_khz, actor, None, ""), failure.for_s)
+
+    def _unstick(self) -> None:
+        self._stuck -= 1
+        if not self._stuck:
+            self._microphones_free()
 
     def _due(self, line: RadioLine) -> None:
         """Say a line once its speaker has taken what it follows from."""
@@ -168,18 +181,14 @@ class RadioLoop:
     def _ended(self, on_air: OnAir) -> None:
         """Let a transmission that has ended be received, heard, and acted upon."""
         said = on_air.utterance
-        mixed_with = tuple(
-            other
-            for other in on_air.overlapping
-            if self._stations.received(other.utterance.speaker)
-        )
-        self._tell_truth(on_air, mixed_with)
+        mixed_with = self._mixed_with(on_air)
+        transcript = self._receive(on_air, mixed_with)
         exchange = self._on_air.pop(said.id, None)
         if exchange is not None:
             self._ended_lines.add(exchange.id)
-            self._let_read(exchange, on_air)
-        if self._squelch_opens and self._stations.received(said.speaker):
-            self._receive(on_air, mixed_with)
+            self._let_read(exchange, said, is_blocked=bool(mixed_with))
+        if transcript is not None:
+            self._publish(f"asr/{said.frequency_khz}", transcript)
         if exchange is None:
             return
         if exchange.is_first_time:
@@ -188,14 +197,32 @@ class RadioLoop:
             if not self._reads(listener):
                 self._hear(exchange, on_air, listener)
 
-    def _receive(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> None:
-        """Publish a transmission as the units receive it."""
+    def close(self) -> None:
+        """Let what is on the air be received as far as it has come; nobody acts upon it."""
+        for on_air in self._bus.close():
+            self._receive(on_air, self._mixed_with(on_air))
+
+    def _mixed_with(self, on_air: OnAir) -> tuple[OnAir, ...]:
+        """Return what else the units received at the same time."""
+        return tuple(
+            other
+            for other in on_air.overlapping
+            if self._stations.received(other.utterance.speaker)
+        )
+
+    def _receive(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:
+        """Publish a transmission, and how the units receive it if they do.
+
+        Returns its words where there is no sound to recognise them from.
+        """
+        self._tell_truth(on_air, mixed_with)
         said = on_air.utterance
+        if not (self._squelch_opens and self._stations.received(said.speaker)):
+            return None
         background = self._stations.background_of(said.speaker)
         reception = self._sound.receive(on_air, mixed_with, self._radio.snr_db, background)
         self._publish(f"radio/{said.frequency_khz}/tx", reception.header, raw=reception.pcm)
-        if reception.transcript is not None:
-            self._publish(f"asr/{said.frequency_khz}", reception.transcript)
+        return reception.transcript
 
     def _tell_truth(self, on_air: OnAir, mixed_with: Sequence[OnAir]) -> None:
         said = on_air.utterance
@@ -252,18 +279,21 @@ class RadioLoop:
         """Return whether somebody reads the radio instead of listening to it."""
         return self._radio.topology == "asr_first" and self._stations.is_crew(listener)
 
-    def _let_read(self, exchange: Exchange, on_air: OnAir) -> None:
-        """Let the crews that read the radio wait for the transcript of a call."""
-        said, recipients = on_air.utterance, exchange.recipients()
+    def _let_read(self, exchange: Exchange, said: Utterance, *, is_blocked: bool) -> None:
+        """Let the crews that read the radio wait for the transcript of a call.
+
+        Nobody reads a call that was received with another in it.
+        """
+        recipients = exchange.recipients()
         for listener in self._stations.actors_on(said.frequency_khz):
             if listener == said.speaker or not self._reads(listener):
                 continue
-            if listener in recipients and listener in exchange.deaf:
+            if listener in recipients and (is_blocked or listener in exchange.deaf):
                 self._make_of(exchange, said, listener, NOTHING, "", read=True)
             elif listener in recipients:
                 read = partial(self._read, exchange, said, listener)
                 self._unread.setdefault(said.id, []).append(read)
-            elif listener not in exchange.taken_by and self._radio.overhearing:
+            elif self._radio.overhearing and not is_blocked and listener not in exchange.taken_by:
                 overhear = partial(self._overhear, exchange, said, listener)
                 self._unread.setdefault(said.id, []).append(overhear)
         if said.id in self._unread:

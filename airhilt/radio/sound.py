@@ -8,7 +8,7 @@ import numpy as np
 
 from airhilt.messages import Transmission
 from airhilt.radio.bus import OnAir
-from airhilt.radio.channel import Background, Channel
+from airhilt.radio.channel import WHISTLES_HZ, Background, Channel, Other
 from airhilt.radio.speech import Reception
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine
 from airhilt.radio.voices.wav import SAMPLE_BYTES, to_pcm
@@ -48,7 +48,7 @@ class Spoken:
             _speech_of(on_air),
             snr_db,
             stream(self._seed, f"channel/{said.id}"),
-            [(_speech_of(other), _samples(other.t_tx_ns - on_air.t_tx_ns)) for other in heard_over],
+            [self._beside(on_air, other) for other in heard_over],
             background,
         )
         pcm = to_pcm(audio)
@@ -64,12 +64,21 @@ class Spoken:
         )
         return Reception(header, pcm)
 
+    def _beside(self, on_air: OnAir, other: OnAir) -> Other:
+        """Return another transmission as it lies over one.
+
+        How far their carriers are apart is the pair's: both ways round they whistle the same.
+        """
+        pair = "/".join(sorted((on_air.utterance.id, other.utterance.id)))
+        whistle_hz = stream(self._seed, f"whistle/{pair}").uniform(*WHISTLES_HZ)
+        begin = _samples(other.t_tx_ns - on_air.t_tx_ns)
+        return Other(_speech_of(other), begin, whistle_hz)
+
 
 def _speech_of(on_air: OnAir) -> Audio:
-    """Return what was said; silence from a button that is stuck."""
-    if on_air.speech is not None:
-        return on_air.speech
-    return np.zeros(max(_samples(on_air.t_end_ns - on_air.t_tx_ns), 1), np.float32)
+    """Return what was said while it was on the air; silence from a button that is stuck."""
+    count = max(_samples(on_air.t_end_ns - on_air.t_tx_ns), 1)
+    return np.zeros(count, np.float32) if on_air.speech is None else on_air.speech[:count]
 
 
 def _samples(duration_ns: int) -> int:

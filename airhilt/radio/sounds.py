@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from airhilt.errors import SpeechError
-from airhilt.library import nearest
+from airhilt.radio.profiles import PROFILES, is_learned
 from airhilt.radio.speech import Sound, Text
+from airhilt.record.folder import sha256
 from airhilt.scenario.models import Radio
 
 if TYPE_CHECKING:
@@ -21,8 +21,8 @@ def sound_of(radio: Radio, seed: int, tts: str | None) -> Sound:
 
     Raises
     ------
-    SpeechError
-        There is no profile or are no voices of that name, or they cannot be loaded.
+    airhilt.errors.SpeechError
+        There are no voices of that name, or they or the channel cannot be loaded.
     """
     if tts is None:
         return Text(radio.words_per_minute)
@@ -38,15 +38,19 @@ def channel_of(profile: str) -> Channel:
 
     Raises
     ------
-    SpeechError
-        There is none of that name, or the file cannot be loaded.
+    airhilt.errors.SpeechError
+        The file cannot be loaded.
     """
-    if profile.endswith(".onnx"):
+    if is_learned(profile):
         from airhilt.radio.learned_channel import LearnedChannel
 
         return LearnedChannel(Path(profile))
-    from airhilt.radio.channel import PROFILES, VhfChannel
+    from airhilt.radio.channel import VhfChannel
 
-    if profile not in PROFILES:
-        raise SpeechError(f"no radio profile {profile!r}{nearest(profile, list(PROFILES))}")
     return VhfChannel(PROFILES[profile])
+
+
+def models_of(radio: Radio) -> dict[str, str]:
+    """Return the SHA-256 of the file that the channel was learned into, by its path."""
+    profile = radio.profile or USUAL_PROFILE
+    return {profile: sha256(Path(profile))} if is_learned(profile) else {}

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from airhilt.errors import SpeechError
 from airhilt.messages import Message, Transcript, Transmission
 from airhilt.radio.bus import OnAir
 from airhilt.radio.voices.engine import Audio
@@ -53,6 +55,11 @@ class Sound(Protocol):
             transmission itself if it is one, has no speech.
         background
             Where its speaker sits.
+
+        Raises
+        ------
+        airhilt.errors.SpeechError
+            The channel has failed.
         """
         ...
 
@@ -93,3 +100,54 @@ class Text:
             return Reception(header, b"")
         transcript = Transcript(**times, **identity, text=said.text, confidence=1.0, engine="text")
         return Reception(header, b"", transcript)
+
+
+class Fragile:
+    """A radio with sound until its voices or its channel fail, and without from then on.
+
+    Calls then take the time of their words and arrive without samples. Nor do their words arrive:
+    nobody can tell what a recogniser would have made of them.
+
+    Parameters
+    ----------
+    sound
+        While it lasts.
+    words_per_minute
+        Of calls without it.
+    lost
+        Called once with the cause when it fails.
+    """
+
+    def __init__(self, sound: Sound, words_per_minute: float, lost: Callable[[str], None]) -> None:
+        self._sound = sound
+        self._text = Text(words_per_minute)
+        self._lost = lost
+        self.is_lost = False
+
+    def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
+        """Return a text as speech, None without sound, and how long it takes."""
+        if not self.is_lost:
+            try:
+                return self._sound.speak(speaker, text)
+            except SpeechError as error:
+                self._lose(error)
+        return self._text.speak(speaker, text)
+
+    def receive(
+        self,
+        on_air: OnAir,
+        heard_over: tuple[OnAir, ...],
+        snr_db: float | None,
+        background: Background,
+    ) -> Reception:
+        """Return the transmission with the sound that it has."""
+        if not self.is_lost:
+            try:
+                return self._sound.receive(on_air, heard_over, snr_db, background)
+            except SpeechError as error:
+                self._lose(error)
+        return Reception(self._text.receive(on_air, heard_over, snr_db, background).header, b"")
+
+    def _lose(self, error: SpeechError) -> None:
+        self.is_lost = True
+        self._lost(str(error))

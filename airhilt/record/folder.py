@@ -7,7 +7,6 @@ import importlib.metadata
 import json
 import os
 import platform
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_problem
+from airhilt.files import replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.scenario.models import Topology
 
@@ -78,6 +78,8 @@ class RunInfo(BaseModel):
     versions: dict[str, str]
     platform: dict[str, str]
     hashes: dict[str, str] = {}
+    models: dict[str, str] = {}
+    """SHA-256 of each file of the user that decides what is heard, by its path."""
 
 
 def versions() -> dict[str, str]:
@@ -201,13 +203,9 @@ class RunFolder:
         self._write(self.report_path, html)
 
     def _write(self, path: Path, text: str) -> None:
-        partial = path.with_name(path.name + ".partial")
         try:
-            partial.write_text(text + "\n", encoding="utf-8")
-            partial.replace(path)
+            replace_file(path, f"{text}\n".encode())
         except OSError as error:
-            with suppress(OSError):
-                partial.unlink()
             raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
 
     def info(self) -> RunInfo:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 import types
 import typing
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -60,6 +61,10 @@ GREATEST_SURFACE_WIND_KT = 40.0
 """Beyond it airports stop: more than the demonstrated crosswind of any type here."""
 GREATEST_SURFACE_DISTANCE_M = 10_000.0
 """From the airport's reference point, for what stands on the ground."""
+GENERATED_ID = re.compile(
+    r"^stuck-microphone\.|\.(?:readback|correction|(?:repeat|say-again)-[0-9]+)$", re.IGNORECASE
+)
+"""What begins or ends the ids of calls that are not in the script (docs/radio.md)."""
 
 
 @dataclass(frozen=True)
@@ -283,7 +288,7 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     shared = [
         *_duplicates("actors", "callsign", callsigns),
         *_duplicates("actors", "icao24", _addresses(scenario)),
-        *_duplicates("radio/lines", "id", line_ids),
+        *_duplicates("radio/lines", "id", line_ids, str.lower),
         *_duplicates("cameras", "name", [camera.name for camera in scenario.cameras]),
     ]
     if shared:
@@ -306,12 +311,18 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
     yield from _perturbations(scenario)
 
 
-def _duplicates(path: str, field: str, values: Sequence[str]) -> Iterator[Problem]:
+def _duplicates(
+    path: str, field: str, values: Sequence[str], form: Callable[[str], str] = str
+) -> Iterator[Problem]:
+    """Yield values whose ``form`` is that of one before."""
+    forms = [form(value) for value in values]
     for index, value in enumerate(values):
-        if value in values[:index]:
+        first = forms.index(forms[index])
+        if first < index:
+            written = "" if values[first] == value else f", as {values[first]!r}"
             yield Problem(
                 f"{path}/{index}/{field}",
-                f"found {value!r}, which {path}/{values.index(value)} has already; expected a "
+                f"found {value!r}, which {path}/{first} has already{written}; expected a "
                 "different one for each",
             )
 
@@ -532,10 +543,17 @@ def _place(setting: Setting, position: Position) -> Place | None:
 
 
 def _radio(scenario: Scenario, line_ids: list[str]) -> Iterator[Problem]:
-    """Yield lines on frequencies that are none, and answers to lines that are not before them."""
+    """Yield lines with ids or frequencies that they cannot have, or answers to none before them."""
     frequencies: dict[str, int] = {}
     for index, line in enumerate(scenario.radio.lines):
         path = f"radio/lines/{index}"
+        if GENERATED_ID.search(line.id):
+            yield Problem(
+                f"{path}/id",
+                f"found {line.id!r}, which is how calls that are not in the script are named; "
+                "expected an id that neither begins with stuck-microphone. nor ends with "
+                ".readback, .correction, .repeat-1 or .say-again-1",
+            )
         try:
             channel_spacing_khz(line.frequency_khz)
         except ScenarioError as error:

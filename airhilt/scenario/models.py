@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from airhilt.commands import AircraftCommand, Command, VehicleCommand, WildlifeCommand
 from airhilt.positions import (
@@ -14,6 +14,7 @@ from airhilt.positions import (
     RunwayIdent,
     TaxiwayName,
 )
+from airhilt.radio import profiles
 
 Callsign = Annotated[str, Field(pattern=r"^[A-Z0-9]{2,8}$", examples=["AAL123"])]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,40}$")]
@@ -237,7 +238,10 @@ class Radio(_Model):
     squelch_db: float = Field(
         default=-10.0, ge=-30.0, le=60.0, description="SNR below which receivers stay silent"
     )
-    profile: str | None = Field(default=None, description="named settings of the radio channel")
+    profile: Annotated[str, AfterValidator(profiles.checked)] | None = Field(
+        default=None,
+        description="named settings of the radio channel, or a learned channel, FILE.onnx",
+    )
     topology: Topology = Field(
         default="parallel",
         description="parallel: crews hear the radio, as the assistant does; asr_first: crews get "

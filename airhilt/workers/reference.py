@@ -81,12 +81,14 @@ def reference_worker(
             from airhilt.workers.asr.engines import asr_engine
             from airhilt.workers.asr.worker import AsrWorker
 
-            return AsrWorker(asr_engine(engine or ASR), name=name or kind)
+            return AsrWorker(asr_engine(ASR if engine is None else engine), name=name or kind)
         case "tts":
             from airhilt.radio.voices.engines import tts_engine
             from airhilt.workers.tts.worker import TtsWorker
 
-            return TtsWorker(tts_engine(engine or TTS), style=style, name=name or kind)
+            return TtsWorker(
+                tts_engine(TTS if engine is None else engine), style=style, name=name or kind
+            )
         case "decision" if engine is None:
             return DecisionWorker(name=name or kind)
         case "decision":

@@ -62,6 +62,70 @@ def test_what_he_is_not_sure_of_he_asks_for_again(confidence, kind):
     assert listener.make_sense("nearly that", SAID, ("AAL123",)).kind == kind
 
 
+def read(text, confidence, said=None):
+    return sense(text, said or text, word_confidences=[confidence] * len(text.split())).kind
+
+
+def test_who_reads_the_right_words_and_cannot_be_sure_of_them_asks_again():
+    assert read(SAID, 0.7) == "unclear"
+    assert read(SAID, 0.9) == "as_said"
+
+
+def test_who_reads_a_runway_that_may_be_the_rest_of_another_asks_and_who_hears_it_does_not():
+    said = "American one two three, cleared to land runway one."
+    assert read(said, 1.0) == "unclear"
+    assert sense(said, said).kind == "as_said"
+
+
+def test_who_reads_a_callsign_that_may_be_two_asks_again_though_the_words_are_right():
+    call = parse_call(SAID, ("AAL123",))
+    match = dataclasses.replace(call.match, ambiguous=True)
+    listener = Listener(ON_FREQUENCY, lambda *_: dataclasses.replace(call, match=match))
+    sure = [1.0] * len(SAID.split())
+    assert listener.make_sense(SAID, SAID, ("AAL123",), None, sure).kind == "unclear"
+
+
+def test_nobody_asks_for_a_call_again_that_orders_and_asks_nothing():
+    roger = "American one two three, roger."
+    assert read(roger, 0.3) == "as_said"
+    assert read("american one two three good day", 0.3, roger) == "as_said"
+    assert read(roger, 0.3, SAID) == "unclear"
+    assert read(SAID, 0.3, roger) == "unclear"
+    question = "American one two three, say again."
+    assert read(question, 0.3) == "unclear"
+    assert read("american one two three again", 0.3, question) == "unclear"
+
+
+def test_the_right_words_are_for_their_addressee_even_without_a_callsign():
+    assert read("Roger, thank you.", 1.0) == "as_said"
+
+
+BEHIND = "American one two three, behind the landing Delta line up runway one niner behind."
+AT_ONCE = "American one two three, line up runway one niner."
+
+
+def test_a_condition_that_is_lost_is_not_waited_for():
+    taken = sense(AT_ONCE, BEHIND)
+    assert taken.kind == "otherwise"
+    assert [command.action for command in taken.commands] == ["line_up"]
+
+
+def test_a_condition_that_was_not_said_is():
+    taken = sense(BEHIND, AT_ONCE)
+    assert (taken.kind, taken.commands) == ("otherwise", ())
+
+
+def test_a_condition_in_other_words_is_the_same():
+    other = "American one two three, behind landing Delta traffic line up runway one niner behind."
+    assert sense(other, BEHIND).kind == "as_said"
+
+
+@pytest.mark.parametrize(("read_back", "said"), [(AT_ONCE, BEHIND), (BEHIND, AT_ONCE)])
+def test_a_readback_with_a_condition_lost_or_invented_differs(read_back, said):
+    assert LISTENER.differs(read_back, said)
+    assert not LISTENER.differs(said, said)
+
+
 def test_a_callsign_without_an_instruction_is_asked_for_again():
     assert sense("american one two three climb and").kind == "unclear"
 

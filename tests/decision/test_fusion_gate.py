@@ -3,6 +3,7 @@
 import pytest
 
 from airhilt.messages import Status, Transcript, Transmission
+from airhilt.units import SECOND_NS
 from airhilt.workers.decision import DecisionConfig, DecisionWorker
 from airhilt.workers.decision.fusion import PATIENCE_NS, FusionGate
 
@@ -34,7 +35,8 @@ def test_it_is_closed_from_the_end_of_a_call_to_its_transcript():
     assert gate.opens_ns(END_NS) is None
 
 
-def test_it_does_not_wait_for_ever():
+def test_it_waits_for_10_s_at_most():
+    assert PATIENCE_NS == 10 * SECOND_NS
     gate = FusionGate()
     gate.take_transmission(received())
     assert gate.opens_ns(END_NS + PATIENCE_NS) is None

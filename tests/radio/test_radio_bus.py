@@ -23,8 +23,8 @@ def everybody(speaker, listener):
     return True
 
 
-def played(*calls, stuck=(), audible=everybody):
-    """Return the transmissions by their ids, in the order in which they ended."""
+def played(*calls, stuck=(), audible=everybody, until_s=None):
+    """Return the transmissions by their ids, in the order in which they ended or were cut off."""
     director, ended = Director(Virtual()), {}
 
     def speak(speaker, text):
@@ -40,8 +40,10 @@ def played(*calls, stuck=(), audible=everybody):
     for at_s, speaker, for_s in stuck:
         carrier = Utterance(f"stuck-{speaker}", 134_325, speaker, None, "")
         director.at(seconds_to_ns(at_s), partial(bus.press, carrier, for_s), Priority.SCRIPT)
+    if until_s is not None:
+        director.at(seconds_to_ns(until_s), director.stop, Priority.OBSERVE)
     director.run()
-    return ended
+    return ended | {on_air.utterance.id: on_air for on_air in bus.close()}
 
 
 def begins_s(on_air):
@@ -93,6 +95,16 @@ def test_nobody_talks_over_himself():
     assert begins_s(calls["b"]) > 23.0
 
 
+def test_nobody_talks_over_himself_even_if_he_does_not_listen_first():
+    calls = played(
+        call("a", 20.0, "A"),
+        call("b", 21.0, "A", listens_first=False),
+        call("c", 25.0, "B", listens_first=False),
+    )
+    assert begins_s(calls["b"]) == 23.4
+    assert blockers(calls["b"]) == ["c"]
+
+
 def test_one_that_does_not_listen_first_blocks_what_is_on_the_air():
     calls = played(call("a", 20.0, "A"), call("b", 21.5, "B", listens_first=False))
     assert (blockers(calls["a"]), blockers(calls["b"])) == (["b"], ["a"])
@@ -118,6 +130,22 @@ def test_a_stuck_microphone_blocks_all_that_is_said_for_ten_minutes():
     assert blockers(carrier) == sorted(f"c{n}" for n in range(28))
     assert all(blockers(calls[f"c{n}"]) == ["stuck-B"] for n in range(28))
     assert not calls["after"].overlapping
+
+
+def test_a_stuck_microphone_does_not_block_its_own_actor():
+    calls = played(call("own", 20.0, "B"), call("other", 30.0, "A"), stuck=[(10.0, "B", 60.0)])
+    assert not calls["own"].overlapping
+    assert blockers(calls["stuck-B"]) == ["other"]
+
+
+def test_what_is_on_the_air_at_the_end_is_cut_off():
+    calls = played(
+        call("a", 20.0, "A"), call("b", 22.0, frequency_khz=118_000), stuck=[(10.0, "B", 600.0)],
+        until_s=22.0,
+    )  # fmt: skip
+    assert set(calls) == {"stuck-B", "a"}
+    assert {one.t_end_ns for one in calls.values()} == {22 * SECOND_NS}
+    assert blockers(calls["a"]) == ["stuck-B"]
 
 
 @settings(deadline=None)

@@ -6,9 +6,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Word
+from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
 from airhilt.radio.hearing import Heard, HearingModel
-from airhilt.radio.loop import MOST_REPEATS, REPEAT_AFTER_S, TRANSCRIPT_PATIENCE_S, RadioLoop
+from airhilt.radio.loop import (
+    MOST_REPEATS,
+    REPEAT_AFTER_S,
+    REPEAT_SPREAD_S,
+    TRANSCRIPT_PATIENCE_S,
+    RadioLoop,
+)
 from airhilt.radio.speech import Text
 from airhilt.radio.stations import Stations
 from airhilt.scenario import load
@@ -50,7 +56,7 @@ class World:
         document["perturbations"] = []
         self.scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
-        self.published, self.done = [], []
+        self.published, self.done, self.microphones = [], [], []
         high = Site(0.68, -1.34, altitude_m=33_000 * FOOT)
         self.cast = {
             actor.callsign: SimpleNamespace(
@@ -73,7 +79,8 @@ class World:
             publish=self.publish,
             do=self.do,
             failed=lambda happening: None,
-            microphone_stuck=lambda actor, text: None,
+            microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
+            microphones_free=lambda: self.microphones.append((self.now_s, None)),
         )
         if heard is not None:
             self.loop._hearing = Scripted(heard)
@@ -90,10 +97,20 @@ class World:
         self.director.at(self.director.now_ns, action, Priority.SCRIPT)
 
     def do(self, callsign, command):
-        self.done.append((callsign, command, self.director.now_ns / SECOND_NS))
+        self.done.append((callsign, command, self.now_s))
+
+    @property
+    def now_s(self):
+        return self.director.now_ns / SECOND_NS
 
     def run(self):
         self.director.run()
+        return self
+
+    def run_until(self, end_s):
+        self.director.at(seconds_to_ns(end_s), self.director.stop, Priority.OBSERVE)
+        self.director.run()
+        self.loop.close()
         return self
 
     def said(self):
@@ -282,6 +299,56 @@ def test_under_a_stuck_microphone_nothing_gets_through_and_then_it_does():
     assert len(world.done) == 1
 
 
+def test_who_has_a_stuck_microphone_is_heard_and_hears_nobody():
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    climb = line(
+        "climb", 12, TOWER, "DAL456",
+        "Delta four five six, climb and maintain flight level three five zero.",
+    )  # fmt: skip
+    stuck = {"type": "stuck_microphone", "actor": "DAL456", "at_s": 1, "for_s": 30}
+    world = World(check, climb, failures=[stuck]).run()
+    assert world.spoken("check").blocked_by == ()
+    assert world.hearings(TOWER) == [("check", "understood")]
+    assert world.hearings("DAL456")[0] == ("climb", "missed")
+
+
+def test_it_is_told_when_microphones_are_stuck_and_when_none_is_any_more():
+    failures = [
+        {"type": "stuck_microphone", "actor": actor, "at_s": at_s, "for_s": 10}
+        for actor, at_s in (("AAL123", 5), ("DAL456", 9))
+    ]
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = World(check, CLEARANCE, failures=failures).run()
+    assert world.microphones == [(5.0, "AAL123"), (9.0, "DAL456"), (19.0, None)]
+
+
+def test_what_is_on_the_air_at_the_end_has_been_said_up_to_there_and_nobody_takes_it():
+    stuck = {"type": "stuck_microphone", "actor": "AAL123", "at_s": 5, "for_s": 600}
+    world = World(CLEARANCE, failures=[stuck]).run_until(12.0)
+    carrier, clearance = world.said()
+    assert world.spoken(clearance).blocked_by == (carrier,)
+    received = [one for one in world.published if isinstance(one, Transmission)]
+    spoken = [one for one in world.published if isinstance(one, SpokenTruth)]
+    assert [one.t_end_ns for one in (*spoken, *received)] == [12 * SECOND_NS] * 4
+    assert world.hearings("AAL123") == []
+
+
+def test_a_call_that_the_end_cuts_off_gives_no_words():
+    world = World(CLEARANCE).run_until(12.0)
+    assert world.said() == ["clearance"]
+    assert not any(isinstance(one, Transcript) for one in world.published)
+
+
+def test_who_is_below_the_horizon_of_the_receiver_is_not_received():
+    request = line("request", 30, "AAL123", TOWER, "Washington Center, American one two three.")
+    world = World(request, CLEARANCE)
+    world.cast["AAL123"].body.state = Site(0.9, -1.34, altitude_m=3_000 * FOOT)
+    world.run()
+    assert "request" in world.said()
+    received = {one.id for one in world.published if isinstance(one, (Transmission, Transcript))}
+    assert received == {name for name in world.said() if name.startswith("clearance")}
+
+
 def test_below_the_squelch_nobody_hears_and_nothing_is_received():
     world = World(CLEARANCE, snr_db=-20.0).run()
     assert not any(isinstance(one, Transcript) for one in world.published)
@@ -350,12 +417,43 @@ def test_a_crew_may_take_for_its_own_what_it_reads():
     assert ("DAL456", 33_000) in [(who, command.altitude_ft) for who, command, _ in world.done]
 
 
-def test_without_a_transcript_a_crew_that_reads_misses_the_call():
+def test_nobody_reads_a_call_that_was_blocked():
+    over = line("over", 11, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    blocked = {"type": "blocked", "line": "over"}
+    world = Reading(CLEARANCE, over, failures=[blocked], topology="asr_first")
+    world.transcribe(CLEARANCE["text"], 16.0).run()
+    assert world.spoken("clearance").blocked_by == ("over",)
+    assert world.hearings("AAL123")[0] == ("clearance", "missed")
+    assert "clearance.repeat-1" in world.said()
+    assert world.done == []
+
+
+def test_nobody_takes_for_his_own_what_was_blocked():
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    over = line("over", 11, "AAL123", TOWER, "Washington Center, American one two three.")
+    blocked = {"type": "blocked", "line": "over"}
+    world = Reading(over, check, CLEARANCE, failures=[blocked], topology="asr_first")
+    world.transcribe("delta four five six climb and maintain flight level three three zero", 16.0)
+    assert world.run().done == []
+
+
+def test_a_crew_that_reads_asks_again_where_the_right_words_are_not_sure():
     world = Reading(CLEARANCE, topology="asr_first")
-    world.run()
+    confidences = [0.5] * len(CLEARANCE["text"].split())
+    world.transcribe(CLEARANCE["text"], 16.0, confidences=confidences).run()
+    assert world.hearings("AAL123")[0] == ("clearance", "unsure")
+    assert "clearance.say-again-1" in world.said()
+    assert world.done == []
+
+
+def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s():
+    assert TRANSCRIPT_PATIENCE_S == 20.0
+    world = Reading(CLEARANCE, topology="asr_first").run()
     assert world.hearings("AAL123")[0] == ("clearance", "missed")
     first, again = world.spoken("clearance"), world.spoken("clearance.repeat-1")
-    assert again.t_tx_ns - first.t_end_ns >= seconds_to_ns(TRANSCRIPT_PATIENCE_S)
+    waited_s = (again.t_tx_ns - first.t_end_ns) / SECOND_NS
+    soonest_s = TRANSCRIPT_PATIENCE_S + REPEAT_AFTER_S
+    assert soonest_s <= waited_s <= soonest_s + REPEAT_SPREAD_S
 
 
 @pytest.mark.parametrize("topology", ["parallel", "asr_first", "gated_fusion"])

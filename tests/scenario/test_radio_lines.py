@@ -2,11 +2,14 @@
 
 import copy
 import json
+import subprocess
+import sys
 
 import pytest
 from pydantic import TypeAdapter
 
 from airhilt.errors import ScenarioError
+from airhilt.radio.profiles import PROFILES
 from airhilt.scenario import load, parse
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import as_it_happens
@@ -40,6 +43,31 @@ def test_a_frequency_is_a_channel(frequency_khz):
 def test_an_833_khz_channel_is_one():
     document = changed(clearance={"frequency_khz": 118_005}, readback={"frequency_khz": 118_005})
     assert parse(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "clearance.repeat-1", "clearance.say-again-12", "clearance.readback",
+        "readback.correction", "readback.correction.readback", "stuck-microphone.AAL123.9.119100",
+        "clearance.Repeat-1",
+    ],
+)  # fmt: skip
+def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(name):
+    message = complaint(changed(roger={"id": name}))
+    assert f"radio/lines/2/id: found {name!r}" in message
+    assert "calls that are not in the script" in message
+
+
+def test_what_only_contains_such_a_name_is_an_id():
+    document = changed(clearance={"id": "clearance.repeat-1.again"})
+    assert parse(json.dumps(document), "test.json").radio.lines[0].id == "clearance.repeat-1.again"
+
+
+def test_ids_of_lines_differ_in_more_than_case():
+    message = complaint(changed(readback={"id": "Clearance"}))
+    assert "radio/lines/1/id" in message
+    assert "found 'Clearance', which radio/lines/0 has already, as 'clearance'" in message
 
 
 def test_a_line_answers_one_before_it_on_its_frequency():
@@ -97,3 +125,20 @@ def test_a_call_that_comes_of_a_report_needs_the_report():
 
 def test_a_readback_by_somebody_else_names_what_it_reads_back():
     assert needed_lines(load("s01a_misaddressed"))["go_around_readback"] == ("go_around",)
+
+
+def test_a_profile_of_the_radio_is_one_of_those_that_there_are():
+    document = changed()
+    document["radio"]["profile"] = "vfh"
+    message = complaint(document)
+    assert "radio/profile" in message
+    for name in PROFILES:
+        assert name in message
+    for name in (*PROFILES, "simugan.onnx", None):
+        document["radio"]["profile"] = name
+        assert parse(json.dumps(document), "test.json").radio.profile == name
+
+
+def test_a_scenario_is_checked_without_the_libraries_behind_sound():
+    loaded = "import sys, airhilt.scenario; sys.exit('scipy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", loaded]).returncode == 0

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Literal
 
 Answer = Callable[[BaseHTTPRequestHandler, bytes], None]
 
@@ -67,21 +68,58 @@ def breaking_off(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
     handler.wfile.write(b'{"text": ')
 
 
+Slowness = Literal["silent", "dripping headers", "dripping"]
+
+
 class Slow:
-    """Answers nothing, or a byte now and then, until it is released."""
+    """Answers after `PATIENCE_S`, or earlier if it is released; until then it is slow.
 
-    def __init__(self, dripping: bool) -> None:
+    Its answer is bounded, so that a test of somebody who waits for it fails and does not hang.
+    """
+
+    PATIENCE_S = 3.0
+
+    def __init__(self, how: Slowness, data: bytes) -> None:
         self.released = threading.Event()
-        self._dripping = dripping
+        self._how = how
+        self._data = data
 
-    def __call__(self, handler: BaseHTTPRequestHandler, _body: bytes) -> None:
-        if self._dripping:
-            handler.send_response(200)
-            handler.end_headers()
-        while not self.released.wait(0.05):
-            if self._dripping:
-                handler.wfile.write(b" ")
-                handler.wfile.flush()
+    def __call__(self, handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        match self._how:
+            case "silent":
+                self.released.wait(self.PATIENCE_S)
+                answering(self._data)(handler, body)
+            case "dripping headers":
+                handler.send_response(200)
+                handler.send_header("Content-Length", str(len(self._data)))
+                self._drip(handler, b"X-Patience: 1\r\n")
+                handler.end_headers()
+                handler.wfile.write(self._data)
+            case "dripping":
+                handler.send_response(200)
+                handler.end_headers()
+                self._drip(handler, b" ")
+                handler.wfile.write(self._data)
+
+    def _drip(self, handler: BaseHTTPRequestHandler, drop: bytes) -> None:
+        handler.flush_headers()
+        for _ in range(30):
+            if self.released.wait(self.PATIENCE_S / 30):
+                return
+            handler.wfile.write(drop)
+            handler.wfile.flush()
+
+
+def redirecting(to: str) -> Answer:
+    """Return an answer that sends the caller somewhere else."""
+
+    def answer(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+        handler.send_response(303)
+        handler.send_header("Location", to)
+        handler.send_header("Content-Length", "0")
+        handler.end_headers()
+
+    return answer
 
 
 def nobody() -> str:

@@ -1,17 +1,102 @@
-"""Coqui XTTS-v2 from a folder."""
+"""Coqui XTTS-v2 from a folder, here one with a tiny model that has learned nothing."""
 
 from __future__ import annotations
 
 import importlib.util
+import json
+import shutil
+import socket
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
 from airhilt.radio.voices.coqui import MODEL_FILES, Coqui
+from airhilt.radio.voices.engine import VoiceSpec
 
 INSTALLED = importlib.util.find_spec("TTS") is not None
+SPEAKERS = ("Ana Florence", "Craig Gutsy", "Viktor Eka")
+WIDTH, TIMBRE = 32, 16
+LANDING = "Cleared to land runway one left."
+
+
+def make_tiny_model(folder: Path) -> None:
+    """Write what XTTS-v2's publisher gives out, tiny, though its vocoder has but one size."""
+    import torch
+    from tokenizers import Tokenizer, models
+    from TTS.tts.configs.xtts_config import XttsArgs, XttsConfig
+    from TTS.tts.layers.xtts.tokenizer import VoiceBpeTokenizer
+    from TTS.tts.models.xtts import Xtts
+
+    letters = {letter: i for i, letter in enumerate("abcdefghijklmnopqrstuvwxyz.,'-")}
+    tokenizer = Tokenizer(models.BPE(letters, []))
+    tokenizer.add_special_tokens(["[STOP]", "[UNK]", "[SPACE]", "[START]", "[en]"])
+    tokenizer.save(str(folder / "vocab.json"))
+    config = XttsConfig(
+        model_args=XttsArgs(
+            gpt_layers=1,
+            gpt_n_heads=2,
+            gpt_n_model_channels=WIDTH,
+            gpt_max_text_tokens=60,
+            gpt_max_audio_tokens=12,
+            gpt_num_audio_tokens=66,
+            gpt_start_audio_token=64,
+            gpt_stop_audio_token=65,
+            gpt_use_perceiver_resampler=True,
+            decoder_input_dim=WIDTH,
+            d_vector_dim=TIMBRE,
+        )
+    )
+    config.save_json(str(folder / "config.json"))
+    with torch.random.fork_rng():
+        torch.manual_seed(1)
+        model = Xtts(config)
+        model.tokenizer = VoiceBpeTokenizer(folder / "vocab.json")
+        model.init_models()
+        model.hifigan_decoder.waveform_decoder.conv_post.weight.data *= 30  # up to full scale
+        voices = {
+            name: {
+                "gpt_cond_latent": torch.randn(1, 32, WIDTH),
+                "speaker_embedding": torch.randn(1, TIMBRE, 1),
+            }
+            for name in SPEAKERS
+        }
+    torch.save({"model": model.state_dict()}, folder / "model.pth")
+    torch.save(voices, folder / "speakers_xtts.pth")
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    folder = tmp_path_factory.mktemp("xtts")
+    make_tiny_model(folder)
+    yield folder
+    shutil.rmtree(folder)  # the vocoder's 90 MB
+
+
+@pytest.fixture(scope="module")
+def engine(model: Path) -> Coqui:
+    return Coqui(model)
+
+
+@pytest.fixture
+def folder(model: Path, tmp_path: Path) -> Path:
+    """The model, with files that a test may replace (and must not write into)."""
+    copy = tmp_path / "model"
+    copy.mkdir()
+    for name in MODEL_FILES:
+        (copy / name).symlink_to(model / name)
+    return copy
+
+
+def replace(path: Path, content: Any) -> None:
+    import torch
+
+    path.unlink()
+    torch.save(content, path)
 
 
 @pytest.mark.parametrize("name", MODEL_FILES)
@@ -35,16 +120,132 @@ def test_a_folder_that_is_not_there_lacks_everything(tmp_path: Path) -> None:
 def test_without_the_package_the_error_says_how_to_get_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(sys.modules, "TTS", None)
+    for module in ("TTS", "TTS.tts.configs.xtts_config", "TTS.tts.models.xtts"):
+        monkeypatch.setitem(sys.modules, module, None)
     for name in MODEL_FILES:
         (tmp_path / name).write_text("{}")
     with pytest.raises(SpeechError, match=r"pip install airhilt\[coqui\]"):
         Coqui(tmp_path)
 
 
+@pytest.mark.coqui
 @pytest.mark.skipif(not INSTALLED, reason="no coqui-tts: pip install airhilt[coqui]")
-def test_files_that_are_no_model_are_refused(tmp_path: Path) -> None:
-    for name in MODEL_FILES:
-        (tmp_path / name).write_text("{}")
-    with pytest.raises(SpeechError, match="does not load as XTTS-v2"):
-        Coqui(tmp_path)
+class TestWithCoquiTts:
+    def test_the_voices_are_the_speakers_of_the_model(self, engine: Coqui) -> None:
+        drawn = {engine.voice_of(f"AAL{number}").name for number in range(60)}
+        assert drawn == set(SPEAKERS)
+
+    def test_a_speaker_has_the_same_voice_in_every_run(self, engine: Coqui, model: Path) -> None:
+        assert Coqui(model).voice_of("TOWER") == engine.voice_of("TOWER")
+        assert Coqui(model).version == engine.version
+
+    def test_speech_is_mono_at_16_khz_within_full_scale(self, engine: Coqui) -> None:
+        for name in SPEAKERS:
+            audio = engine.synthesise(LANDING, VoiceSpec(name))
+            assert audio.dtype == np.float32
+            assert audio.ndim == 1
+            assert 0.5 < float(np.abs(audio).max()) <= 1.0
+
+    def test_the_length_is_that_at_16_khz(
+        self, engine: Coqui, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        spoken = []
+        infer = engine._model.inference
+
+        def listen(*args: Any, **kwargs: Any) -> Any:
+            spoken.append(infer(*args, **kwargs))
+            return spoken[-1]
+
+        monkeypatch.setattr(engine._model, "inference", listen)
+        audio = engine.synthesise(LANDING, VoiceSpec(SPEAKERS[0]))
+        assert engine._model.config.audio.output_sample_rate == 24_000
+        assert len(audio) == pytest.approx(len(spoken[0]["wav"]) * 16_000 / 24_000, abs=1)
+
+    def test_the_same_text_and_voice_sound_the_same(self, engine: Coqui, model: Path) -> None:
+        voice = VoiceSpec(SPEAKERS[1], 1.05)
+        first = engine.synthesise(LANDING, voice)
+        engine.synthesise("Go around.", voice)
+        np.testing.assert_array_equal(engine.synthesise(LANDING, voice), first)
+        np.testing.assert_array_equal(Coqui(model).synthesise(LANDING, voice), first)
+
+    def test_another_text_sounds_otherwise(self, engine: Coqui) -> None:
+        voice = VoiceSpec(SPEAKERS[1])
+        landing, around = (engine.synthesise(text, voice) for text in (LANDING, "Go around."))
+        assert not np.array_equal(landing, around)
+
+    def test_another_voice_sounds_otherwise(self, engine: Coqui) -> None:
+        spoken = [engine.synthesise(LANDING, VoiceSpec(name)) for name in SPEAKERS[:2]]
+        assert not np.array_equal(*spoken)
+
+    def test_speaking_leaves_the_draws_of_torch_alone(self, engine: Coqui) -> None:
+        import torch
+
+        before = torch.random.get_rng_state()
+        engine.synthesise("Go around.", VoiceSpec(SPEAKERS[0]))
+        assert torch.equal(torch.random.get_rng_state(), before)
+
+    def test_a_voice_that_the_model_lacks_is_refused(self, engine: Coqui) -> None:
+        with pytest.raises(SpeechError, match=r"no voice 'Nobody'; expected one of Ana Florence, "):
+            engine.synthesise(LANDING, VoiceSpec("Nobody"))
+
+    def test_a_text_longer_than_the_model_takes_is_refused(self, engine: Coqui) -> None:
+        with pytest.raises(SpeechError, match="cannot speak 'Go around"):
+            engine.synthesise("Go around. " * 20, VoiceSpec(SPEAKERS[0]))
+
+    def test_it_needs_no_network(self, model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        def refuse(*_: Any, **__: Any) -> None:
+            raise AssertionError("the network was asked")
+
+        monkeypatch.setattr(socket, "getaddrinfo", refuse)
+        monkeypatch.setattr(socket.socket, "connect", refuse)
+        assert len(Coqui(model).synthesise("Go around.", VoiceSpec(SPEAKERS[0])))
+
+    def test_a_checkpoint_as_its_publisher_wrote_it_loads(
+        self, model: Path, tmp_path: Path
+    ) -> None:
+        """With the configuration as an object, from when its classes were in another module."""
+        import torch
+        from TTS.tts.configs.xtts_config import XttsArgs, XttsAudioConfig, XttsConfig
+
+        folder = Path(shutil.copytree(model, tmp_path / "model"))
+        weights = torch.load(folder / "model.pth", weights_only=True)["model"]
+        with pytest.MonkeyPatch.context() as then:
+            for moved in (XttsArgs, XttsAudioConfig):
+                then.setattr(moved, "__module__", "TTS.tts.models.xtts")
+            torch.save({"config": XttsConfig(), "model": weights}, folder / "model.pth")
+        first, second = Coqui(folder), Coqui(folder)
+        assert first.version == second.version
+        assert len(first.synthesise("Go around.", VoiceSpec(SPEAKERS[0])))
+        shutil.rmtree(folder)
+
+    def test_files_that_are_no_model_are_refused(self, tmp_path: Path) -> None:
+        for name in MODEL_FILES:
+            (tmp_path / name).write_text("{}")
+        with pytest.raises(SpeechError, match="does not load as XTTS-v2"):
+            Coqui(tmp_path)
+
+    @pytest.mark.parametrize("name", MODEL_FILES)
+    def test_a_damaged_file_is_an_error_about_that_model(self, name: str, folder: Path) -> None:
+        (folder / name).unlink()
+        (folder / name).write_bytes(b"damaged")
+        with pytest.raises(SpeechError, match=f"{folder}: does not load as XTTS-v2: "):
+            Coqui(folder)
+
+    def test_weights_of_another_size_are_refused(self, folder: Path) -> None:
+        config = json.loads((folder / "config.json").read_text())
+        config["model_args"]["gpt_layers"] = 2
+        (folder / "config.json").unlink()
+        (folder / "config.json").write_text(json.dumps(config))
+        with pytest.raises(SpeechError, match="does not load as XTTS-v2: RuntimeError"):
+            Coqui(folder)
+
+    def test_a_model_without_speakers_is_refused(self, folder: Path) -> None:
+        replace(folder / "speakers_xtts.pth", {})
+        with pytest.raises(SpeechError, match=r"speakers_xtts\.pth: without speakers"):
+            Coqui(folder)
+
+    @pytest.mark.parametrize("speakers", [[], {"Ana": {}}, {"Ana": [1.0, 2.0]}, {"Ana": {"a": 1}}])
+    def test_speakers_of_another_shape_are_refused(self, speakers: Any, folder: Path) -> None:
+        replace(folder / "speakers_xtts.pth", speakers)
+        with pytest.raises(SpeechError, match="does not load as XTTS-v2"):
+            Coqui(folder)

@@ -16,7 +16,8 @@ import pytest
 
 import airhilt.workers.asr.ctc
 from airhilt.errors import SpeechError
-from airhilt.radio.channel import PROFILES, VhfChannel
+from airhilt.radio.channel import Other, VhfChannel
+from airhilt.radio.profiles import PROFILES
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.radio.voices.espeak import Espeak
 from airhilt.workers.asr.ctc import FILES, Calibration, Ctc, best_path
@@ -265,6 +266,24 @@ def test_clear_calls_are_mostly_right(embedded: Ctc, snr_db: float | None) -> No
         texts.append(text)
         heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
     assert jiwer.wer(texts, heard) < 0.3
+
+
+@pytest.mark.parametrize("over", ["a carrier", "another voice"])
+def test_of_blocked_calls_most_words_are_lost(embedded: Ctc, over: str) -> None:
+    texts, heard = [], []
+    for number, (speaker, text) in enumerate(CALLS):
+        other = silence(20.0) if over == "a carrier" else said_by(*CALLS[number - 1])
+        for whistle_hz in (400.0, 700.0, 1_200.0):
+            audio = VhfChannel(PROFILES["vhf"]).transmit(
+                said_by(speaker, text),
+                20.0,
+                np.random.default_rng(number),
+                [Other(other, 0, whistle_hz)],
+                "cockpit",
+            )
+            texts.append(text)
+            heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
+    assert jiwer.wer(texts, heard) > 0.6
 
 
 def test_it_gives_only_its_own_words_and_confidences_between_0_and_1(embedded: Ctc) -> None:

@@ -35,7 +35,7 @@ def short(encounter: Scenario) -> Scenario:
 
 @contextmanager
 def slow() -> Iterator[str]:
-    answer = Slow(dripping=False)
+    answer = Slow("silent", RIGHT)
     with service(answer) as url:
         yield url
         answer.released.set()

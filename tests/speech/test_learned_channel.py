@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
-from airhilt.radio.channel import active
+from airhilt.radio.channel import Other, active
 from airhilt.radio.learned_channel import LearnedChannel
 
 CHANNELS = Path(__file__).parents[1] / "data" / "channels"
@@ -53,7 +53,9 @@ def test_the_same_seed_gives_the_same_bytes() -> None:
 
 def test_who_talks_at_the_same_time_is_heard() -> None:
     alone = echo().transmit(speech(), None, np.random.default_rng(0))
-    both = echo().transmit(speech(), None, np.random.default_rng(0), [(speech(), 8_000)])
+    both = echo().transmit(
+        speech(), None, np.random.default_rng(0), [Other(speech(), 8_000, 800.0)]
+    )
     assert np.array_equal(alone[:8_000], both[:8_000])
     assert np.abs(both[8_000:] - alone[8_000:]).max() > 0.05
 

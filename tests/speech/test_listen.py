@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import resource
 from pathlib import Path
 from typing import Any
 
@@ -208,3 +209,21 @@ def test_a_run_without_sound_says_so_in_one_line(
     assert done.stdout == ""
     assert len(done.stderr.splitlines()) == 1
     assert "without sound" in done.stderr
+
+
+def test_a_disk_that_is_full_leaves_no_part_of_a_file_behind(
+    recording: Recording, tmp_path: Path
+) -> None:
+    recording.call("1", 0.0, 0.1)
+    folder = recording.close()
+    tape = tmp_path / "tower.wav"
+    tape.write_bytes(b"an earlier tape")
+    unlimited = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1_000, unlimited[1]))
+    try:
+        with pytest.raises(SpeechError, match=r"tower\.wav: cannot be written"):
+            listen(folder, out=tape)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
+    assert tape.read_bytes() == b"an earlier tape"
+    assert {path.name for path in tmp_path.iterdir()} == {"run", "tower.wav"}

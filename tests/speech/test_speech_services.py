@@ -5,10 +5,10 @@ from __future__ import annotations
 import io
 import json
 import sys
-import time
 import wave
 from http.server import BaseHTTPRequestHandler
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -20,7 +20,16 @@ from airhilt.radio.voices.wav import decode_wav, encode_wav
 from airhilt.workers.asr.http import HttpAsr
 
 sys.path.insert(0, str(Path(__file__).parent))
-from services import Slow, answering, breaking_off, endless, nobody, service
+from services import (
+    Slow,
+    Slowness,
+    answering,
+    breaking_off,
+    endless,
+    nobody,
+    redirecting,
+    service,
+)
 
 TONE = np.sin(np.arange(16_000) / 9).astype(np.float32) * np.float32(0.5)
 VOICE = VoiceSpec("AAL123", rate=1.1, pitch=0.9)
@@ -96,19 +105,48 @@ class TestServiceThat:
             use(url)  # type: ignore[operator]
 
     def test_has_no_address(self, use: object) -> None:
-        for url in ("tower", "file:///etc/passwd", "http://", "http://[::1", "http://a:b/"):
+        for url in (
+            "tower",
+            "file:///etc/passwd",
+            "http://",
+            "http://[::1",
+            "http://a:b/",
+            "http://a/ b",
+        ):
             with pytest.raises(SpeechError, match="is no address"):
                 use(url)  # type: ignore[operator]
 
-    @pytest.mark.parametrize("dripping", [False, True])
-    def test_is_slow(self, use: object, dripping: bool) -> None:
-        slow = Slow(dripping)
-        begun = time.monotonic()
+    @pytest.mark.parametrize("how", get_args(Slowness))
+    def test_is_slow(self, use: object, how: Slowness) -> None:
+        slow = Slow(how, encode_wav(TONE) if use is speak else b'{"text": "too late"}')
         with service(slow) as url:
             with pytest.raises(SpeechError, match=r"has not answered for 0\.3 s"):
                 use(url, 0.3)  # type: ignore[operator]
             slow.released.set()
-        assert time.monotonic() - begun < 3.0
+
+    def test_sends_elsewhere(self, use: object) -> None:
+        asked: list[str] = []
+
+        def elsewhere(handler: BaseHTTPRequestHandler, _body: bytes) -> None:
+            asked.append(handler.path)
+
+        with (
+            service(elsewhere) as other,
+            service(redirecting(other)) as url,
+            pytest.raises(SpeechError, match="HTTP status 303"),
+        ):
+            use(url)  # type: ignore[operator]
+        assert asked == []
+
+    def test_a_proxy_would_be_between(self, use: object, monkeypatch: pytest.MonkeyPatch) -> None:
+        for name in ("http_proxy", "HTTP_PROXY", "all_proxy"):
+            monkeypatch.setenv(name, nobody())
+        monkeypatch.setenv("no_proxy", "")
+        with (
+            service(answering(b"here I am", 500)) as url,
+            pytest.raises(SpeechError, match="here I am"),
+        ):
+            use(url)  # type: ignore[operator]
 
     def test_fails(self, use: object) -> None:
         with (
@@ -161,3 +199,26 @@ def test_a_recogniser_that_answers_nonsense_is_refused(data: bytes) -> None:
         hear(url)
     assert url in str(refused.value)
     assert 'expected JSON such as {"text"' in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"text": "hello " * 21},
+        {"text": "h" * 401},
+        {"text": "hello", "words": [{"text": "hello", "confidence": 1.0}] * 21},
+    ],
+)
+def test_a_recogniser_that_hears_more_than_anybody_says_is_refused(
+    said: dict[str, object],
+) -> None:
+    with (
+        service(answering(json.dumps(said).encode())) as url,
+        pytest.raises(SpeechError, match=r"to 1\.0 s of audio; expected at most 20 words"),
+    ):
+        hear(url)
+
+
+def test_a_recogniser_may_hear_as_much_as_a_fast_talker_says() -> None:
+    with service(answering(json.dumps({"text": "hello " * 20}).encode())) as url:
+        assert hear(url).split() == ["hello"] * 20

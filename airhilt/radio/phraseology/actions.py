@@ -23,6 +23,7 @@ from airhilt.radio.phraseology.slots import (
     SHORTENED,
     TAXIWAY,
     designator,
+    feet_confidence,
     frequency_khz,
     level_confidence,
     level_ft,
@@ -252,12 +253,15 @@ def _altitude(segment: Segment, action: Action) -> Read | None:
         return None
     value = level or bare
     end = segment.found.end() + (value.end() if value else 0)
+    sure = NO_VALUE
+    if feet is not None:
+        sure = level_confidence(level) if level else feet_confidence(feet)
     read = Instruction(
         action,
         sense=sense,
         altitude_ft=feet,
         immediate=_is_immediate(segment, end),
-        confidence=NO_VALUE if feet is None else level_confidence(level) if level else 1.0,
+        confidence=sure,
     )
     return Read(read, segment.start, end)
 

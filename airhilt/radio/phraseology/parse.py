@@ -29,6 +29,7 @@ from airhilt.radio.phraseology.slots import (
     NAMED_RUNWAY,
     RUNWAY,
     designator,
+    level_confidence,
     level_ft,
     pressure_of,
     wind_of,
@@ -316,6 +317,7 @@ def _corrected(last: Instruction, text: str) -> Instruction | None:
     if last.altitude_ft:
         level = LEVEL.match(text)
         if level:
+            sure = min(sure, level_confidence(level))
             return replace(last, altitude_ft=level_ft(level), confidence=sure)
         if number and last.altitude_ft % 500 == 0 and 10 <= int(number[1]) <= 660:
             return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=sure)

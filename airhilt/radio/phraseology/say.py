@@ -12,12 +12,8 @@ from collections.abc import Callable, Sequence
 from airhilt.radio.phraseology.alphabet import LETTERS
 from airhilt.radio.phraseology.call import Action, Instruction, Wind
 from airhilt.radio.phraseology.numbers import Style, speak_digits, speak_group, speak_thousands
-from airhilt.radio.phraseology.slots import HPA_PER_INHG
+from airhilt.radio.phraseology.slots import HPA_PER_INHG, TRANSITION_FT
 from airhilt.radio.phraseology.telephony import TELEPHONY
-
-TRANSITION_FT = 18_000.0
-"""From here on, levels are flight levels in the United States (14 CFR 91.121); elsewhere each
-state has its own transition altitude (ICAO Doc 8168 volume III, section 2, chapter 1)."""
 
 _SIDES = {"L": "left", "R": "right", "C": "center"}
 _VEHICLES = {"PLOW": "snow plow", "FIRE": "fire truck"}

@@ -19,6 +19,11 @@ SHORTENED = 0.75
 """Confidence in a number that may be the rest of a longer one: a runway or level of which a digit
 was lost is one, too."""
 HIGHEST_FT = 60_000
+TRANSITION_FT = 18_000.0
+"""From here on, levels are flight levels in the United States (14 CFR 91.121); elsewhere each
+state has its own transition altitude (ICAO Doc 8168 volume III, section 2, chapter 1)."""
+TOO_HIGH = 0.6
+"""Confidence in a level from there on in feet: "to four thousand" sounds like 24,000."""
 
 NUMBER_ENDS = r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes))"
 """A number that something else belongs to is no runway."""
@@ -66,7 +71,14 @@ def runway_confidence(number: str) -> float:
 
 def level_confidence(found: re.Match[str]) -> float:
     """Return how sure a `LEVEL` is: two digits of a flight level may be the rest of three."""
-    return SHORTENED if found[1] and len(found[1]) == 2 else 1.0
+    if found[1]:
+        return SHORTENED if len(found[1]) == 2 else 1.0
+    return feet_confidence(level_ft(found) or 0.0)
+
+
+def feet_confidence(feet: float) -> float:
+    """Return how sure a level is that was told in feet."""
+    return 1.0 if feet < TRANSITION_FT else TOO_HIGH
 
 
 def taxiway(text: str) -> str:

@@ -65,6 +65,7 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "flight": {"levels": ("flight", "level")},
     "fly": {"level": ("flight", "level")},
+    "and": {"weight": ("and", "wait")},
     "lie": {"nup": ("line", "up")},
     "read": {"back": ("readback",)},
     "push": {"back": ("pushback",)},

@@ -58,11 +58,15 @@ class Coqui:
         try:
             config = XttsConfig()
             config.load_json(str(folder / "config.json"))
-            self._model: Any = Xtts.init_from_config(config)
+            self._model: Any = Xtts(config)
             self._model.load_checkpoint(config, checkpoint_dir=str(folder), eval=True)
             if torch.cuda.is_available():
                 self._model.cuda()
-            self._speakers: dict[str, Any] = dict(self._model.speaker_manager.speakers)
+            self._speakers: dict[str, tuple[Any, Any]] = {
+                name: (latent, embedding)
+                for name, parts in self._model.speaker_manager.speakers.items()
+                for latent, embedding in [parts.values()]
+            }
         except Exception as error:  # anything may come out of a file that is no model
             raise SpeechError(
                 f"voice coqui: {folder}: does not load as XTTS-v2: {first_line(error)}"
@@ -86,7 +90,6 @@ class Coqui:
                 f"voice coqui: there is no voice {voice.name!r}; expected one of "
                 f"{', '.join(sorted(self._speakers))}"
             )
-        gpt_cond_latent, speaker_embedding = self._speakers[voice.name].values()
         seed = hashlib.sha256(f"{voice}{text}".encode()).digest()[:_SEED_BYTES]
         with self._torch.random.fork_rng():
             self._torch.manual_seed(int.from_bytes(seed))
@@ -94,8 +97,7 @@ class Coqui:
                 spoken = self._model.inference(
                     text,
                     LANGUAGE,
-                    gpt_cond_latent,
-                    speaker_embedding,
+                    *self._speakers[voice.name],
                     speed=voice.rate,
                 )
             except Exception as error:  # whatever torch raises
@@ -103,7 +105,8 @@ class Coqui:
                     f"voice coqui: cannot speak {text[:60]!r}: {first_line(error)}"
                 ) from None
         samples = np.asarray(spoken["wav"], np.float32).reshape(-1)
-        return np.asarray(resample_poly(samples, UP, DOWN), np.float32)
+        resampled = resample_poly(samples, UP, DOWN)  # goes beyond the loudest of its samples
+        return np.clip(np.asarray(resampled, np.float32), -1.0, 1.0)
 
 
 def _fingerprint(folder: Path) -> str:

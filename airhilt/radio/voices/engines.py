@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import SpeechError
+from airhilt.radio.service import is_service
 from airhilt.radio.voices.cache import CachedTts
 from airhilt.radio.voices.engine import TtsEngine
 
@@ -36,7 +37,7 @@ def _engine(name: str) -> TtsEngine:
         from airhilt.radio.voices.coqui import Coqui
 
         return Coqui(Path(argument))
-    if kind in ("http", "https"):
+    if is_service(name):
         from airhilt.radio.voices.http import HttpTts
 
         return HttpTts(name)

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from airhilt.errors import SpeechError
+from airhilt.files import replace_file
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 
 FULL_SCALE = 32_768
@@ -128,7 +129,7 @@ def read_wav(path: Path) -> Audio:
 
 
 def write_wav(path: Path, audio: Audio) -> None:
-    """Write samples to a WAV file.
+    """Write samples to a WAV file, all or nothing.
 
     Raises
     ------
@@ -137,6 +138,6 @@ def write_wav(path: Path, audio: Audio) -> None:
     """
     data = encode_wav(audio)
     try:
-        path.write_bytes(data)
+        replace_file(path, data)
     except OSError as error:
         raise SpeechError(f"{path}: cannot be written: {error.strerror}") from None

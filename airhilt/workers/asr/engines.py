@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import SpeechError
+from airhilt.radio.service import is_service
 from airhilt.workers.asr.engine import AsrEngine
 
 EXPECTED = "embedded, embedded:FOLDER, whisper:FOLDER_OR_NAME, or the address of a service"
@@ -27,7 +28,7 @@ def asr_engine(name: str) -> AsrEngine:
         from airhilt.workers.asr.whisper import Whisper
 
         return Whisper(argument)
-    if kind in ("http", "https"):
+    if is_service(name):
         from airhilt.workers.asr.http import HttpAsr
 
         return HttpAsr(name)

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import Confidence, Word
 from airhilt.radio.service import HttpService
-from airhilt.radio.voices.engine import Audio
+from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.radio.voices.wav import encode_wav
 from airhilt.workers.asr.canonical import canonical
 from airhilt.workers.asr.engine import Recognised
@@ -18,6 +18,10 @@ from airhilt.workers.asr.engine import Recognised
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 1_000_000
 """Of one answer."""
+WORDS_PER_S = 10.0
+"""Of audio, at most, and as many more in all: twice what people say who talk fast."""
+LETTERS_PER_WORD = 20
+"""A text has at most so many for each word that it may have."""
 
 
 class _Answer(BaseModel):
@@ -44,6 +48,7 @@ class HttpAsr:
         if not audio.size:
             return Recognised("", (), 1.0)
         answer = self._parse(self._service.post(encode_wav(audio), "audio/wav"))
+        self._require_sayable(answer, len(audio) / SAMPLE_RATE_HZ)
         if answer.words:
             words = canonical((word.text, word.confidence) for word in answer.words)
             text = " ".join(word for word, _ in words)
@@ -54,6 +59,16 @@ class HttpAsr:
         if confidence is None:
             confidence = float(np.mean([certainty for _, certainty in words])) if words else 1.0
         return Recognised(text, words, confidence)
+
+    def _require_sayable(self, answer: _Answer, duration_s: float) -> None:
+        most = int(WORDS_PER_S * (1.0 + duration_s))
+        for text in (answer.text, " ".join(word.text for word in answer.words)):
+            count = len(text.split())
+            if count > most or len(text) > most * LETTERS_PER_WORD:
+                raise self._service.error(
+                    f"answered {count} words ({len(text)} letters) to {duration_s:.1f} s of audio",
+                    f"at most {most} words, more than anybody says in that time",
+                )
 
     def _parse(self, data: bytes) -> _Answer:
         try:

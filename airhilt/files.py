@@ -1,0 +1,24 @@
+"""Files that are written all or nothing."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+
+def replace_file(path: Path, data: bytes) -> None:
+    """Write a file, in the place of an earlier one only when all of it is there.
+
+    Raises
+    ------
+    OSError
+        It cannot be written; nothing has changed.
+    """
+    partial = path.with_name(path.name + ".partial")
+    try:
+        partial.write_bytes(data)
+        partial.replace(path)
+    except OSError:
+        with suppress(OSError):
+            partial.unlink()
+        raise
