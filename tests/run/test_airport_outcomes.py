@@ -43,6 +43,7 @@ def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
     assert summary.t_first_warning_s is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [4, 10, 13])
 def test_the_flock_is_met_whatever_the_birds_do_on_their_way(seed: int, tmp_path: Path) -> None:
     assert alone("s01c_flock_on_final", tmp_path / "run", seed).collision
@@ -93,6 +94,7 @@ def test_every_family_has_its_variants_and_a_nominal_twin() -> None:
     assert all(load(name).perturbations for name in SCENARIOS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in CONFLICTS if load(name).failures])
 def test_without_its_failures_a_conflict_does_not_arise(name: str, tmp_path: Path) -> None:
     """A departure that waits for its traffic leaves, and everybody comes to their end."""
