@@ -108,7 +108,7 @@ class Spotter:
         if not self._forms or not len(posteriors):
             return None
         best, *others = sorted(
-            self._aligned(np.log(np.maximum(posteriors, LEAST_POSTERIOR))),
+            self._aligned(self._losses(posteriors)),
             key=lambda each: (each.loss, -len(each.units), each.callsign),
         )
         rivals = (
@@ -120,14 +120,20 @@ class Spotter:
             return None
         return best
 
+    def _losses(self, posteriors: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return log-likelihoods against that of the likeliest unit of each step."""
+        log = np.maximum(posteriors, LEAST_POSTERIOR)
+        np.log(log, out=log)
+        log -= log.max(axis=1, keepdims=True)
+        for variants in self._same:
+            log[:, variants] = log[:, variants].max(axis=1, keepdims=True)
+        return log
+
     def _aligned(self, log: NDArray[np.float32]) -> Iterator[Spotted]:
         """Yield where each form fits best.
 
         Each has a state for each of its words and one for the gap after it.
         """
-        log = log - log.max(axis=1, keepdims=True)
-        for variants in self._same:
-            log[:, variants] = log[:, variants].max(axis=1, keepdims=True)
         count, size = self._units.shape
         repeats = np.zeros((count, size), bool)
         repeats[:, 1:] = self._units[:, 1:] == self._units[:, :-1]
