@@ -79,6 +79,7 @@ from airhilt.sim import (
     RealTime,
     StepRecord,
     Virtual,
+    interruptible,
     parse_latency,
     parse_pace,
 )
@@ -246,14 +247,15 @@ def run(
             observer,
         )
         simulation.schedule(recorded)
-        try:
-            result = simulation.run(info)
-        except BaseException:
-            with suppress(AirhiltError):  # What stopped the run is the news, not its report.
-                write_report(folder.path)
-            raise
-        write_report(folder.path)
-        return result
+        with interruptible(simulation.interrupt):
+            try:
+                result = simulation.run(info)
+            except BaseException:
+                with suppress(AirhiltError):  # What stopped the run is the news, not its report.
+                    write_report(folder.path)
+                raise
+            write_report(folder.path)
+            return result
 
 
 def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
@@ -525,6 +527,10 @@ class Simulation:
         if failure is not None:
             raise failure
         return Result(summary, self._folder.path)
+
+    def interrupt(self) -> None:
+        """Stop after the event in hand."""
+        self._director.interrupt()
 
     def _finish(self, info: RunInfo, cause: str, wall_s: float, cpu_s: float) -> Summary:
         """Close the logs, then write the summary and ``run.json``."""

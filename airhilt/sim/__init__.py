@@ -5,6 +5,7 @@ discrete-event loop, and `Server`, one worker in virtual time.
 """
 
 from airhilt.sim.director import Director, Priority
+from airhilt.sim.interruption import interruptible
 from airhilt.sim.latency import LatencySpec, parse_latency
 from airhilt.sim.pace import Pace, RealTime, Virtual, parse_pace
 from airhilt.sim.server import Server, StepRecord
@@ -26,6 +27,7 @@ __all__ = [
     "StepRecord",
     "Virtual",
     "WorkerLost",
+    "interruptible",
     "parse_latency",
     "parse_pace",
 ]

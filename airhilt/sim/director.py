@@ -41,6 +41,7 @@ class Director:
         self._posted: deque[Action] = deque()
         self._wake = Event()
         self._stopped = False
+        self._interrupted = False
 
     def at(self, t_ns: int, action: Action, priority: Priority) -> None:
         """Schedule ``action`` at ``t_ns``.
@@ -77,6 +78,10 @@ class Director:
         self._posted.append(action)
         self._wake.set()
 
+    def interrupt(self) -> None:
+        """Let `run` raise KeyboardInterrupt after the event in hand (from a signal handler)."""
+        self._interrupted = True
+
     def stop(self) -> None:
         """End `run` after the event in hand."""
         self._stopped = True
@@ -91,10 +96,17 @@ class Director:
 
         What was posted runs between two instants, never among the events of one, so that it can
         be repeated from its time alone.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            `interrupt` was called.
         """
         heap, posted, pop = self._heap, self._posted, heapq.heappop
         self.pace.start(self.now_ns)
         while heap and not self._stopped:
+            if self._interrupted:
+                raise KeyboardInterrupt
             t_ns = heap[0][0]
             has_room = t_ns > self.now_ns + 1
             if not (posted and has_room) and not self.pace.wait_until(t_ns, self._wake):
