@@ -58,6 +58,14 @@ class SpeechError(AirhiltError):
     """A voice, a radio channel, a model of speech or its service does not do what it must."""
 
 
+class CameraError(AirhiltError):
+    """A camera cannot see: it stands in something, or its numbers are none of a camera."""
+
+
+class RendererError(AirhiltError):
+    """Pictures cannot be drawn: something is not installed, or the renderer has died."""
+
+
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
     first = error.errors()[0]

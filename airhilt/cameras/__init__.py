@@ -1,0 +1,1 @@
+"""Cameras: what they see, drawn off-screen, and what is really there."""

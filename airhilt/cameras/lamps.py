@@ -1,0 +1,213 @@
+"""Points of light: beside runways, on aircraft and on vehicles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from airhilt.cameras.light import Light
+from airhilt.cameras.mesh import Colour, Floats, srgb
+from airhilt.cameras.view import NEAR_M, View
+from airhilt.flight.aircraft_type import AircraftType
+from airhilt.surface.layout import Layout
+from airhilt.surface.mover import Size
+from airhilt.surface.path import Local
+
+WHITE = srgb(255, 244, 224)
+GREEN = srgb(40, 255, 120)
+RED = srgb(255, 40, 30)
+BLUE = srgb(60, 90, 255)
+AMBER = srgb(255, 170, 40)
+
+EDGE_SPACING_M = 60.0
+"""ICAO Annex 14 volume I, 5.3.9.5: at most 60 m."""
+EDGE_CD = 3000.0
+THRESHOLD_CD = 5000.0
+TAXIWAY_CD = 20.0
+NAVIGATION_CD = 40.0
+"""14 CFR 25.1389: 40 cd ahead for position lights."""
+BEACON_CD = 400.0
+"""14 CFR 25.1401(f): at least 400 cd for anticollision lights."""
+STROBE_CD = 2000.0
+LANDING_CD = 300_000.0
+LANDING_BEAM = 60.0
+"""Sharpness of a landing light's beam: half of the light within some 9 degrees."""
+BEACON_HZ = 0.9
+STROBE_HZ = 1.0
+"""14 CFR 25.1401(c): 40 to 100 flashes a minute."""
+FLASH_PART = 0.12
+DAY_LUX = 4e-3
+NIGHT_LUX = 4e-6
+"""Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
+GREATEST_RADIUS_PX = 9.0
+
+
+class Lamp(NamedTuple):
+    """A point of light.
+
+    ``beam`` points where it shines most; None: it shines all round.
+    """
+
+    place_m: tuple[float, float, float]
+    colour: Colour
+    candela: float
+    beam: tuple[float, float, float] | None = None
+    beam_sharpness: float = LANDING_BEAM
+
+
+def airport_lamps(layout: Layout) -> tuple[Lamp, ...]:
+    """Return the lights of runways and taxiways."""
+    return tuple(_runway_lamps(layout)) + tuple(_taxiway_lamps(layout))
+
+
+def _runway_lamps(layout: Layout) -> Iterator[Lamp]:
+    for strip in layout.strips.values():
+        first, second = strip.ends
+        low, high = (layout.frame.to_local(end.start) for end in (first, second))
+        along = np.subtract(high, low)
+        length = float(np.hypot(*along))
+        ahead = along / length
+        across = np.array((ahead[1], -ahead[0]))
+        half = first.width_m / 2.0 + 1.5
+        for part in np.linspace(0.0, length, max(int(length // EDGE_SPACING_M), 1) + 1)[1:-1]:
+            for side in (-half, half):
+                yield _lamp(np.asarray(low) + part * ahead + side * across, WHITE, EDGE_CD)
+        for corner, way in ((low, 1.0), (high, -1.0)):
+            for side in np.linspace(-half, half, 12):
+                place = np.asarray(corner) - way * 2.0 * ahead + side * across
+                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
+                inwards = (-out[0], -out[1], 0.05)
+                yield _lamp(place, GREEN, THRESHOLD_CD, out, 1.0)
+                yield _lamp(place, RED, THRESHOLD_CD, inwards, 1.0)
+            for row in range(1, 15):
+                place = np.asarray(corner) - way * row * 30.0 * ahead
+                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
+                for side in np.linspace(-2.0, 2.0, 5) if row != 10 else np.linspace(-15, 15, 15):
+                    yield _lamp(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
+
+
+def _taxiway_lamps(layout: Layout) -> Iterator[Lamp]:
+    nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
+    runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
+    from shapely import Point
+
+    for edge in layout.airport.taxiways.edges:
+        start, end = (np.asarray(nodes[name]) for name in edge.nodes)
+        length = float(np.hypot(*(end - start)))
+        if length < 1.0:
+            continue
+        ahead = (end - start) / length
+        across = np.array((ahead[1], -ahead[0])) * (edge.width_m / 2.0 + 2.0)
+        for part in np.arange(20.0, length - 10.0, 50.0):
+            for side in (-1.0, 1.0):
+                place = start + part * ahead + side * across
+                if not any(pavement.contains(Point(*place)) for pavement in runways):
+                    yield _lamp(place, BLUE, TAXIWAY_CD)
+
+
+def _lamp(
+    place: Sequence[float] | Local | np.ndarray,  # type: ignore[type-arg]
+    colour: Colour,
+    candela: float,
+    beam: tuple[float, float, float] | None = None,
+    sharpness: float = LANDING_BEAM,
+) -> Lamp:
+    return Lamp((float(place[0]), float(place[1]), 0.4), colour, candela, beam, sharpness)
+
+
+def aircraft_lamps(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Lamp]:
+    """Yield the lights of an aircraft, in its own axes, that are on at an instant."""
+    half, length = kind.dimensions.span_m / 2.0, kind.dimensions.length_m
+    tip_up = 0.0
+    yield Lamp((-half, -0.05 * length, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
+    yield Lamp((half, -0.05 * length, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
+    yield Lamp((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
+    if (t_s * BEACON_HZ) % 1.0 < FLASH_PART:
+        top = 0.6 * kind.mesh.fuselage_diameter_m + 0.3
+        yield Lamp((0.0, 0.0, top), RED, BEACON_CD)
+        yield Lamp((0.0, 0.0, -top), RED, BEACON_CD)
+    if (t_s * STROBE_HZ + 0.5) % 1.0 < FLASH_PART:
+        for side in (-1.0, 1.0):
+            yield Lamp((side * half, -0.06 * length, tip_up), WHITE, STROBE_CD)
+    if landing:
+        root = 0.14 * half if kind.category in ("jet", "heavy_jet") else 0.5 * half
+        for side in (-1.0, 1.0):
+            beam = (0.0, 0.998, -0.06)
+            yield Lamp((side * root, 0.12 * length, -0.3), WHITE, LANDING_CD / 2.0, beam)
+
+
+def vehicle_lamps(size: Size, t_s: float) -> Iterator[Lamp]:
+    """Yield the flashing beacon and the headlamps of a vehicle, in its own axes."""
+    if (t_s * 1.3) % 1.0 < 0.35:
+        yield Lamp((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
+    for side in (-0.35, 0.35):
+        place = (side * min(size.span_m, 2.5), size.length_m / 2.0, 0.8)
+        yield Lamp(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
+
+
+def shine(
+    picture: np.ndarray,  # type: ignore[type-arg]
+    distance_m: Floats,
+    lamps: Sequence[Lamp],
+    view: View,
+    light: Light,
+) -> None:
+    """Add points of light to a picture where nothing stands before them."""
+    if not lamps:
+        return
+    places = np.array([lamp.place_m for lamp in lamps])
+    inside = view.in_camera(places)
+    away = np.linalg.norm(inside, axis=1)
+    ahead = inside[:, 2] > NEAR_M
+    pixels = np.full((len(lamps), 2), -1.0)
+    pixels[ahead] = view.pixels(inside[ahead])
+    lens = view.intrinsics
+    seen = (
+        ahead & (pixels[:, 0] >= 0) & (pixels[:, 0] < lens.width_px)
+        & (pixels[:, 1] >= 0) & (pixels[:, 1] < lens.height_px)
+    )  # fmt: skip
+    threshold = NIGHT_LUX ** light.darkness * DAY_LUX ** (1.0 - light.darkness)
+    lux = np.array([lamp.candela for lamp in lamps]) / np.maximum(away, 1.0) ** 2
+    lux *= np.exp(-light.extinction_per_m * away)
+    for index in np.flatnonzero(seen):
+        lamp = lamps[index]
+        column, row = pixels[index]
+        if distance_m[int(row), int(column)] < away[index] - 1.5:
+            continue
+        strength = lux[index] * _towards(lamp, view, places[index], away[index]) / threshold
+        if strength > 0.02:
+            _splat(picture, column, row, strength, lamp.colour)
+
+
+def _towards(lamp: Lamp, view: View, place: Floats, away: float) -> float:
+    if lamp.beam is None:
+        return 1.0
+    to_camera = (np.asarray(view.pose.position_m) - place) / max(float(away), 1e-6)
+    cosine = float(np.dot(to_camera, lamp.beam))
+    return math.exp(lamp.beam_sharpness * (cosine - 1.0))
+
+
+def _splat(
+    picture: np.ndarray,  # type: ignore[type-arg]
+    column: float,
+    row: float,
+    strength: float,
+    colour: Colour,
+) -> None:
+    """Screen a spot over a picture; what is brighter than white grows instead."""
+    peak = min(strength, 1.0)
+    radius = min(0.7 + 0.45 * math.log2(1.0 + strength), GREATEST_RADIUS_PX)
+    reach = math.ceil(2.2 * radius)
+    top, left = max(int(row) - reach, 0), max(int(column) - reach, 0)
+    part = picture[top : int(row) + reach + 1, left : int(column) + reach + 1]
+    rows = np.arange(top, top + part.shape[0])[:, None] + 0.5 - row
+    columns = np.arange(left, left + part.shape[1])[None, :] + 0.5 - column
+    spot = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
+    core = min(1.0, strength / 20.0)
+    tint = np.asarray(colour) ** (1.0 / 2.2)
+    tint = tint + (1.0 - tint) * core * 0.7
+    covered = spot[..., None] * tint
+    part[...] = (255.0 - (255.0 - part) * (1.0 - covered)).astype(np.uint8)

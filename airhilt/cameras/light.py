@@ -1,0 +1,188 @@
+"""How a scene is lit, what the sky looks like, and what the air does to both.
+
+All colours are linear; `encode` makes 8-bit sRGB of them. Both backends and the cached pictures
+use the numbers of one `Light`, which is why they agree.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.cameras.mesh import Floats, Mesh
+
+CONTRAST_THRESHOLD = 0.02
+"""H. Koschmieder, Beitraege zur Physik der freien Atmosphaere 12 (1924) 33-55: what is just seen
+against the horizon at the meteorological visibility."""
+EXTINCTION = -math.log(CONTRAST_THRESHOLD)
+SKY_STEPS = 2048
+LOWEST_SKY = -0.25
+"""Sine of the elevation where the table of the sky begins."""
+LEVELS = 4096
+"""Of linear light that are told apart when it is encoded."""
+GLARE = 24.0
+"""Sharpness of the bright sky about the sun; the sun itself is sharper by the next."""
+DISC = 9000.0
+
+# Elevation of the sun in degrees; linear colours of zenith, horizon, direct light, diffuse light.
+_HOURS = (
+    (-18.0, (0.0008, 0.0012, 0.003), (0.003, 0.0038, 0.006), (0, 0, 0), (0.004, 0.005, 0.008)),
+    (-9.0, (0.003, 0.006, 0.018), (0.02, 0.022, 0.034), (0, 0, 0), (0.012, 0.015, 0.026)),
+    (-4.0, (0.014, 0.03, 0.085), (0.16, 0.11, 0.1), (0, 0, 0), (0.045, 0.055, 0.085)),
+    (0.0, (0.045, 0.09, 0.21), (0.42, 0.29, 0.22), (0.2, 0.09, 0.03), (0.12, 0.14, 0.19)),
+    (6.0, (0.075, 0.16, 0.36), (0.55, 0.5, 0.46), (0.75, 0.5, 0.28), (0.2, 0.24, 0.31)),
+    (20.0, (0.085, 0.2, 0.46), (0.6, 0.67, 0.74), (1.05, 0.92, 0.74), (0.28, 0.34, 0.43)),
+    (60.0, (0.075, 0.19, 0.47), (0.62, 0.7, 0.79), (1.2, 1.1, 0.97), (0.32, 0.38, 0.47)),
+)
+"""Drawn by eye after photographs; the sun is worth about three times the blue sky at noon."""
+
+
+@dataclass(frozen=True)
+class Light:
+    """Sun, sky and air of a scene; they do not change during a run.
+
+    Attributes
+    ----------
+    sun
+        Unit vector towards it: east, north, up.
+    visibility_m
+        Meteorological visibility.
+    overcast
+        0 a blue sky, 1 none: fog and rain whiten it.
+    """
+
+    sun: npt.NDArray[np.float64]
+    visibility_m: float
+    overcast: float
+
+    @property
+    def sun_elevation_rad(self) -> float:
+        """Above the horizon."""
+        return math.asin(float(np.clip(self.sun[2], -1.0, 1.0)))
+
+    @property
+    def darkness(self) -> float:
+        """0 in daylight, 1 at night, between them while the sun is low."""
+        return float(np.clip((4.0 - math.degrees(self.sun_elevation_rad)) / 10.0, 0.0, 1.0))
+
+    @cached_property
+    def extinction_per_m(self) -> float:
+        """Of the air; Koschmieder's 3.912 / V."""
+        return EXTINCTION / self.visibility_m
+
+    @cached_property
+    def _hour(self) -> tuple[Floats, Floats, Floats, Floats]:
+        elevation = math.degrees(self.sun_elevation_rad)
+        at = [row[0] for row in _HOURS]
+        table = np.array([row[1:] for row in _HOURS], dtype=np.float64)
+        mixed = np.array(
+            [[np.interp(elevation, at, table[:, i, c]) for c in range(3)] for i in range(4)]
+        )
+        zenith, horizon, direct, diffuse = mixed
+        grey = horizon.mean() * np.array((0.94, 0.98, 1.0))
+        cover = self.overcast
+        horizon = horizon * (1.0 - cover) + cover * grey
+        zenith = zenith * (1.0 - cover) + cover * 0.82 * grey
+        cloudy = diffuse.mean() * 1.35 * np.ones(3)
+        return (
+            zenith.astype(np.float32),
+            horizon.astype(np.float32),
+            (direct * (1.0 - 0.92 * cover)).astype(np.float32),
+            (diffuse * (1.0 - cover) + cover * cloudy).astype(np.float32),
+        )
+
+    @property
+    def airlight(self) -> Floats:
+        """Colour of an endless way through the air: that of the horizon."""
+        return self._hour[1]
+
+    @property
+    def direct(self) -> Floats:
+        """What the sun sheds on a surface that faces it."""
+        return self._hour[2]
+
+    @property
+    def diffuse(self) -> Floats:
+        """What the sky sheds on a surface that faces up."""
+        return self._hour[3]
+
+    @property
+    def reflected(self) -> Floats:
+        """What the ground sheds on a surface that faces down."""
+        return np.asarray(0.55 * self.diffuse + 0.06 * self.direct, dtype=np.float32)
+
+    @cached_property
+    def sky(self) -> Floats:
+        """Colours by the sine of the elevation, from `LOWEST_SKY` to 1; shape (SKY_STEPS, 3)."""
+        zenith, horizon, _, _ = self._hour
+        sine = np.clip(np.linspace(LOWEST_SKY, 1.0, SKY_STEPS), 0.0, 1.0)
+        # Air of this visibility in a layer of 1.2 km hides the blue: Koschmieder upwards.
+        veil = np.exp(-sine * 9.0 * min(1.0, self.visibility_m / 10_000.0) ** 0.5)
+        depth = EXTINCTION * 1200.0 / self.visibility_m
+        veil = np.maximum(veil, 1.0 - np.exp(-depth / np.maximum(sine, 0.02)) ** 0.35)
+        return np.asarray(zenith + (horizon - zenith) * veil[:, None], dtype=np.float32)
+
+    @cached_property
+    def glare(self) -> Floats:
+        """Colour that is added about the sun."""
+        return np.asarray(0.5 * self.direct * (1.0 - self.overcast), dtype=np.float32)
+
+    def sky_towards(self, directions: Floats) -> Floats:
+        """Return the colours of the sky in some directions; both of shape (3, n)."""
+        east, north, up = directions
+        step = (up - np.float32(LOWEST_SKY)) * np.float32((SKY_STEPS - 1) / (1.0 - LOWEST_SKY))
+        colours = self.sky.T.take((step + np.float32(0.5)).astype(np.int32), axis=1, mode="clip")
+        if self.glare.max() > 0.0:
+            x, y, z = self.sun.astype(np.float32)
+            apart = np.float32(1.0) - (x * east + y * north + z * up)
+            near = np.flatnonzero(apart < 0.3)
+            lobes = np.exp(-GLARE * apart[near]) + 20.0 * np.exp(-DISC * apart[near])
+            colours[:, near] += self.glare[:, None] * lobes
+        return colours
+
+    def shade(self, colours: Floats, normals: Floats, sunlit: Floats | float = 1.0) -> Floats:
+        """Return the light that matt surfaces send back, shape (n, 3)."""
+        facing = np.maximum(normals @ self.sun.astype(np.float32), 0.0) * sunlit
+        upward = (0.5 + 0.5 * normals[:, 2])[:, None]
+        light = facing[:, None] * self.direct
+        light += self.reflected + upward * (self.diffuse - self.reflected)
+        return np.asarray(colours * light, dtype=np.float32)
+
+    def baked(self, mesh: Mesh) -> Floats:
+        """Return the light that triangles which never move send out, shape (n, 3)."""
+        lit = self.shade(mesh.colours, mesh.face_normals, mesh.sunlit)
+        return lit + (mesh.glow * np.float32(self.darkness))[:, None] * mesh.colours
+
+    def through_air(self, colours: Floats, distances_m: Floats) -> Floats:
+        """Return what is left of light after some way, and what the air adds; changes colours.
+
+        Colours are of shape (3, n), distances of shape (n,).
+        """
+        left = np.exp(distances_m * np.float32(-self.extinction_per_m))
+        for channel, air in zip(colours, self.airlight, strict=True):
+            channel -= air
+            channel *= left
+            channel += air
+        return colours
+
+
+def _encoding_table() -> npt.NDArray[np.uint8]:
+    linear = (np.arange(LEVELS) + 0.5) / LEVELS
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1.0 / 2.4) - 0.055)
+    return np.asarray(np.round(255.0 * encoded), dtype=np.uint8)
+
+
+_ENCODED = _encoding_table()
+
+
+def encode(linear: Floats) -> npt.NDArray[np.uint8]:
+    """Return linear light, shape (3, n), as pixels in 8-bit sRGB (IEC 61966-2-1), shape (n, 3)."""
+    pixels = np.empty((linear.shape[1], 3), dtype=np.uint8)
+    for channel, light in enumerate(linear):
+        levels = np.minimum(light * np.float32(LEVELS), np.float32(LEVELS - 1)).astype(np.uint16)
+        pixels[:, channel] = _ENCODED.take(levels)
+    return pixels

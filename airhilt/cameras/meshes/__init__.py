@@ -1,0 +1,1 @@
+"""The shapes of what moves: aircraft, vehicles, animals."""

@@ -1,0 +1,366 @@
+"""Pictures by OpenGL 3.3 without a display: moderngl on EGL, at best on a graphics card."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.cameras.light import DISC, GLARE, LOWEST_SKY, Light
+from airhilt.cameras.mesh import Floats, Mesh
+from airhilt.cameras.renderers import Samples
+from airhilt.cameras.view import NEAR_M, Pose, View, Window
+from airhilt.errors import RendererError, first_line
+
+FAR_M = 600_000.0
+
+_AIR = """
+uniform vec3 airlight;
+uniform float extinction;
+vec3 through_air(vec3 colour, float distance) {
+    return mix(airlight, colour, exp(-extinction * distance));
+}
+vec3 encode(vec3 linear) {
+    vec3 l = clamp(linear, 0.0, 1.0);
+    return mix(12.92 * l, 1.055 * pow(l, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, l));
+}
+"""
+_WORLD_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform vec3 eye;
+in vec3 in_place;
+in vec3 in_colour;
+out vec3 offset;
+flat out vec3 colour;
+void main() {
+    offset = in_place - eye;
+    colour = in_colour;
+    gl_Position = projection * vec4(offset, 1.0);
+}
+"""
+_WORLD_FRAGMENT = (
+    "#version 330\n"
+    + _AIR
+    + """
+in vec3 offset;
+flat in vec3 colour;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    float away = length(offset);
+    out_colour = vec4(encode(through_air(colour, away)), 1.0);
+    out_distance = away;
+}
+"""
+)
+_SKY_VERTEX = """
+#version 330
+uniform mat3 corners;
+out vec3 towards;
+void main() {
+    vec2 place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    towards = corners * vec3(place, 1.0);
+    gl_Position = vec4(place, 0.0, 1.0);
+}
+"""
+_SKY_FRAGMENT = (
+    "#version 330\n"
+    + _AIR
+    + f"""
+uniform sampler2D sky;
+uniform vec3 sun;
+uniform vec3 glare;
+in vec3 towards;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {{
+    vec3 d = normalize(towards);
+    vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
+    float apart = 1.0 - dot(d, sun);
+    if (apart < 0.3)
+        colour += (exp(-{GLARE} * apart) + 20.0 * exp(-{DISC} * apart)) * glare;
+    out_colour = vec4(encode(colour), 1.0);
+    out_distance = uintBitsToFloat(0x7F800000u);
+}}
+"""
+)
+_BODY_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform mat3 rotation;
+uniform vec3 place;
+in vec3 in_place;
+in vec3 in_normal;
+in vec3 in_colour;
+in float in_glow;
+out vec3 offset;
+out vec3 normal;
+flat out vec3 colour;
+flat out float glow;
+void main() {
+    offset = rotation * in_place + place;
+    normal = rotation * in_normal;
+    colour = in_colour;
+    glow = in_glow;
+    gl_Position = projection * vec4(offset, 1.0);
+}
+"""
+_BODY_FRAGMENT = (
+    "#version 330\n"
+    + _AIR
+    + """
+uniform vec3 sun;
+uniform vec3 direct;
+uniform vec3 diffuse;
+uniform vec3 reflected;
+uniform float darkness;
+in vec3 offset;
+in vec3 normal;
+flat in vec3 colour;
+flat in float glow;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    vec3 n = normalize(normal);
+    vec3 light = max(dot(n, sun), 0.0) * direct + mix(reflected, diffuse, 0.5 + 0.5 * n.z);
+    float away = length(offset);
+    out_colour = vec4(encode(through_air(colour * (light + glow * darkness), away)), 1.0);
+    out_distance = away;
+}
+"""
+)
+_SHADOW_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform mat3 rotation;
+uniform vec3 place;
+uniform vec3 eye;
+uniform vec3 sun;
+in vec3 in_place;
+void main() {
+    vec3 world = rotation * in_place + place;
+    vec3 ground = world - sun * (max(world.z, 0.0) / sun.z);
+    gl_Position = projection * vec4(ground - eye, 1.0);
+}
+"""
+_SHADOW_FRAGMENT = """
+#version 330
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    out_colour = vec4(1.0);
+    out_distance = 0.0;
+}
+"""
+
+
+@dataclass(frozen=True)
+class _Body:
+    drawn: Any
+    shadow: Any
+
+
+@dataclass(frozen=True)
+class _Canvas:
+    """Where is drawn, for one size of pictures."""
+
+    frame: Any
+    size: tuple[int, int]
+
+    def read(self) -> Samples:
+        width, height = self.size
+        colour = np.frombuffer(self.frame.read(components=4), dtype=np.uint8)
+        distance = np.frombuffer(self.frame.read(components=1, attachment=1, dtype="f4"), "f4")
+        return Samples(
+            colour.reshape(height, width, 4)[..., :3], distance.reshape(height, width)
+        )
+
+
+class ModernGLRenderer:
+    """Draws by OpenGL.
+
+    Raises
+    ------
+    RendererError
+        moderngl or EGL is not installed.
+    """
+
+    def __init__(self, world: Mesh, light: Light) -> None:
+        self._context = context = _open_context()
+        self._light = light
+        self._canvases: dict[tuple[int, int], _Canvas] = {}
+        self._bodies: dict[str, _Body] = {}
+        self._world_program = context.program(_WORLD_VERTEX, _WORLD_FRAGMENT)
+        self._sky_program = context.program(_SKY_VERTEX, _SKY_FRAGMENT)
+        self._body_program = context.program(_BODY_VERTEX, _BODY_FRAGMENT)
+        self._shadow_program = context.program(_SHADOW_VERTEX, _SHADOW_FRAGMENT)
+        self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
+        self._sky.repeat_x = False
+        self._tallest_m = float(world.corners[..., 2].max())
+        self._sky_array = context.vertex_array(self._sky_program, [])
+        self._world = self._array(
+            self._world_program,
+            "3f 3f",
+            ("in_place", "in_colour"),
+            _by_corner(world.corners, light.baked(world)),
+        )
+        self._set_light()
+
+    def _set_light(self) -> None:
+        light = self._light
+        for program in (self._world_program, self._sky_program, self._body_program):
+            for name, value in (
+                ("airlight", tuple(light.airlight)),
+                ("extinction", light.extinction_per_m),
+                ("sun", tuple(light.sun)),
+                ("glare", tuple(light.glare)),
+                ("direct", tuple(light.direct)),
+                ("diffuse", tuple(light.diffuse)),
+                ("reflected", tuple(light.reflected)),
+                ("darkness", light.darkness),
+            ):
+                if name in program:
+                    program[name] = value
+        self._shadow_program["sun"] = tuple(light.sun)
+
+    def add_shape(self, name: str, mesh: Mesh) -> None:
+        """Take in the shape of a body."""
+        self._bodies[name] = _Body(
+            self._array(
+                self._body_program,
+                "3f 3f 3f 1f",
+                ("in_place", "in_normal", "in_colour", "in_glow"),
+                np.concatenate((
+                    mesh.corners,
+                    mesh.normals,
+                    np.broadcast_to(mesh.colours[:, None], mesh.corners.shape),
+                    np.broadcast_to(mesh.glow[:, None, None], (len(mesh), 3, 1)),
+                ), axis=2),
+            ),
+            self._array(self._shadow_program, "3f", ("in_place",), mesh.corners),
+        )  # fmt: skip
+
+    def close(self) -> None:
+        """Give back what was taken."""
+        self._context.release()
+
+    def world(self, view: View, samples: int = 1) -> Samples:
+        """Return the world behind all bodies, with the sky and the air."""
+        canvas = self._canvas(view.whole, samples)
+        eye = view.pose.position_m
+        self._sky.use(0)
+        lens = view.intrinsics
+        half = lens.width_px / 2.0 / lens.focal_px, lens.height_px / 2.0 / lens.focal_px
+        right, down, ahead = view.axes.T
+        corners = np.column_stack((right * half[0], down * half[1], ahead))
+        self._context.disable(self._context.DEPTH_TEST)
+        self._sky_program["corners"] = _columns(corners)
+        self._sky_array.render(vertices=3)
+        self._context.enable(self._context.DEPTH_TEST)
+        near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
+        self._world_program["projection"] = _columns(_projection(view, view.whole, near))
+        self._world_program["eye"] = eye
+        self._world.render()
+        return canvas.read()
+
+    def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
+        """Return a body alone, through the air."""
+        canvas = self._canvas(window, samples)
+        canvas.frame.color_mask = (False,) * 4, (True,) * 4
+        canvas.frame.clear(red=np.inf)
+        canvas.frame.color_mask = (True,) * 4, (True,) * 4
+        program = self._body_program
+        away = np.subtract(pose.position_m, view.pose.position_m)
+        self._context.enable(self._context.DEPTH_TEST)
+        near = max(NEAR_M, 0.2 * (float(np.linalg.norm(away)) - 100.0))
+        program["projection"] = _columns(_projection(view, window, near))
+        program["rotation"] = _columns(pose.rotation)
+        program["place"] = tuple(away)
+        self._bodies[shape].drawn.render()
+        return canvas.read()
+
+    def shadow(
+        self, shape: str, pose: Pose, view: View, window: Window, samples: int
+    ) -> npt.NDArray[np.bool_]:
+        """Return where a body keeps the sun from the flat ground."""
+        canvas = self._canvas(window, samples)
+        program = self._shadow_program
+        self._context.disable(self._context.DEPTH_TEST)
+        program["projection"] = _columns(_projection(view, window, NEAR_M))
+        program["rotation"] = _columns(pose.rotation)
+        program["place"] = pose.position_m
+        program["eye"] = view.pose.position_m
+        self._bodies[shape].shadow.render()
+        return np.asarray(canvas.read().colour[..., 0] > 0)
+
+    def _canvas(self, window: Window, samples: int) -> _Canvas:
+        """Return a cleared canvas for a window; the last of each size is kept."""
+        size = window.width * samples, window.height * samples
+        canvas = self._canvases.get(size)
+        if canvas is None:
+            if len(self._canvases) >= 64:
+                self._canvases.pop(next(iter(self._canvases))).frame.release()
+            context = self._context
+            frame = context.framebuffer(
+                [context.texture(size, 4), context.texture(size, 1, dtype="f4")],
+                context.depth_renderbuffer(size),
+            )
+            canvas = self._canvases[size] = _Canvas(frame, size)
+        canvas.frame.use()
+        canvas.frame.clear()
+        return canvas
+
+    def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
+        buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32).tobytes())
+        return self._context.vertex_array(program, [(buffer, layout, *names)])
+
+
+def _by_corner(corners: Floats, colours: Floats) -> Floats:
+    spread = np.broadcast_to(colours[:, None], corners.shape)
+    return np.concatenate((corners, spread), axis=2)
+
+
+def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.float64]:
+    """Return clip coordinates from offsets in the world; the first row of a picture is the lowest.
+
+    OpenGL keeps the lowest row first, so drawing upside down saves turning what is read.
+    """
+    lens = view.intrinsics
+    focal = lens.focal_px
+    left = (window.left - lens.width_px / 2.0) / focal
+    right = (window.right - lens.width_px / 2.0) / focal
+    top = (window.top - lens.height_px / 2.0) / focal
+    bottom = (window.bottom - lens.height_px / 2.0) / focal
+    frustum = np.array((
+        (2.0 / (right - left), 0.0, -(right + left) / (right - left), 0.0),
+        (0.0, 2.0 / (bottom - top), -(bottom + top) / (bottom - top), 0.0),
+        (0.0, 0.0, (FAR_M + near_m) / (FAR_M - near_m), -2.0 * FAR_M * near_m / (FAR_M - near_m)),
+        (0.0, 0.0, 1.0, 0.0),
+    ))  # fmt: skip
+    turn = np.eye(4)
+    turn[:3, :3] = view.axes.T
+    return np.asarray(frustum @ turn)
+
+
+def _columns(matrix: npt.NDArray[np.float64]) -> tuple[float, ...]:
+    """Return a matrix as OpenGL takes it."""
+    return tuple(float(value) for value in matrix.T.reshape(-1))
+
+
+def _open_context() -> Any:
+    remedy = (
+        "pip install 'airhilt[moderngl]' and apt install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
+    )
+    try:
+        import moderngl
+    except ImportError:
+        raise RendererError(f"the renderer moderngl is not installed: {remedy}") from None
+    try:
+        return moderngl.create_standalone_context(backend="egl")
+    except Exception as error:  # of any class, by what of EGL is missing
+        raise RendererError(
+            f"the renderer moderngl finds no EGL: {remedy} ({first_line(error)})"
+        ) from None
