@@ -116,7 +116,8 @@ class Mesh:
     def face_normals(self) -> Floats:
         """Of each triangle, shape (n, 3)."""
         across = _cross(self.corners)
-        return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True), dtype=np.float32)
+        length = np.linalg.norm(across, axis=1, keepdims=True)
+        return np.asarray(across / np.maximum(length, 1e-12), dtype=np.float32)
 
     @property
     def lowest_m(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
@@ -337,6 +338,16 @@ class Weather(_Model):
     wind: Wind = Wind()
     turbulence: Turbulence = Turbulence()
     visibility_m: float = Field(default=10_000.0, gt=0.0, le=100_000.0)
+    rain_mm_h: float = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
+
+
+class Daylight(_Model):
+    """When cameras look; the sun stays where it is then."""
+
+    date: datetime.date = datetime.date(2026, 5, 1)
+    solar_time_h: float = Field(
+        default=10.0, ge=0.0, lt=24.0, description="local solar time: the sun is highest at 12"
+    )
 
 
 # --- what makes it a conflict -------------------------------------------------------------
@@ -658,6 +669,7 @@ class Scenario(_Model):
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
     weather: Weather = Weather()
+    daylight: Daylight = Daylight()
     separation: Separation = Separation()
     failures: tuple[Failure, ...] = Field(
         default=(), description="all that goes wrong; everything else is as it should be"

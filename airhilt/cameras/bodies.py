@@ -1,0 +1,174 @@
+"""What moves before cameras: its shapes, where it is, and its lights."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from airhilt.actors.performer import Performer
+from airhilt.cameras.lamps import Lamp, aircraft_lamps, vehicle_lamps
+from airhilt.cameras.mesh import Mesh
+from airhilt.cameras.meshes import animals, vehicles
+from airhilt.cameras.meshes.aircraft import aircraft_mesh
+from airhilt.cameras.view import Pose
+from airhilt.flight import Aircraft
+from airhilt.flight.aircraft_type import AircraftType, load_aircraft_type
+from airhilt.scenario.models import Actor, AircraftActor, VehicleActor
+from airhilt.surface.frame import LocalFrame
+from airhilt.surface.kinds import load_kind
+from airhilt.surface.mover import Dimensions, Size
+from airhilt.surface.wildlife import AnimalKind
+
+Label = Literal["airplane", "truck", "bird", "deer", "coyote"]
+"""Classes of what cameras see, as detectors name them (those of COCO where it has one)."""
+
+GEAR_DOWN_BELOW_M = 600.0
+"""Above the ground: on a glide path of 3 degrees that is 11 km before the threshold."""
+LANDING_LIGHTS_BELOW_M = 3048.0
+"""FAA AIM 4-3-23: landing lights on below 10,000 ft."""
+WING_BEATS_HZ = 4.0
+"""Of a Canada goose: C. J. Pennycuick, Journal of Experimental Biology 150 (1990) 171-185, about."""
+STARLING_BEATS_HZ = 9.0
+
+
+class BodyState(NamedTuple):
+    """Where something is at an instant, and which of its shapes it has."""
+
+    actor: str
+    east_m: float
+    north_m: float
+    up_m: float
+    heading_rad: float
+    pitch_rad: float
+    roll_rad: float
+    shape: str
+    lit: bool
+    """Whether its landing lights are on."""
+
+    @property
+    def pose(self) -> Pose:
+        """Of its axes in the world."""
+        return Pose.of(
+            (self.east_m, self.north_m, self.up_m),
+            self.heading_rad,
+            self.pitch_rad,
+            self.roll_rad,
+        )
+
+
+@dataclass(frozen=True)
+class Model:
+    """How an actor looks.
+
+    Attributes
+    ----------
+    kind
+        Actors of one kind share their shapes.
+    shapes
+        Its meshes by their names.
+    lamps
+        Return its lights, in its own axes, at a time in seconds, with landing lights or without.
+    aircraft
+        Its type if it is one, for cameras that are mounted on it.
+    """
+
+    label: Label
+    kind: str
+    shapes: Mapping[str, Mesh]
+    lamps: Callable[[float, bool], Iterator[Lamp]]
+    aircraft: AircraftType | None = None
+
+
+def model_of(actor: Actor) -> Model:
+    """Return how an actor of a scenario looks.
+
+    Raises
+    ------
+    ScenarioError
+        There is no such kind.
+    """
+    if isinstance(actor, AircraftActor):
+        return aircraft_model(actor.aircraft)
+    if isinstance(actor, VehicleActor):
+        return vehicle_model(actor.kind)
+    return animal_model(actor.kind)
+
+
+def aircraft_model(name: str) -> Model:
+    """Return how a type of aircraft looks."""
+    kind = load_aircraft_type(name)
+    return Model(
+        "airplane",
+        name,
+        {"clean": aircraft_mesh(kind, False), "gear": aircraft_mesh(kind, True)},
+        lambda t_s, lit: aircraft_lamps(kind, t_s, lit),
+        kind,
+    )
+
+
+def vehicle_model(name: str) -> Model:
+    """Return how a kind of vehicle looks: one that has no shape of its own is a van."""
+    size = load_kind(name, "vehicle").dimensions
+    makers: dict[str, Callable[[Size], Mesh]] = {
+        "follow_me": vehicles.follow_me,
+        "fire_truck": vehicles.fire_truck,
+        "snow_plough": vehicles.snow_plough,
+        "tug_with_aircraft": vehicles.tug_with_aircraft,
+    }
+    mesh = makers.get(name, vehicles.block)(size)
+    # Something is towed: what is seen of it is the aircraft.
+    label: Label = "airplane" if name == "tug_with_aircraft" else "truck"
+    return Model(label, name, {"driving": mesh}, lambda t_s, _: vehicle_lamps(size, t_s))
+
+
+def animal_model(name: str) -> Model:
+    """Return how a kind of animal looks; what flies is a bird, any other a deer or a coyote."""
+    kind = load_kind(name, "wildlife")
+    size = kind.dimensions
+    flight = kind.flight if isinstance(kind, AnimalKind) else None
+    if flight is None:
+        label: Label = "coyote" if name == "coyote" else "deer"
+        shape = animals.coyote if label == "coyote" else animals.deer
+        return Model(label, name, {"standing": shape(size)}, _no_lamps)
+    count = kind.count if isinstance(kind, AnimalKind) else 1
+    aloft = flight.dimensions
+    shapes = {"standing": _bird(size, count, None)}
+    for beat in range(animals.WING_BEATS):
+        shapes[f"flying{beat}"] = _bird(aloft, count, beat)
+    return Model("bird", name, shapes, _no_lamps)
+
+
+def _bird(size: Size | Dimensions, count: int, beat: int | None) -> Mesh:
+    return animals.goose(size, beat) if count == 1 else animals.flock(size, count, beat)
+
+
+def _no_lamps(_t_s: float, _lit: bool) -> Iterator[Lamp]:
+    return iter(())
+
+
+def state_of(performer: Performer, frame: LocalFrame, ground_m: float, t_s: float) -> BodyState:
+    """Return where an actor is, in the axes of the scene.
+
+    The scene is flat: heights are those above the ground's ellipsoid, wherever that is. Between
+    two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
+    """
+    state = performer.body.state
+    east, north = frame.to_local((state.latitude_rad, state.longitude_rad))
+    up = state.altitude_m - ground_m
+    callsign = performer.actor.callsign
+    body = performer.body
+    if isinstance(body, Aircraft):
+        height = body.state.height_agl_m
+        shape = "gear" if height < GEAR_DOWN_BELOW_M else "clean"
+        lit = height < LANDING_LIGHTS_BELOW_M and state.ground_speed_m_s > 15.0
+        angles = body.state.heading_rad, body.state.pitch_rad, body.state.roll_rad
+        return BodyState(callsign, east, north, up, *angles, shape, lit)
+    shape = "driving"
+    if performer.category == "wildlife":
+        shape = "standing"
+        if not body.on_ground:
+            rate = WING_BEATS_HZ if body.dimensions.length_m < 3.0 else STARLING_BEATS_HZ
+            shape = f"flying{math.floor(t_s * rate * animals.WING_BEATS) % animals.WING_BEATS}"
+    return BodyState(callsign, east, north, up, state.heading_rad, 0.0, 0.0, shape, True)

@@ -1,0 +1,76 @@
+"""From a scenario to a studio that takes its pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from airhilt.cameras.bodies import Model, model_of
+from airhilt.cameras.light import Light
+from airhilt.cameras.mounts import Camera, cameras_of, find_camera, frame_of
+from airhilt.cameras.rain import rain_visibility_m
+from airhilt.cameras.renderers import RendererName
+from airhilt.cameras.studio import Studio
+from airhilt.cameras.sun import sun_direction
+from airhilt.cameras.world import World, airport_world, open_country
+from airhilt.scenario import Scenario
+from airhilt.scenario.geometry import Setting
+from airhilt.scenario.models import Airborne
+from airhilt.units import FOOT
+
+FOGGY_M = 3000.0
+HAZY_M = 8000.0
+"""Visibilities between which the blue of the sky goes."""
+CLOUDS_UNDER_TRAFFIC = 0.6
+"""Of the height of the lowest flight: no cloud hides one from another."""
+LOWEST_CLOUDS_M = 400.0
+
+
+def light_of(scenario: Scenario, setting: Setting) -> Light:
+    """Return how a scenario is lit."""
+    weather, daylight = scenario.weather, scenario.daylight
+    rain_m = rain_visibility_m(weather.rain_mm_h)
+    visibility = 1.0 / (1.0 / weather.visibility_m + 1.0 / rain_m)
+    thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
+    overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
+    sun = sun_direction(frame_of(setting).origin[0], daylight.date, daylight.solar_time_h)
+    return Light(sun, visibility, overcast)
+
+
+def world_of(scenario: Scenario, setting: Setting, light: Light) -> World:
+    """Return what stands still in a scenario."""
+    if setting.layout is not None:
+        return airport_world(setting.layout, light)
+    heights = [
+        actor.initial.altitude_ft * FOOT - setting.ground_m
+        for actor in scenario.actors
+        if isinstance(actor.initial, Airborne)
+    ]
+    tops = CLOUDS_UNDER_TRAFFIC * min(heights, default=0.0)
+    clouds = tops if tops > LOWEST_CLOUDS_M else None
+    name = f"{setting.centre.lat_deg:.3f} {setting.centre.lon_deg:.3f}"
+    return open_country(light, name, clouds)
+
+
+def open_studio(
+    scenario: Scenario,
+    setting: Setting,
+    names: Sequence[str] | None = None,
+    renderer: RendererName = "open3d",
+    fine: int = 1,
+) -> Studio:
+    """Return a studio with cameras of a scenario: those named, or those it declares.
+
+    Raises
+    ------
+    CameraError
+        There is no such camera, or it could see nothing.
+    RendererError
+        The renderer cannot be opened.
+    """
+    models: dict[str, Model] = {actor.callsign: model_of(actor) for actor in scenario.actors}
+    known = cameras_of(scenario, setting, models)
+    wanted = [camera.name for camera in scenario.cameras] if names is None else names
+    cameras: list[Camera] = [find_camera(known, name) for name in wanted]
+    light = light_of(scenario, setting)
+    world = world_of(scenario, setting, light)
+    return Studio(world, light, models, cameras, renderer, scenario.weather.rain_mm_h, fine)
