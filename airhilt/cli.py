@@ -14,6 +14,7 @@ from click.core import ParameterSource
 
 from airhilt._version import __version__
 from airhilt.cli_airport import airport
+from airhilt.cli_cameras import render
 from airhilt.errors import AirhiltError, ScenarioError
 
 
@@ -48,6 +49,7 @@ def cli() -> None:
     airhilt report RUN                        make its report, one HTML file
     airhilt replay RUN                        run it again and compare
     airhilt listen RUN                        write what was said, as sound and as text
+    airhilt render --scenario s01b_nominal --camera runway_01    write what a camera sees
     """
 
 
@@ -439,6 +441,7 @@ def worker(
 
 
 cli.add_command(airport)
+cli.add_command(render)
 
 
 def main() -> NoReturn:

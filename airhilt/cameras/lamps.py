@@ -10,6 +10,7 @@ import numpy as np
 
 from airhilt.cameras.light import Light
 from airhilt.cameras.mesh import Colour, Floats, srgb
+from airhilt.cameras.meshes.aircraft import wing_tip_m
 from airhilt.cameras.view import NEAR_M, View
 from airhilt.flight.aircraft_type import AircraftType
 from airhilt.surface.layout import Layout
@@ -39,7 +40,7 @@ BEACON_HZ = 0.9
 STROBE_HZ = 1.0
 """14 CFR 25.1401(c): 40 to 100 flashes a minute."""
 FLASH_PART = 0.12
-DAY_LUX = 4e-3
+DAY_LUX = 3e-2
 NIGHT_LUX = 4e-6
 """Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
 GREATEST_RADIUS_PX = 9.0
@@ -120,10 +121,10 @@ def _lamp(
 
 def aircraft_lamps(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Lamp]:
     """Yield the lights of an aircraft, in its own axes, that are on at an instant."""
-    half, length = kind.dimensions.span_m / 2.0, kind.dimensions.length_m
-    tip_up = 0.0
-    yield Lamp((-half, -0.05 * length, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
-    yield Lamp((half, -0.05 * length, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
+    half, at, tip_up = wing_tip_m(kind)
+    length = kind.dimensions.length_m
+    yield Lamp((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
+    yield Lamp((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
     yield Lamp((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
     if (t_s * BEACON_HZ) % 1.0 < FLASH_PART:
         top = 0.6 * kind.mesh.fuselage_diameter_m + 0.3
@@ -131,7 +132,7 @@ def aircraft_lamps(kind: AircraftType, t_s: float, landing: bool) -> Iterator[La
         yield Lamp((0.0, 0.0, -top), RED, BEACON_CD)
     if (t_s * STROBE_HZ + 0.5) % 1.0 < FLASH_PART:
         for side in (-1.0, 1.0):
-            yield Lamp((side * half, -0.06 * length, tip_up), WHITE, STROBE_CD)
+            yield Lamp((side * half, at - 0.5, tip_up), WHITE, STROBE_CD)
     if landing:
         root = 0.14 * half if kind.category in ("jet", "heavy_jet") else 0.5 * half
         for side in (-1.0, 1.0):

@@ -113,7 +113,7 @@ class Light:
     @property
     def reflected(self) -> Floats:
         """What the ground sheds on a surface that faces down."""
-        return np.asarray(0.55 * self.diffuse + 0.06 * self.direct, dtype=np.float32)
+        return np.asarray(0.6 * self.diffuse + 0.1 * self.direct, dtype=np.float32)
 
     @cached_property
     def sky(self) -> Floats:

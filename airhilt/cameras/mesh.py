@@ -61,14 +61,15 @@ class Mesh:
         cls,
         vertices: npt.ArrayLike,
         triangles: npt.ArrayLike,
-        colour: Colour | Paint,
+        colour: Colour | Floats,
         *,
         crease_rad: float = CREASE_RAD,
         glow: float = 0.0,
     ) -> Mesh:
         """Return triangles given by the numbers of their vertices.
 
-        Normals are smooth across edges blunter than ``crease_rad``.
+        Normals are smooth across edges blunter than ``crease_rad``; the colour is that of all, or
+        one for each.
         """
         points = np.asarray(vertices, dtype=np.float32)
         faces = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
@@ -76,10 +77,7 @@ class Mesh:
         across = _cross(corners)
         proper = np.linalg.norm(across, axis=1) > 1e-10
         faces, corners, across = faces[proper], corners[proper], across[proper]
-        if callable(colour):
-            colours = np.asarray(colour(corners.mean(axis=1)), dtype=np.float32)
-        else:
-            colours = np.broadcast_to(np.asarray(colour, dtype=np.float32), (len(faces), 3)).copy()
+        colours = np.broadcast_to(np.asarray(colour, dtype=np.float32), (len(proper), 3))[proper]
         ones = np.ones(len(faces), dtype=np.float32)
         return cls(corners, _smooth(points, faces, across, crease_rad), colours, glow * ones, ones)
 
@@ -106,11 +104,6 @@ class Mesh:
         return replace(
             self, corners=(self.corners * flip)[:, ::-1], normals=(self.normals * flip)[:, ::-1]
         )
-
-    def painted(self, paint: Paint) -> Mesh:
-        """Return it in other colours."""
-        colours = np.asarray(paint(self.corners.mean(axis=1)), dtype=np.float32)
-        return replace(self, colours=colours)
 
     @property
     def face_normals(self) -> Floats:
@@ -146,23 +139,11 @@ def box(
     )
 
 
-def prism(
-    outline: npt.ArrayLike, height_m: float, colour: Colour, roof: Colour | None = None
-) -> Mesh:
-    """Return walls on a convex outline (counter-clockwise seen from above), with a flat roof."""
-    ring = np.asarray(outline, dtype=np.float32)
-    solid = _prism(ring, ring, height_m, colour)
-    if roof is None:
-        return solid
-    return solid.painted(
-        lambda centres: np.where(
-            centres[:, 2:] > height_m - 1e-3, np.asarray(roof), np.asarray(colour)
-        )
-    )
-
-
 def _prism(
-    bottom: npt.NDArray[np.floating], top: npt.NDArray[np.floating], height_m: float, colour: Colour
+    bottom: npt.NDArray[np.floating],
+    top: npt.NDArray[np.floating],
+    height_m: float,
+    colour: Colour,
 ) -> Mesh:
     count = len(bottom)
     low = np.column_stack((bottom, np.zeros(count)))
@@ -177,14 +158,19 @@ def loft(
     closed: bool = False,
     crease_rad: float = CREASE_RAD,
 ) -> Mesh:
-    """Return the skin through rings of points, with flat ends if ``closed``; it faces outwards."""
+    """Return the skin through rings of points, with flat ends if ``closed``; it faces outwards.
+
+    It is painted in the quadrangles between two rings.
+    """
     points = np.stack([np.asarray(ring, dtype=np.float32) for ring in rings])
     levels, count = points.shape[:2]
     here = np.arange(count)
     onward = (here + 1) % count
-    faces = []
+    faces, middles = [], []
     for level in range(levels - 1):
         a, b = level * count, (level + 1) * count
+        pair = points[level : level + 2]
+        middles += [(pair + pair[:, onward]).sum(axis=0) / 4.0] * 2
         faces.append(np.column_stack((a + here, a + onward, b + onward)))
         faces.append(np.column_stack((a + here, b + onward, b + here)))
     vertices = points.reshape(-1, 3)
@@ -194,7 +180,9 @@ def loft(
         end = (levels - 1) * count
         faces.append(np.column_stack((onward, here, np.full(count, first))))
         faces.append(np.column_stack((end + here, end + onward, np.full(count, last))))
-    return Mesh.of(vertices, _outwards(vertices, np.vstack(faces)), colour, crease_rad=crease_rad)
+        middles += [np.tile(points[level].mean(axis=0), (count, 1)) for level in (0, -1)]
+    painted = colour(np.vstack(middles)) if callable(colour) else colour
+    return Mesh.of(vertices, _outwards(vertices, np.vstack(faces)), painted, crease_rad=crease_rad)
 
 
 def _outwards(vertices: Floats, faces: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:

@@ -75,7 +75,7 @@ def trees(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
     for east, north in places:
         size = float(draws.uniform(6.0, 13.0))
         kind = kinds[int(draws.integers(len(kinds)))]
-        wide = size * float(draws.uniform(0.7, 1.1))
+        wide = size * float(draws.uniform(0.6, 1.0))
         low = -float(drop_m(math.hypot(east, north)))
         found.append(kind.stretched(wide, wide, size).moved(east, north, low))
     return join(found) if found else None
@@ -89,7 +89,7 @@ def _tree(colour: Colour, pointed: bool) -> Mesh:
 
     if pointed:
         return loft([ring(0.28, 0.08), ring(0.02, 1.0)], colour, crease_rad=1.0)
-    return loft([ring(0.2, 0.05), ring(0.5, 0.45), ring(0.3, 0.92)], colour, closed=True)
+    return loft([ring(0.16, 0.0), ring(0.5, 0.32), ring(0.44, 0.68), ring(0.12, 1.0)], colour)
 
 
 def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
@@ -143,7 +143,7 @@ def scattered(
     while len(places) < count:
         distance = inner_m + (outer_m - inner_m) * float(draws.uniform()) ** 1.3
         angle = float(draws.uniform(0.0, math.tau))
-        clump = draws.normal(size=(6, 2)) * 60.0
+        clump = draws.normal(size=(9, 2)) * 38.0
         for offset in clump:
             east = distance * math.sin(angle) + float(offset[0])
             north = distance * math.cos(angle) + float(offset[1])

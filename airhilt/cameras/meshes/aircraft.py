@@ -15,6 +15,7 @@ from airhilt.cameras.mesh import (
     Colour,
     Floats,
     Mesh,
+    Paint,
     box,
     ellipsoid,
     join,
@@ -69,6 +70,11 @@ LIVERIES = {
 def aircraft_mesh(kind: AircraftType, gear_down: bool) -> Mesh:
     """Return the shape of a type."""
     return _Aircraft(kind).mesh(gear_down)
+
+
+def wing_tip_m(kind: AircraftType) -> tuple[float, float, float]:
+    """Return the leading edge of the right wing tip: right, ahead, up."""
+    return _Aircraft(kind).wing_tip_m
 
 
 class _Aircraft:
@@ -172,16 +178,17 @@ class _Aircraft:
     def _upper_deck(self) -> Mesh:
         """Return the hump of a 747, over the first third."""
         length, radius = 0.27 * self._length, 0.62 * self._radius
-        hump = ellipsoid(self._livery.body, radius, length / 2.0, 0.72 * self._radius, 20, 14)
-        hump = hump.moved(0.0, self._length * 0.5 - 0.055 * self._length - length / 2.0, 0.0)
 
         def paint(centres: Floats) -> Floats:
             colours = np.tile(np.asarray(self._livery.body, dtype=np.float32), (len(centres), 1))
-            front = self._length * 0.5 - 0.055 * self._length - centres[:, 1]
-            colours[(front < 0.14 * length) & (centres[:, 2] > 0.28 * self._radius)] = GLASS
+            front = 0.5 * length - centres[:, 1]
+            above = centres[:, 2] / self._radius
+            colours[(front < 0.13 * length) & (above > 0.2) & (above < 0.5)] = GLASS
             return colours
 
-        return hump.painted(paint).moved(0.0, 0.0, self._axis + 0.66 * self._radius)
+        hump = ellipsoid(paint, radius, length / 2.0, 0.72 * self._radius, 24, 24)
+        ahead = 0.445 * self._length - length / 2.0
+        return hump.moved(0.0, ahead, self._axis + 0.66 * self._radius)
 
     def _cabin(self) -> Mesh:
         """Return the glazed cabin on top of a small aircraft's fuselage."""
@@ -217,12 +224,28 @@ class _Aircraft:
 
     # --- wings and tail -----------------------------------------------------------------------
 
+    @property
+    def _wing_root_up(self) -> float:
+        high = self._shape.wing_position == "high"
+        return self._axis + (1.22 if high else -0.5) * self._radius
+
+    @property
+    def _dihedral(self) -> float:
+        high = self._shape.wing_position == "high"
+        return math.tan(math.radians(6.0 if self._is_jet else 1.7 if high else 5.0))
+
+    @property
+    def wing_tip_m(self) -> tuple[float, float, float]:
+        """The leading edge of the right wing tip."""
+        out = self._half_span - self._radius
+        back = math.tan(math.radians(self._shape.wing_sweep_deg)) * out
+        up = self._wing_root_up + self._dihedral * out
+        return self._half_span, WING_ROOT_AT * self._length - back, up
+
     def _wing(self) -> Mesh:
         shape, radius = self._shape, self._radius
         root_at = WING_ROOT_AT * self._length
-        high = shape.wing_position == "high"
-        up = self._axis + (0.62 * radius + 0.6 * radius if high else -0.5 * radius)
-        dihedral = math.tan(math.radians(6.0 if self._is_jet else 1.7 if high else 5.0))
+        up, dihedral = self._wing_root_up, self._dihedral
         sweep = math.tan(math.radians(shape.wing_sweep_deg))
         sections = []
         for part in (0.0, 0.33, 0.66, 1.0):
@@ -232,9 +255,9 @@ class _Aircraft:
                 shape.wing_tip_chord_m - shape.wing_root_chord_m
             )
             sections.append((out, root_at - sweep * past, up + dihedral * past, straight))
-        wing = _surface(sections, 0.13 if self._is_jet else 0.14, self._livery.wing)
         if not self._is_jet:
-            return wing.painted(self._wing_tip)
+            return _surface(sections, 0.14, self._wing_paint)
+        wing = _surface(sections, 0.13, self._livery.wing)
         tip_out, tip_at, tip_up, chord = sections[-1]
         rise = 0.07 * self._half_span
         winglet = _blade(
@@ -248,9 +271,9 @@ class _Aircraft:
         ]  # fmt: skip
         return join([wing, winglet, *fairings])
 
-    def _wing_tip(self, centres: Floats) -> Floats:
+    def _wing_paint(self, centres: Floats) -> Floats:
         colours = np.tile(np.asarray(self._livery.wing, dtype=np.float32), (len(centres), 1))
-        colours[centres[:, 0] > 0.9 * self._half_span] = self._livery.tail
+        colours[centres[:, 0] > 0.8 * self._half_span] = self._livery.tail
         return colours
 
     def _tailplane(self) -> Mesh:
@@ -375,7 +398,7 @@ class _Aircraft:
 
 
 def _surface(
-    sections: list[tuple[float, float, float, float]], thickness: float, colour: Colour
+    sections: list[tuple[float, float, float, float]], thickness: float, colour: Colour | Paint
 ) -> Mesh:
     """Return a wing: leading edges (right, ahead, up) and chords, from the root outwards."""
     rings = [

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
-from airhilt.cameras.mesh import Colour, Floats, Mesh, Paint, box, join, srgb, tube, wheel
+from airhilt.cameras.mesh import Colour, Mesh, box, join, srgb, tube, wheel
 from airhilt.cameras.meshes.aircraft import GLASS, GREY, TYRE, WHITE, aircraft_mesh
 from airhilt.flight.aircraft_type import load_aircraft_type
 from airhilt.surface.mover import Size
@@ -26,13 +24,19 @@ def follow_me(size: Size) -> Mesh:
     cabin = box(GLASS, 0.92 * width, 0.36 * length, 0.28 * height, 0.86)
     roof = box(YELLOW, 0.8 * width, 0.31 * length, 0.04 * height)
     bar = box(AMBER, 0.7 * width, 0.06 * length, 0.05 * height)
-    board = box(YELLOW, 0.9 * width, 0.1, 0.36 * height).painted(_chequered)
+    squares = [
+        box(YELLOW if (column + row) % 2 else BLACK, 0.225 * width, 0.1, 0.18 * height).moved(
+            (column - 1.5) * 0.225 * width, -0.4 * length, (0.62 + 0.18 * row) * height
+        )
+        for column in range(4)
+        for row in range(2)
+    ]
     return join([
         body,
         cabin.moved(ahead_m=0.06 * length, up_m=0.62 * height),
         roof.moved(ahead_m=0.06 * length, up_m=0.9 * height),
         bar.moved(ahead_m=0.06 * length, up_m=0.95 * height),
-        board.moved(ahead_m=-0.4 * length, up_m=0.62 * height),
+        *squares,
         *_wheels((-0.32, 0.32), width, length, 0.2 * height),
     ])  # fmt: skip
 
@@ -41,7 +45,11 @@ def fire_truck(size: Size) -> Mesh:
     """Return an airport crash tender with a sloping glass front and a roof turret."""
     width, length, height = size.span_m, size.length_m, size.height_m
     low = 0.18 * height
-    hull = box(LIME, width, 0.74 * length, 0.74 * height).painted(_banded(LIME, RED, 0.28 * height))
+    hull = join([
+        box(RED, width, 0.74 * length, 0.28 * height),
+        box(LIME, width, 0.74 * length, 0.46 * height).moved(up_m=0.28 * height),
+        box(WHITE, 1.01 * width, 0.742 * length, 0.05 * height).moved(up_m=0.28 * height),
+    ])  # fmt: skip
     front = box(RED, width, 0.24 * length, 0.34 * height)
     glass = box(GLASS, 0.97 * width, 0.23 * length, 0.38 * height, 0.88)
     return join([
@@ -110,16 +118,3 @@ def _wheels(
             yield wheel(TYRE, radius, 0.25 * radius + 0.12).moved(
                 side * (0.5 * width - 0.1), part * length, radius
             )
-
-
-def _chequered(centres: Floats) -> Floats:
-    """Paint black and yellow squares; halves of a face are triangles, so the pattern is coarse."""
-    black = (centres[:, 0] > 0.0) == (centres[:, 2] > centres[:, 2].mean())
-    return np.where(black[:, None], np.asarray(BLACK), np.asarray(YELLOW))
-
-
-def _banded(upper: Colour, lower: Colour, at_m: float) -> Paint:
-    def paint(centres: Floats) -> Floats:
-        return np.where(centres[:, 2:] > at_m, np.asarray(upper), np.asarray(lower))
-
-    return paint

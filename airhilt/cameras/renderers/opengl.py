@@ -15,6 +15,7 @@ from airhilt.cameras.view import NEAR_M, Pose, View, Window
 from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
+LEAST_TILE_M = 250.0
 
 _AIR = """
 uniform vec3 airlight;
@@ -164,6 +165,28 @@ class _Body:
 
 
 @dataclass(frozen=True)
+class _Tile:
+    """Triangles of one part of the world, one after the other, and a ball about them."""
+
+    first: int
+    count: int
+    middle: npt.NDArray[np.float64]
+    radius_m: float
+
+    def may_be_in(self, view: View) -> bool:
+        """Return whether the ball reaches into the picture, or nearly."""
+        x, y, z = view.in_camera(self.middle)
+        if z < -self.radius_m:
+            return False
+        lens = view.intrinsics
+        for across, half_px in ((x, lens.width_px / 2.0), (y, lens.height_px / 2.0)):
+            slope = half_px / lens.focal_px
+            if abs(across) - slope * z > self.radius_m * np.hypot(1.0, slope):
+                return False
+        return True
+
+
+@dataclass(frozen=True)
 class _Canvas:
     """Where is drawn, for one size of pictures."""
 
@@ -201,11 +224,12 @@ class ModernGLRenderer:
         self._sky.repeat_x = False
         self._tallest_m = float(world.corners[..., 2].max())
         self._sky_array = context.vertex_array(self._sky_program, [])
+        order, self._tiles = _tiles(world)
         self._world = self._array(
             self._world_program,
             "3f 3f",
             ("in_place", "in_colour"),
-            _by_corner(world.corners, light.baked(world)),
+            _by_corner(world.corners, light.baked(world))[order],
         )
         self._set_light()
 
@@ -263,7 +287,9 @@ class ModernGLRenderer:
         near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
         self._world_program["projection"] = _columns(_projection(view, view.whole, near))
         self._world_program["eye"] = eye
-        self._world.render()
+        for tile in self._tiles:
+            if tile.may_be_in(view):
+                self._world.render(vertices=tile.count, first=tile.first)
         return canvas.read()
 
     def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
@@ -316,6 +342,30 @@ class ModernGLRenderer:
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
         buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32).tobytes())
         return self._context.vertex_array(program, [(buffer, layout, *names)])
+
+
+def _tiles(world: Mesh) -> tuple[npt.NDArray[np.intp], list[_Tile]]:
+    """Return an order of triangles in which those of one tile follow each other, and the tiles.
+
+    Large triangles, which reach over many tiles, are tiles of their own kind.
+    """
+    low, high = world.corners.min(axis=1), world.corners.max(axis=1)
+    size = np.max(high - low, axis=1)
+    level = np.ceil(np.log2(np.maximum(size, LEAST_TILE_M) / LEAST_TILE_M))
+    side = (LEAST_TILE_M * 2.0 ** (level + 1.0))[:, None]
+    cells = np.floor((low + high)[:, :2] / 2.0 / side)
+    keys = np.column_stack((level, cells))
+    _, number = np.unique(keys, axis=0, return_inverse=True)
+    order = np.argsort(number.reshape(-1), kind="stable")
+    counts = np.bincount(number.reshape(-1))
+    tiles, begin = [], 0
+    for count in counts:
+        mine = order[begin : begin + count]
+        bottom, top = low[mine].min(axis=0), high[mine].max(axis=0)
+        middle = (bottom + top).astype(np.float64) / 2.0
+        tiles.append(_Tile(3 * begin, 3 * int(count), middle, float(np.linalg.norm(top - middle))))
+        begin += int(count)
+    return order, tiles
 
 
 def _by_corner(corners: Floats, colours: Floats) -> Floats:
