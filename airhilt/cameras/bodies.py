@@ -29,7 +29,7 @@ GEAR_DOWN_BELOW_M = 600.0
 LANDING_LIGHTS_BELOW_M = 3048.0
 """FAA AIM 4-3-23: landing lights on below 10,000 ft."""
 WING_BEATS_HZ = 4.0
-"""Of a Canada goose: C. J. Pennycuick, Journal of Experimental Biology 150 (1990) 171-185, about."""
+"""Of a Canada goose, about: C. J. Pennycuick, Journal of Experimental Biology 150 (1990) 171."""
 STARLING_BEATS_HZ = 9.0
 
 

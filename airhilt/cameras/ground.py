@@ -97,17 +97,11 @@ def drop_m(distance_m: Floats | float) -> Floats:
     return np.asarray(beyond * beyond / (2.0 * EARTH_RADIUS_M))
 
 
-def cells(
-    inner_m: float, outer_m: float, count: int, seed: int, name: str
-) -> list[BaseGeometry]:
+def cells(inner_m: float, outer_m: float, count: int, seed: int, name: str) -> list[BaseGeometry]:
     """Return irregular pieces of a ring about the origin, smaller towards its middle."""
     draws = stream(seed, name)
     part = draws.uniform(size=count)
-    radii = (
-        inner_m * (outer_m / inner_m) ** part
-        if inner_m > 0.0
-        else outer_m * np.sqrt(part)
-    )
+    radii = inner_m * (outer_m / inner_m) ** part if inner_m > 0.0 else outer_m * np.sqrt(part)
     angles = draws.uniform(0.0, math.tau, size=count)
     points = MultiPoint(np.column_stack((radii * np.cos(angles), radii * np.sin(angles))))
     ring = Point(0.0, 0.0).buffer(outer_m, quad_segs=24)

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
+from shapely import Point
 
 from airhilt.cameras.light import Light
 from airhilt.cameras.mesh import Colour, Floats, srgb
@@ -15,7 +17,6 @@ from airhilt.cameras.view import NEAR_M, View
 from airhilt.flight.aircraft_type import AircraftType
 from airhilt.surface.layout import Layout
 from airhilt.surface.mover import Size
-from airhilt.surface.path import Local
 
 WHITE = srgb(255, 244, 224)
 GREEN = srgb(40, 255, 120)
@@ -93,8 +94,6 @@ def _runway_lamps(layout: Layout) -> Iterator[Lamp]:
 def _taxiway_lamps(layout: Layout) -> Iterator[Lamp]:
     nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
     runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
-    from shapely import Point
-
     for edge in layout.airport.taxiways.edges:
         start, end = (np.asarray(nodes[name]) for name in edge.nodes)
         length = float(np.hypot(*(end - start)))
@@ -110,7 +109,7 @@ def _taxiway_lamps(layout: Layout) -> Iterator[Lamp]:
 
 
 def _lamp(
-    place: Sequence[float] | Local | np.ndarray,  # type: ignore[type-arg]
+    place: npt.NDArray[np.float64],
     colour: Colour,
     candela: float,
     beam: tuple[float, float, float] | None = None,
@@ -150,7 +149,7 @@ def vehicle_lamps(size: Size, t_s: float) -> Iterator[Lamp]:
 
 
 def shine(
-    picture: np.ndarray,  # type: ignore[type-arg]
+    picture: npt.NDArray[np.uint8],
     distance_m: Floats,
     lamps: Sequence[Lamp],
     view: View,
@@ -170,10 +169,10 @@ def shine(
         ahead & (pixels[:, 0] >= 0) & (pixels[:, 0] < lens.width_px)
         & (pixels[:, 1] >= 0) & (pixels[:, 1] < lens.height_px)
     )  # fmt: skip
-    threshold = NIGHT_LUX ** light.darkness * DAY_LUX ** (1.0 - light.darkness)
+    threshold = NIGHT_LUX**light.darkness * DAY_LUX ** (1.0 - light.darkness)
     lux = np.array([lamp.candela for lamp in lamps]) / np.maximum(away, 1.0) ** 2
     lux *= np.exp(-light.extinction_per_m * away)
-    for index in np.flatnonzero(seen):
+    for index in np.flatnonzero(seen).tolist():
         lamp = lamps[index]
         column, row = pixels[index]
         if distance_m[int(row), int(column)] < away[index] - 1.5:
@@ -192,7 +191,7 @@ def _towards(lamp: Lamp, view: View, place: Floats, away: float) -> float:
 
 
 def _splat(
-    picture: np.ndarray,  # type: ignore[type-arg]
+    picture: npt.NDArray[np.uint8],
     column: float,
     row: float,
     strength: float,

@@ -142,7 +142,7 @@ class Light:
             near = np.flatnonzero(apart < 0.3)
             lobes = np.exp(-GLARE * apart[near]) + 20.0 * np.exp(-DISC * apart[near])
             colours[:, near] += self.glare[:, None] * lobes
-        return colours
+        return np.asarray(colours)
 
     def shade(self, colours: Floats, normals: Floats, sunlit: Floats | float = 1.0) -> Floats:
         """Return the light that matt surfaces send back, shape (n, 3)."""
@@ -184,5 +184,5 @@ def encode(linear: Floats) -> npt.NDArray[np.uint8]:
     pixels = np.empty((linear.shape[1], 3), dtype=np.uint8)
     for channel, light in enumerate(linear):
         levels = np.minimum(light * np.float32(LEVELS), np.float32(LEVELS - 1)).astype(np.uint16)
-        pixels[:, channel] = _ENCODED.take(levels)
+        pixels[:, channel] = _ENCODED.take(levels, mode="clip")
     return pixels

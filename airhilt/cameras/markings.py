@@ -157,7 +157,9 @@ def _character(character: str, left: float, foot: float) -> BaseGeometry:
 
 def taxiway_lines(legs: Sequence[tuple[Local, Local]]) -> BaseGeometry:
     """Return the yellow centre lines of taxiways."""
-    return unary_union([LineString(leg).buffer(TAXI_LINE_M / 2.0, cap_style="flat") for leg in legs])
+    return unary_union(
+        [LineString(leg).buffer(TAXI_LINE_M / 2.0, cap_style="flat") for leg in legs]
+    )
 
 
 def hold_lines(hold: Hold, frame: LocalFrame, width_m: float) -> list[BaseGeometry]:

@@ -114,9 +114,7 @@ def _of_airport(given: AirportCamera, frame: LocalFrame) -> Camera:
 def _declared(
     declared: DeclaredCamera, setting: Setting, frame: LocalFrame, models: Mapping[str, Model]
 ) -> Camera:
-    lens = Intrinsics(
-        declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE
-    )
+    lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
     match declared.mount:
         case FixedMount() as fixed:
             east, north = frame.to_local(setting.place(fixed.position))

@@ -20,8 +20,10 @@ from dataclasses import asdict
 from typing import IO, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from airhilt.cameras.bodies import BodyState
+from airhilt.cameras.mesh import Floats
 from airhilt.cameras.mounts import Camera, cameras_of, find_camera
 from airhilt.cameras.outline import Box
 from airhilt.cameras.renderers import RendererName
@@ -30,6 +32,8 @@ from airhilt.errors import AirhiltError, CameraError, RendererError, ScenarioErr
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
 
+Planes = tuple[npt.NDArray[np.uint8], npt.NDArray[np.uint8], Floats]
+"""Colour, instance, distance."""
 BYTES_PER_PIXEL = 3 + 1 + 4
 """Colour, instance, distance."""
 TOLD = {error.__name__: error for error in (CameraError, RendererError, ScenarioError)}
@@ -142,7 +146,7 @@ class RemoteStudio:
         """Of the other process."""
         return self._process.pid
 
-    def _planes(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+    def _planes(self, name: str) -> Planes:
         return planes(self._pixels, self._places[name], self._cameras[name])
 
     def _start(self) -> tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]]:
@@ -217,9 +221,7 @@ def camera_bytes(camera: Camera) -> int:
     return camera.intrinsics.width_px * camera.intrinsics.height_px * BYTES_PER_PIXEL
 
 
-def planes(
-    pixels: mmap.mmap, place: int, camera: Camera
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+def planes(pixels: mmap.mmap, place: int, camera: Camera) -> Planes:
     """Return colour, instance and distance of a camera's picture, as they lie in the file."""
     rows, columns = camera.intrinsics.height_px, camera.intrinsics.width_px
     count = rows * columns

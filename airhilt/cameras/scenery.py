@@ -199,4 +199,3 @@ def shadow(outline: BaseGeometry, height_m: float, away: tuple[float, float]) ->
     """Return the ground in the shadow of a block; ``away`` is metres of shadow a metre high."""
     moved = shapely.affinity.translate(outline, away[0] * height_m, away[1] * height_m)
     return shapely.union(outline, moved).convex_hull
-

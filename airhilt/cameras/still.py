@@ -45,9 +45,7 @@ def still(
                 if performer.body.ended is None:
                     performer.body.advance()
         frame = frame_of(setting)
-        bodies = [
-            state_of(performer, frame, setting.ground_m, at_s) for performer in cast.values()
-        ]
+        bodies = [state_of(performer, frame, setting.ground_m, at_s) for performer in cast.values()]
         return studio.shoot([camera], bodies, seconds_to_ns(at_s))[0]
 
 

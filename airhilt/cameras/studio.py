@@ -187,9 +187,7 @@ class Studio:
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
         lamps = self._lamps(there, poses, t_ns)
-        return [
-            self._picture(self._cameras[name], there, poses, lamps, t_ns) for name in names
-        ]
+        return [self._picture(self._cameras[name], there, poses, lamps, t_ns) for name in names]
 
     # --- one picture ----------------------------------------------------------------------
 
@@ -227,7 +225,7 @@ class Studio:
             self._streaks[camera.name].fall(colour, self._taken[camera.name], bright)
         self._taken[camera.name] += 1
         number = self._numbers.get(own.actor) if own is not None else None
-        sightings = self._sightings(layers, view, number)
+        sightings = self._sightings(layers, number)
         return Frame(camera.name, t_ns, view, colour, distance, instance, sightings)
 
     def _background(self, camera: Camera, view: View) -> Samples:
@@ -243,9 +241,7 @@ class Studio:
             kept = self._backgrounds[camera.name] = Samples(picture, kept.distance_m)
         return kept
 
-    def _layer(
-        self, body: BodyState, pose: Pose, view: View, behind_m: Floats
-    ) -> _Layer | None:
+    def _layer(self, body: BodyState, pose: Pose, view: View, behind_m: Floats) -> _Layer | None:
         """Return a body as it stands before the world, None if it is not in the picture."""
         shape = self._shape(body)
         whole = self._outlines[shape].box(pose, view)
@@ -362,9 +358,7 @@ class Studio:
             others.extend(self._world.lamps)
         shine(colour, distance, others, view, self._light)
 
-    def _sightings(
-        self, layers: Sequence[_Layer], view: View, own: int | None
-    ) -> tuple[Sighting, ...]:
+    def _sightings(self, layers: Sequence[_Layer], own: int | None) -> tuple[Sighting, ...]:
         """Return what is true of each body; layers are in order, the nearest last."""
         found = []
         for index, layer in enumerate(layers):
@@ -399,7 +393,7 @@ def _fineness(window: Window) -> int:
 
 
 def _resolved(drawn: Samples, samples: int) -> Samples:
-    """Return the pixels of samples: mean colours, and the distance of one sample near the middle."""
+    """Return the pixels of samples: their mean colours, and the distance of one in the middle."""
     if samples == 1:
         return drawn
     rows, columns = (side // samples for side in drawn.distance_m.shape)

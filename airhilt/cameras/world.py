@@ -228,7 +228,9 @@ class _Airport:
         ]
         around = [block.outline.buffer(38.0, join_style="mitre") for block in self._blocks]
         joined = unary_union([*stands, *around]).buffer(60.0).buffer(-60.0)
-        keep_off = unary_union([strip.pavement.buffer(60.0) for strip in self._layout.strips.values()])
+        keep_off = unary_union(
+            [strip.pavement.buffer(60.0) for strip in self._layout.strips.values()]
+        )
         return joined.difference(keep_off)
 
     def _shadows(self) -> BaseGeometry:
@@ -259,13 +261,11 @@ def _base() -> Mesh:
     return Mesh.of(vertices, faces, GRASS)
 
 
-def _pick(colours: tuple[tuple[float, float, float], ...], draws: np.random.Generator) -> tuple[
-    float, float, float
-]:
+def _pick(
+    colours: tuple[tuple[float, float, float], ...], draws: np.random.Generator
+) -> tuple[float, float, float]:
     return colours[int(draws.integers(len(colours)))]
 
 
 def _seed(name: str) -> int:
     return zlib.crc32(name.encode())
-
-

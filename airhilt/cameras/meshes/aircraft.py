@@ -378,7 +378,10 @@ class _Aircraft:
         out = 0.17 * self._half_span if self._is_jet else 0.24 * self._half_span
         legs = [(0.0, nose_at), (out, main_at), (-out, main_at)]
         if self._is_heavy:
-            legs += [(0.06 * self._half_span, main_at - 3.0), (-0.06 * self._half_span, main_at - 3)]
+            legs += [
+                (0.06 * self._half_span, main_at - 3.0),
+                (-0.06 * self._half_span, main_at - 3),
+            ]
         parts = []
         for right, at in legs:
             top = self._axis - 0.5 * self._radius

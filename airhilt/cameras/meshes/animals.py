@@ -99,7 +99,11 @@ def _quadruped(
     parts.append(
         tube(
             (0.0, middle - 0.5 * trunk, top + 0.3 * deep),
-            (0.0, middle - 0.5 * trunk - max(tail, 0.05) * length, top - (0.5 if tail > 0.1 else 0.1) * deep),
+            (
+                0.0,
+                middle - 0.5 * trunk - max(tail, 0.05) * length,
+                top - (0.5 if tail > 0.1 else 0.1) * deep,
+            ),
             (0.12 * deep, 0.3 * deep),
             under if antlers else coat,
             7,

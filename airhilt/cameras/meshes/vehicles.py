@@ -110,9 +110,7 @@ def block(size: Size, colour: Colour = WHITE) -> Mesh:
     ])  # fmt: skip
 
 
-def _wheels(
-    along: tuple[float, ...], width: float, length: float, radius: float
-) -> Iterator[Mesh]:
+def _wheels(along: tuple[float, ...], width: float, length: float, radius: float) -> Iterator[Mesh]:
     for part in along:
         for side in (-1.0, 1.0):
             yield wheel(TYRE, radius, 0.25 * radius + 0.12).moved(

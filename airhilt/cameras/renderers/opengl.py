@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +17,7 @@ from airhilt.cameras.view import NEAR_M, Pose, View, Window
 from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
-LEAST_TILE_M = 250.0
+LEAST_TILE_M = 700.0
 
 _AIR = """
 uniform vec3 airlight;
@@ -64,7 +66,7 @@ out vec3 towards;
 void main() {
     vec2 place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     towards = corners * vec3(place, 1.0);
-    gl_Position = vec4(place, 0.0, 1.0);
+    gl_Position = vec4(place, 1.0, 1.0);
 }
 """
 _SKY_FRAGMENT = (
@@ -165,25 +167,31 @@ class _Body:
 
 
 @dataclass(frozen=True)
-class _Tile:
-    """Triangles of one part of the world, one after the other, and a ball about them."""
+class _Tiles:
+    """Parts of the world in the order in which they are drawn, and a ball about each.
 
-    first: int
-    count: int
-    middle: npt.NDArray[np.float64]
-    radius_m: float
+    Attributes
+    ----------
+    bounds
+        Number of the first corner of each part, and after the last.
+    """
 
-    def may_be_in(self, view: View) -> bool:
-        """Return whether the ball reaches into the picture, or nearly."""
-        x, y, z = view.in_camera(self.middle)
-        if z < -self.radius_m:
-            return False
+    bounds: npt.NDArray[np.intp]
+    middles: npt.NDArray[np.float64]
+    radii_m: npt.NDArray[np.float64]
+
+    def seen_in(self, view: View) -> Iterator[tuple[int, int]]:
+        """Yield first corners and numbers of corners of what may reach into a picture."""
+        x, y, z = view.in_camera(self.middles).T
         lens = view.intrinsics
+        seen = z > -self.radii_m
         for across, half_px in ((x, lens.width_px / 2.0), (y, lens.height_px / 2.0)):
             slope = half_px / lens.focal_px
-            if abs(across) - slope * z > self.radius_m * np.hypot(1.0, slope):
-                return False
-        return True
+            seen &= np.abs(across) - slope * z <= self.radii_m * math.hypot(1.0, slope)
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], seen, [False]))))
+        for begin, end in edges.reshape(-1, 2):
+            first = int(self.bounds[begin])
+            yield first, int(self.bounds[end]) - first
 
 
 @dataclass(frozen=True)
@@ -193,13 +201,17 @@ class _Canvas:
     frame: Any
     size: tuple[int, int]
 
+    def covered(self) -> npt.NDArray[np.bool_]:
+        """Return where something has been drawn."""
+        red = np.frombuffer(self.frame.read(components=1, alignment=1), dtype=np.uint8)
+        return np.asarray(red.reshape(self.size[::-1]) > 0)
+
     def read(self) -> Samples:
+        """Return what has been drawn."""
         width, height = self.size
         colour = np.frombuffer(self.frame.read(components=4), dtype=np.uint8)
         distance = np.frombuffer(self.frame.read(components=1, attachment=1, dtype="f4"), "f4")
-        return Samples(
-            colour.reshape(height, width, 4)[..., :3], distance.reshape(height, width)
-        )
+        return Samples(colour.reshape(height, width, 4)[..., :3], distance.reshape(height, width))
 
 
 class ModernGLRenderer:
@@ -280,16 +292,16 @@ class ModernGLRenderer:
         half = lens.width_px / 2.0 / lens.focal_px, lens.height_px / 2.0 / lens.focal_px
         right, down, ahead = view.axes.T
         corners = np.column_stack((right * half[0], down * half[1], ahead))
-        self._context.disable(self._context.DEPTH_TEST)
-        self._sky_program["corners"] = _columns(corners)
-        self._sky_array.render(vertices=3)
         self._context.enable(self._context.DEPTH_TEST)
+        self._context.depth_func = "<="
         near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
         self._world_program["projection"] = _columns(_projection(view, view.whole, near))
         self._world_program["eye"] = eye
-        for tile in self._tiles:
-            if tile.may_be_in(view):
-                self._world.render(vertices=tile.count, first=tile.first)
+        for first, count in self._tiles.seen_in(view):
+            self._world.render(vertices=count, first=first)
+        # Last, and as far as can be: only where nothing else is.
+        self._sky_program["corners"] = _columns(corners)
+        self._sky_array.render(vertices=3)
         return canvas.read()
 
     def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
@@ -320,7 +332,7 @@ class ModernGLRenderer:
         program["place"] = pose.position_m
         program["eye"] = view.pose.position_m
         self._bodies[shape].shadow.render()
-        return np.asarray(canvas.read().colour[..., 0] > 0)
+        return canvas.covered()
 
     def _canvas(self, window: Window, samples: int) -> _Canvas:
         """Return a cleared canvas for a window; the last of each size is kept."""
@@ -340,32 +352,34 @@ class ModernGLRenderer:
         return canvas
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
-        buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32).tobytes())
-        return self._context.vertex_array(program, [(buffer, layout, *names)])
+        """Return triangles for drawing; corners that are alike are stored, and lit, once."""
+        corners = np.ascontiguousarray(data, dtype=np.float32).reshape(-1, data.shape[2])
+        rows = corners.view(np.dtype((np.void, corners.itemsize * corners.shape[1]))).reshape(-1)
+        _, first, number = np.unique(rows, return_index=True, return_inverse=True)
+        # In the order of their use, for the sake of the caches.
+        rank = np.empty(len(first), dtype=np.uint32)
+        rank[np.argsort(first)] = np.arange(len(first), dtype=np.uint32)
+        buffer = self._context.buffer(corners[np.sort(first)].tobytes())
+        indices = self._context.buffer(rank[number.reshape(-1)].tobytes())
+        return self._context.vertex_array(program, [(buffer, layout, *names)], indices)
 
 
-def _tiles(world: Mesh) -> tuple[npt.NDArray[np.intp], list[_Tile]]:
+def _tiles(world: Mesh) -> tuple[npt.NDArray[np.intp], _Tiles]:
     """Return an order of triangles in which those of one tile follow each other, and the tiles.
 
-    Large triangles, which reach over many tiles, are tiles of their own kind.
+    Large triangles, which reach over many tiles, are in tiles of their own size.
     """
     low, high = world.corners.min(axis=1), world.corners.max(axis=1)
     size = np.max(high - low, axis=1)
     level = np.ceil(np.log2(np.maximum(size, LEAST_TILE_M) / LEAST_TILE_M))
-    side = (LEAST_TILE_M * 2.0 ** (level + 1.0))[:, None]
-    cells = np.floor((low + high)[:, :2] / 2.0 / side)
-    keys = np.column_stack((level, cells))
-    _, number = np.unique(keys, axis=0, return_inverse=True)
+    cells = np.floor((low + high)[:, :2] / 2.0 / (LEAST_TILE_M * 2.0**level)[:, None])
+    _, number = np.unique(np.column_stack((level, cells)), axis=0, return_inverse=True)
     order = np.argsort(number.reshape(-1), kind="stable")
-    counts = np.bincount(number.reshape(-1))
-    tiles, begin = [], 0
-    for count in counts:
-        mine = order[begin : begin + count]
-        bottom, top = low[mine].min(axis=0), high[mine].max(axis=0)
-        middle = (bottom + top).astype(np.float64) / 2.0
-        tiles.append(_Tile(3 * begin, 3 * int(count), middle, float(np.linalg.norm(top - middle))))
-        begin += int(count)
-    return order, tiles
+    starts = np.concatenate(([0], np.cumsum(np.bincount(number.reshape(-1)))))
+    bottom = np.minimum.reduceat(low[order], starts[:-1]).astype(np.float64)
+    top = np.maximum.reduceat(high[order], starts[:-1]).astype(np.float64)
+    middles = (bottom + top) / 2.0
+    return order, _Tiles(3 * starts, middles, np.linalg.norm(top - middles, axis=1))
 
 
 def _by_corner(corners: Floats, colours: Floats) -> Floats:
@@ -401,15 +415,15 @@ def _columns(matrix: npt.NDArray[np.float64]) -> tuple[float, ...]:
 
 
 def _open_context() -> Any:
-    remedy = (
-        "pip install 'airhilt[moderngl]' and apt install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
-    )
+    libraries = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
+    remedy = f"pip install 'airhilt[moderngl]' and apt install {libraries}"
     try:
         import moderngl
     except ImportError:
         raise RendererError(f"the renderer moderngl is not installed: {remedy}") from None
+    create: Any = moderngl.create_standalone_context
     try:
-        return moderngl.create_standalone_context(backend="egl")
+        return create(backend="egl")
     except Exception as error:  # of any class, by what of EGL is missing
         raise RendererError(
             f"the renderer moderngl finds no EGL: {remedy} ({first_line(error)})"

@@ -8,7 +8,7 @@ distance follows from the plane. Only the other pixels cost rays of their own.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ from airhilt.errors import RendererError, first_line
 
 THREADS = 1
 """Of a cast: runs share a machine with each other."""
+Number = TypeVar("Number", bound=np.generic)
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -67,12 +68,13 @@ class Open3DRenderer:
             pieces = self._pieces_at(view, directions.reshape(3, -1))
         towards = directions.reshape(3, -1)
         normals, heights = self._planes_from(view)
-        slope = normals[0].take(pieces) * towards[0]
-        slope += normals[1].take(pieces) * towards[1]
-        slope += normals[2].take(pieces) * towards[2]
+        slope = _of(normals[0], pieces) * towards[0]
+        slope += _of(normals[1], pieces) * towards[1]
+        slope += _of(normals[2], pieces) * towards[2]
         with np.errstate(divide="ignore"):
-            distance = heights.take(pieces) / slope
-        colour = self._light.through_air(self._colours.take(pieces, axis=1), distance)
+            distance = np.divide(_of(heights, pieces), slope, out=slope)
+        colour = np.stack([_of(channel, pieces) for channel in self._colours])
+        self._light.through_air(colour, distance)
         sky = np.flatnonzero(pieces == MISSED)
         colour[:, sky] = self._light.sky_towards(towards[:, sky])
         return Samples(encode(colour).reshape(*shape, 3), distance.reshape(shape))
@@ -113,7 +115,9 @@ class Open3DRenderer:
         position = np.asarray(view.pose.position_m, dtype=np.float64)
         away = -position[2] / towards[:, 2]
         ground = position + towards * away[:, None] - np.asarray(pose.position_m)
-        sun = np.broadcast_to((self._light.sun @ pose.rotation)[:, None], (3, len(ground)))
+        sun = np.broadcast_to(
+            (self._light.sun @ pose.rotation).astype(np.float32)[:, None], (3, len(ground))
+        )
         tensor = self._open3d.core.Tensor.from_numpy(_rays(ground @ pose.rotation, sun))
         scene = self._bodies[shape].scene
         shaded[below] = scene.test_occlusions(tensor, nthreads=THREADS).numpy()
@@ -144,7 +148,7 @@ class Open3DRenderer:
         answer = self._cast(self._world, _rays(np.asarray(view.pose.position_m), directions))
         # Open3D marks a miss with the greatest number, which wraps to the entry before the first.
         faces = answer["primitive_ids"].numpy().view(np.int32)
-        return self._piece_of.take(faces + 1)
+        return _of(self._piece_of, faces + 1)
 
     def _planes_from(self, view: View) -> tuple[Floats, Floats]:
         """Return normals of all planes, and their heights above the camera's place."""
@@ -161,6 +165,11 @@ class Open3DRenderer:
 
     def _cast(self, scene: Any, rays: Floats) -> Any:
         return scene.cast_rays(self._open3d.core.Tensor.from_numpy(rays), nthreads=THREADS)
+
+
+def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.int32]) -> npt.NDArray[Number]:
+    """Return entries of a table; clipping spares NumPy a look at each before."""
+    return table.take(entries, mode="clip")
 
 
 def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
