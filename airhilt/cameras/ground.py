@@ -24,12 +24,22 @@ GRID_M = 0.01
 
 @dataclass(frozen=True)
 class Layer:
-    """An area of one colour; ``mottle`` varies it from piece to piece."""
+    """An area of one colour, or of cells that vary from one to the next.
+
+    Attributes
+    ----------
+    colours
+        Of which each cell has one.
+    cells
+        That cover the area and do not overlap; none: all of it is one.
+    mottle
+        Greatest part by which a cell is lighter or darker.
+    """
 
     area: BaseGeometry
-    colour: Colour
+    colours: tuple[Colour, ...]
+    cells: tuple[BaseGeometry, ...] = ()
     mottle: float = 0.0
-    glow: float = 0.0
 
 
 def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
@@ -39,15 +49,20 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
     draws = stream(seed, "ground")
     pieces: list[Mesh] = []
     for layer in layers:
-        area = shapely.difference(layer.area, taken, grid_size=GRID_M)
-        if area.is_empty:
-            continue
+        left = shapely.difference(layer.area, taken, grid_size=GRID_M)
         taken = shapely.union(taken, layer.area, grid_size=GRID_M)
-        change = 1.0 + layer.mottle * float(draws.uniform(-1.0, 1.0))
-        red, green, blue = (part * change for part in layer.colour)
-        colour = red, green, blue
-        for part, sunlit in _split(area, shadows):
-            pieces.append(_triangles(part, colour, sunlit, layer.glow))
+        shapely.prepare(left)
+        for cell in layer.cells or (left,):
+            piece = left
+            if layer.cells:
+                piece = shapely.intersection(left, cell, grid_size=GRID_M)
+            if piece.is_empty:
+                continue
+            colour = layer.colours[int(draws.integers(len(layer.colours)))]
+            change = 1.0 + layer.mottle * float(draws.uniform(-1.0, 1.0))
+            red, green, blue = (part * change for part in colour)
+            for part, sunlit in _split(piece, shadows):
+                pieces.append(_triangles(part, (red, green, blue), sunlit))
     return join(pieces)
 
 
@@ -64,7 +79,7 @@ def _split(area: BaseGeometry, shadows: BaseGeometry) -> Iterator[tuple[BaseGeom
             yield part, sunlit
 
 
-def _triangles(area: BaseGeometry, colour: Colour, sunlit: float, glow: float) -> Mesh:
+def _triangles(area: BaseGeometry, colour: Colour, sunlit: float) -> Mesh:
     polygons = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon"]
     faces = [shapely.constrained_delaunay_triangles(polygon) for polygon in polygons]
     corners = [
@@ -86,7 +101,7 @@ def _triangles(area: BaseGeometry, colour: Colour, sunlit: float, glow: float) -
         flat.astype(np.float32),
         up,
         np.tile(np.asarray(colour, dtype=np.float32), (count, 1)),
-        np.full(count, glow, dtype=np.float32),
+        np.zeros(count, dtype=np.float32),
         np.full(count, sunlit, dtype=np.float32),
     )
 
@@ -97,19 +112,28 @@ def drop_m(distance_m: Floats | float) -> Floats:
     return np.asarray(beyond * beyond / (2.0 * EARTH_RADIUS_M))
 
 
-def cells(inner_m: float, outer_m: float, count: int, seed: int, name: str) -> list[BaseGeometry]:
-    """Return irregular pieces of a ring about the origin, smaller towards its middle."""
+def ring(inner_m: float, outer_m: float) -> BaseGeometry:
+    """Return the ground between two distances from the origin."""
+    outer = Point(0.0, 0.0).buffer(outer_m, quad_segs=24)
+    if inner_m <= 0.0:
+        return outer
+    return outer.difference(Point(0.0, 0.0).buffer(inner_m, quad_segs=24))
+
+
+def cells(
+    inner_m: float, outer_m: float, count: int, seed: int, name: str
+) -> tuple[BaseGeometry, ...]:
+    """Return irregular cells that cover a ring about the origin, smaller towards its middle."""
     draws = stream(seed, name)
     part = draws.uniform(size=count)
-    radii = inner_m * (outer_m / inner_m) ** part if inner_m > 0.0 else outer_m * np.sqrt(part)
+    if inner_m > 0.0:
+        radii = inner_m * (outer_m / inner_m) ** part
+    else:
+        radii = outer_m * np.sqrt(part)
     angles = draws.uniform(0.0, math.tau, size=count)
     points = MultiPoint(np.column_stack((radii * np.cos(angles), radii * np.sin(angles))))
-    ring = Point(0.0, 0.0).buffer(outer_m, quad_segs=24)
-    if inner_m > 0.0:
-        ring = ring.difference(Point(0.0, 0.0).buffer(inner_m, quad_segs=24))
-    found = shapely.get_parts(shapely.voronoi_polygons(points, extend_to=ring))
-    pieces = (cell.intersection(ring) for cell in found)
-    return [piece for piece in pieces if not piece.is_empty]
+    around = ring(0.0, outer_m)
+    return tuple(shapely.get_parts(shapely.voronoi_polygons(points, extend_to=around)))
 
 
 def require_triangulation() -> None:

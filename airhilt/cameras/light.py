@@ -25,18 +25,22 @@ LOWEST_SKY = -0.25
 LEVELS = 4096
 """Of linear light that are told apart when it is encoded."""
 GLARE = 24.0
-"""Sharpness of the bright sky about the sun; the sun itself is sharper by the next."""
+"""Sharpness of the bright sky about the sun, by day and in twilight; and of the sun itself."""
+TWILIGHT_GLARE = 3.5
 DISC = 9000.0
+GLARE_ENDS = 7.0
+"""Over the sharpness: nothing is left there."""
+AFTERGLOW = (0.5, 0.19, 0.05)
 
 # Elevation of the sun in degrees; linear colours of zenith, horizon, direct light, diffuse light.
 _HOURS = (
     (-18.0, (0.0008, 0.0012, 0.003), (0.003, 0.0038, 0.006), (0, 0, 0), (0.004, 0.005, 0.008)),
-    (-9.0, (0.003, 0.006, 0.018), (0.02, 0.022, 0.034), (0, 0, 0), (0.012, 0.015, 0.026)),
-    (-4.0, (0.014, 0.03, 0.085), (0.16, 0.11, 0.1), (0, 0, 0), (0.045, 0.055, 0.085)),
-    (0.0, (0.045, 0.09, 0.21), (0.42, 0.29, 0.22), (0.2, 0.09, 0.03), (0.12, 0.14, 0.19)),
-    (6.0, (0.075, 0.16, 0.36), (0.55, 0.5, 0.46), (0.75, 0.5, 0.28), (0.2, 0.24, 0.31)),
-    (20.0, (0.085, 0.2, 0.46), (0.6, 0.67, 0.74), (1.05, 0.92, 0.74), (0.28, 0.34, 0.43)),
-    (60.0, (0.075, 0.19, 0.47), (0.62, 0.7, 0.79), (1.2, 1.1, 0.97), (0.32, 0.38, 0.47)),
+    (-9.0, (0.003, 0.006, 0.018), (0.016, 0.02, 0.036), (0, 0, 0), (0.012, 0.015, 0.026)),
+    (-4.0, (0.014, 0.03, 0.085), (0.1, 0.105, 0.15), (0, 0, 0), (0.04, 0.05, 0.085)),
+    (0.0, (0.045, 0.09, 0.21), (0.3, 0.27, 0.29), (0.2, 0.09, 0.03), (0.12, 0.14, 0.19)),
+    (6.0, (0.075, 0.16, 0.36), (0.52, 0.5, 0.48), (0.62, 0.42, 0.25), (0.18, 0.21, 0.27)),
+    (20.0, (0.08, 0.19, 0.45), (0.57, 0.64, 0.72), (0.84, 0.75, 0.61), (0.23, 0.28, 0.35)),
+    (60.0, (0.07, 0.18, 0.46), (0.58, 0.66, 0.75), (0.92, 0.85, 0.75), (0.26, 0.31, 0.38)),
 )
 """Drawn by eye after photographs; the sun is worth about three times the blue sky at noon."""
 
@@ -126,10 +130,27 @@ class Light:
         veil = np.maximum(veil, 1.0 - np.exp(-depth / np.maximum(sine, 0.02)) ** 0.35)
         return np.asarray(zenith + (horizon - zenith) * veil[:, None], dtype=np.float32)
 
+    @property
+    def _twilight(self) -> float:
+        """1 with the sun on the horizon, 0 with it 9 degrees above or below."""
+        return max(1.0 - abs(math.degrees(self.sun_elevation_rad)) / 9.0, 0.0)
+
     @cached_property
     def glare(self) -> Floats:
         """Colour that is added about the sun."""
-        return np.asarray(0.5 * self.direct * (1.0 - self.overcast), dtype=np.float32)
+        afterglow = self._twilight * np.array(AFTERGLOW)
+        glare = (0.5 * self.direct + afterglow) * (1.0 - self.overcast)
+        return np.asarray(glare, dtype=np.float32)
+
+    @property
+    def glare_sharpness(self) -> float:
+        """How fast that fades away from the sun: the afterglow is wide."""
+        return GLARE + self._twilight * (TWILIGHT_GLARE - GLARE)
+
+    @property
+    def disc(self) -> float:
+        """Brightness of the sun itself against the glare."""
+        return 20.0 if self.sun[2] > 0.0 else 0.0
 
     def sky_towards(self, directions: Floats) -> Floats:
         """Return the colours of the sky in some directions; both of shape (3, n)."""
@@ -139,8 +160,9 @@ class Light:
         if self.glare.max() > 0.0:
             x, y, z = self.sun.astype(np.float32)
             apart = np.float32(1.0) - (x * east + y * north + z * up)
-            near = np.flatnonzero(apart < 0.3)
-            lobes = np.exp(-GLARE * apart[near]) + 20.0 * np.exp(-DISC * apart[near])
+            near = np.flatnonzero(apart < GLARE_ENDS / self.glare_sharpness)
+            lobes = np.exp(-self.glare_sharpness * apart[near])
+            lobes += self.disc * np.exp(-DISC * apart[near])
             colours[:, near] += self.glare[:, None] * lobes
         return np.asarray(colours)
 

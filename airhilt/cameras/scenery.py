@@ -19,13 +19,13 @@ from airhilt.sim.streams import stream
 CONCRETE = srgb(196, 192, 184)
 PLASTER = srgb(214, 208, 196)
 ROOF = srgb(142, 142, 144)
-WINDOW = srgb(52, 68, 84)
+WINDOW = srgb(74, 72, 70)
 TOWER_WHITE = srgb(224, 224, 220)
 TREE_GREENS = (srgb(52, 80, 40), srgb(66, 92, 44), srgb(44, 70, 42), srgb(84, 100, 52))
 HOUSES = (srgb(170, 150, 130), srgb(190, 184, 172), srgb(150, 110, 92), srgb(204, 200, 196))
 CLOUD = srgb(236, 238, 242)
 STOREY_M = 4.5
-LIT_WINDOW = 5.0
+LIT_WINDOW = 3.0
 """Light from windows at night, against their reflectance."""
 
 
@@ -115,13 +115,13 @@ def clouds(base_m: float, reach_m: float, count: int, seed: int) -> Mesh:
     """Return fair-weather cumulus with a flat base at some height."""
     draws = stream(seed, "clouds")
     found = []
-    puff = ellipsoid(CLOUD, 1.0, 1.0, 1.0, 12, 7)
+    puff = ellipsoid(CLOUD, 1.0, 1.0, 1.0, 10, 6)
     for _ in range(count):
         distance = reach_m * math.sqrt(float(draws.uniform(0.002, 1.0)))
         angle = float(draws.uniform(0.0, math.tau))
         east, north = distance * math.sin(angle), distance * math.cos(angle)
         size = float(draws.uniform(220.0, 620.0))
-        for _ in range(int(draws.integers(4, 8))):
+        for _ in range(int(draws.integers(3, 6))):
             wide = size * float(draws.uniform(0.35, 0.75))
             aside = draws.normal(size=2) * 0.55 * size
             tall = wide * float(draws.uniform(0.35, 0.6))

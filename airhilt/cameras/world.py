@@ -14,10 +14,10 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from airhilt.cameras import markings, scenery
-from airhilt.cameras.ground import Layer, cells, require_triangulation, sheet
+from airhilt.cameras.ground import Layer, cells, require_triangulation, ring, sheet
 from airhilt.cameras.lamps import Lamp, airport_lamps
 from airhilt.cameras.light import Light
-from airhilt.cameras.mesh import Mesh, join, srgb
+from airhilt.cameras.mesh import Colour, Mesh, join, srgb
 from airhilt.errors import CameraError
 from airhilt.surface.layout import Layout
 
@@ -36,6 +36,7 @@ LAND = (srgb(96, 112, 62), srgb(78, 98, 56), srgb(112, 112, 80), srgb(128, 124, 
 FIELDS = (srgb(104, 122, 66), srgb(132, 128, 80), srgb(72, 94, 56), srgb(150, 138, 96),
           srgb(88, 110, 60), srgb(56, 80, 52), srgb(122, 104, 78))  # fmt: skip
 APRON_REACH_M = 48.0
+HOLD_WIDTH_M = 22.0
 NEAR_M = 7000.0
 FAR_M = 70_000.0
 HORIZON_M = 420_000.0
@@ -107,12 +108,9 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
     """Return land without an airport, with a layer of clouds below some height."""
     require_triangulation()
     seed = _seed(name)
-    near = cells(0.0, 26_000.0, 420, seed, "fields")
-    far = cells(26_000.0, HORIZON_M, 420, seed, "far fields")
-    draws = np.random.default_rng(seed)
     layers = [
-        Layer(cell, WATER if draws.uniform() < 0.03 else _pick(FIELDS, draws), 0.12)
-        for cell in (*near, *far)
+        _land(0.0, 26_000.0, 420, (*FIELDS, *FIELDS, WATER), seed, "fields"),
+        _land(26_000.0, HORIZON_M, 420, (*FIELDS, *FIELDS, WATER), seed, "far fields"),
     ]
     parts = [sheet(layers, Polygon(), seed), _base()]
     woods = scenery.trees(scenery.scattered(300.0, 9000.0, 500, Polygon(), seed, "woods"), seed)
@@ -121,7 +119,7 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
     tallest = 60.0
     if cloud_tops_m is not None and light.overcast < 0.7:
         base = 0.72 * cloud_tops_m
-        parts.append(scenery.clouds(base, 30_000.0, 70, seed))
+        parts.append(scenery.clouds(base, 25_000.0, 40, seed))
         tallest = cloud_tops_m
     return World(join(parts), (), (), tallest)
 
@@ -133,7 +131,6 @@ class _Airport:
         self._frame = layout.frame
         self._light = light
         self._seed = _seed(layout.airport.icao)
-        self._draws = np.random.default_rng(self._seed)
         to_local = layout.frame.to_local
         nodes = {node.name: to_local(node.place) for node in self._airport.taxiways.nodes}
         self._legs = [
@@ -180,45 +177,34 @@ class _Airport:
 
     def _layers(self) -> Iterator[Layer]:
         layout = self._layout
-        for strip in layout.strips.values():
-            yield Layer(markings.runway_paint(strip, self._frame), PAINT)
+        paint = [markings.runway_paint(strip, self._frame) for strip in layout.strips.values()]
+        yield Layer(unary_union(paint), (PAINT,))
         holds = [
             mark
             for hold in layout.holds.values()
-            for mark in markings.hold_lines(hold, self._frame, 22.0)
+            for mark in markings.hold_lines(hold, self._frame, HOLD_WIDTH_M)
         ]
-        yield Layer(unary_union(holds).intersection(self._taxiways), YELLOW)
+        yield Layer(unary_union(holds).intersection(self._taxiways), (YELLOW,))
         lines = markings.taxiway_lines([leg for leg, _ in self._legs])
-        yield Layer(lines.difference(self._runways), YELLOW)
-        yield from self._mottled(self._runways, ASPHALT, 90, 0.05, "asphalt")
-        yield from self._mottled(self._taxiways, TAXI_ASPHALT, 90, 0.05, "taxiways")
-        yield Layer(self._runways.buffer(7.0, join_style="mitre"), SHOULDER)
-        yield from self._mottled(self._apron, APRON, 120, 0.05, "slabs")
-        yield Layer(self._taxiways.buffer(5.0), SHOULDER)
-        yield Layer(self._water, WATER)
-        yield from self._mottled(self._inside, GRASS, 420, 0.13, "grass")
+        yield Layer(lines.difference(self._runways), (YELLOW,))
+        yield self._mottled(self._runways, ASPHALT, 90, 0.05, "asphalt")
+        yield self._mottled(self._taxiways, TAXI_ASPHALT, 90, 0.05, "taxiways")
+        yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,))
+        yield self._mottled(self._apron, APRON, 120, 0.05, "slabs")
+        yield Layer(self._taxiways.buffer(5.0), (SHOULDER,))
+        yield Layer(self._water, (WATER,))
+        yield self._mottled(self._inside, GRASS, 420, 0.13, "grass")
         reach = 1.15 * max(NEAR_M, math.hypot(*np.abs(self._inside.bounds).reshape(2, 2).max(0)))
-        for cell in cells(0.0, reach, 420, self._seed, "land"):
-            yield Layer(cell, _pick(LAND, self._draws), 0.1)
-        for cell in cells(reach, FAR_M, 160, self._seed, "far land"):
-            yield Layer(cell, _pick(LAND, self._draws), 0.1)
-        for cell in cells(FAR_M, HORIZON_M, 60, self._seed, "farthest land"):
-            yield Layer(cell, LAND[4], 0.1)
+        yield _land(0.0, reach, 420, LAND, self._seed, "land")
+        yield _land(reach, FAR_M, 160, LAND, self._seed, "far land")
+        yield _land(FAR_M, HORIZON_M, 60, LAND[4:5], self._seed, "farthest land")
 
     def _mottled(
-        self,
-        area: BaseGeometry,
-        colour: tuple[float, float, float],
-        count: int,
-        mottle: float,
-        name: str,
-    ) -> Iterator[Layer]:
-        """Yield an area in pieces that differ a little, as they do where repaired or mown."""
-        reach = max(abs(bound) for bound in area.bounds) * 1.5
-        for cell in cells(0.0, reach, count, self._seed, name):
-            piece = cell.intersection(area)
-            if not piece.is_empty:
-                yield Layer(piece, colour, mottle)
+        self, area: BaseGeometry, colour: Colour, count: int, mottle: float, name: str
+    ) -> Layer:
+        """Return an area in cells that differ a little, as they do where repaired or mown."""
+        reach = max(abs(bound) for bound in area.bounds) * 1.5 if not area.is_empty else 1.0
+        return Layer(area, (colour,), cells(0.0, reach, count, self._seed, name), mottle)
 
     def _apron_area(self) -> BaseGeometry:
         stands = [
@@ -261,10 +247,11 @@ def _base() -> Mesh:
     return Mesh.of(vertices, faces, GRASS)
 
 
-def _pick(
-    colours: tuple[tuple[float, float, float], ...], draws: np.random.Generator
-) -> tuple[float, float, float]:
-    return colours[int(draws.integers(len(colours)))]
+def _land(
+    inner_m: float, outer_m: float, count: int, colours: tuple[Colour, ...], seed: int, name: str
+) -> Layer:
+    found = cells(inner_m, outer_m, count, seed, name)
+    return Layer(ring(inner_m, outer_m), colours, found, 0.12)
 
 
 def _seed(name: str) -> int:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.cameras.light import DISC, GLARE, LOWEST_SKY, Light
+from airhilt.cameras.light import DISC, GLARE_ENDS, LOWEST_SKY, Light
 from airhilt.cameras.mesh import Floats, Mesh
 from airhilt.cameras.renderers import Samples
 from airhilt.cameras.view import NEAR_M, Pose, View, Window
@@ -76,6 +76,8 @@ _SKY_FRAGMENT = (
 uniform sampler2D sky;
 uniform vec3 sun;
 uniform vec3 glare;
+uniform float sharpness;
+uniform float disc;
 in vec3 towards;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance;
@@ -83,8 +85,8 @@ void main() {{
     vec3 d = normalize(towards);
     vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
     float apart = 1.0 - dot(d, sun);
-    if (apart < 0.3)
-        colour += (exp(-{GLARE} * apart) + 20.0 * exp(-{DISC} * apart)) * glare;
+    if (apart < {GLARE_ENDS} / sharpness)
+        colour += (exp(-sharpness * apart) + disc * exp(-{DISC} * apart)) * glare;
     out_colour = vec4(encode(colour), 1.0);
     out_distance = uintBitsToFloat(0x7F800000u);
 }}
@@ -253,6 +255,8 @@ class ModernGLRenderer:
                 ("extinction", light.extinction_per_m),
                 ("sun", tuple(light.sun)),
                 ("glare", tuple(light.glare)),
+                ("sharpness", light.glare_sharpness),
+                ("disc", light.disc),
                 ("direct", tuple(light.direct)),
                 ("diffuse", tuple(light.diffuse)),
                 ("reflected", tuple(light.reflected)),

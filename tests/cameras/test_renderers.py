@@ -1,0 +1,189 @@
+"""Both renderers draw the same picture of one scene, and tell the same truth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from airhilt import load
+from airhilt.cameras.bodies import BodyState, aircraft_model, animal_model, vehicle_model
+from airhilt.cameras.mounts import Camera, Mount, cameras_of, frame_of
+from airhilt.cameras.renderers import RENDERERS, RendererName
+from airhilt.cameras.stage import light_of, world_of
+from airhilt.cameras.studio import Frame, Studio
+from airhilt.cameras.view import Intrinsics, Pose
+from airhilt.positions import RunwayPosition
+from airhilt.scenario.geometry import Setting
+from airhilt.units import DEGREE
+
+for package in ("open3d", "moderngl"):
+    pytest.importorskip(package)
+
+MODELS = {
+    "737": aircraft_model("737"),
+    "c310": aircraft_model("c310"),
+    "fire_truck": vehicle_model("fire_truck"),
+    "deer": animal_model("deer"),
+}
+
+
+class Stage:
+    """Washington with four bodies on and about runway 01."""
+
+    def __init__(self) -> None:
+        self.scenario = load("s01b_nominal")
+        self.setting = Setting.of(self.scenario)
+        self.light = light_of(self.scenario, self.setting)
+        self.world = world_of(self.scenario, self.setting, self.light)
+        known = cameras_of(self.scenario, self.setting, MODELS)
+        lens = Intrinsics(640, 360, 40.0 * DEGREE)
+        nose = Mount("c310", Pose.of((0.0, 4.5, 0.5), 0.0, -0.04), sees_own_aircraft=False)
+        tail = Mount("c310", Pose.of((0.0, -3.8, 2.0), 0.0, -0.1), sees_own_aircraft=True)
+        self.cameras = [
+            known["runway_01"],
+            Camera("nose", lens, nose),
+            Camera("tail", lens, tail),
+        ]
+        self.bodies = [
+            self.on_runway("737", 900.0, 20.0, turned=1.2),
+            self.on_runway("fire_truck", 500.0, 20.0, turned=0.7),
+            self.on_runway("deer", 250.0, -5.0, turned=1.0),
+            self.on_runway("c310", -150.0, 0.0, up_m=35.0, roll=0.05),
+        ]
+
+    def on_runway(
+        self,
+        name: str,
+        along_m: float,
+        offset_m: float,
+        turned: float = 0.0,
+        up_m: float = 0.0,
+        roll: float = 0.0,
+    ) -> BodyState:
+        assert self.setting.layout is not None
+        position = RunwayPosition(type="runway", runway="01", along_m=along_m, offset_m=offset_m)
+        east, north = frame_of(self.setting).to_local(self.setting.place(position))
+        kind = MODELS[name].aircraft
+        wheels = 0.0 if kind is None else kind.dimensions.wheel_height_offset_m
+        heading = self.setting.layout.runway("01").course_rad + turned
+        shape = next(iter(reversed(MODELS[name].shapes)))
+        return BodyState(name, east, north, up_m + wheels, heading, 0.0, roll, shape, True)
+
+    def studio(self, renderer: RendererName) -> Studio:
+        return Studio(self.world, self.light, MODELS, self.cameras, renderer)
+
+
+@pytest.fixture(scope="module")
+def stage() -> Stage:
+    return Stage()
+
+
+@pytest.fixture(scope="module")
+def studios(stage: Stage) -> Iterator[dict[str, Studio]]:
+    opened = {name: stage.studio(name) for name in RENDERERS}
+    yield opened
+    for studio in opened.values():
+        studio.close()
+
+
+@pytest.fixture(scope="module")
+def pairs(stage: Stage, studios: dict[str, Studio]) -> list[tuple[Frame, Frame]]:
+    names = [camera.name for camera in stage.cameras]
+    first, second = (studios[name].shoot(names, stage.bodies, 0) for name in RENDERERS)
+    return list(zip(first, second, strict=True))
+
+
+def test_masks_of_what_is_larger_than_12_pixels_agree(
+    stage: Stage, studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+) -> None:
+    actors, compared = studios["open3d"].actors, 0
+    for first, second in pairs:
+        for sighting in first.sightings:
+            if max(sighting.box.right - sighting.box.left, 0.0) < 12.0:
+                continue
+            number = actors.index(sighting.actor) + 1
+            one, other = first.instance == number, second.instance == number
+            assert (one & other).sum() >= 0.9 * (one | other).sum()
+            compared += 1
+    assert compared >= 4
+
+
+def test_boxes_and_visible_parts_agree(pairs: list[tuple[Frame, Frame]]) -> None:
+    for first, second in pairs:
+        for one, other in zip(first.sightings, second.sightings, strict=True):
+            assert one.actor == other.actor
+            assert np.abs(np.subtract(one.box, other.box)).max() < 1.5
+            assert one.pixels == pytest.approx(other.pixels, rel=0.05, abs=1.0)
+
+
+def test_colours_and_distances_agree(pairs: list[tuple[Frame, Frame]]) -> None:
+    for first, second in pairs:
+        difference = np.abs(first.colour.astype(int) - second.colour)
+        assert difference.mean() < 1.0
+        assert (difference.max(axis=2) > 24).mean() < 0.01
+        sky = np.isinf(first.distance_m)
+        assert (sky != np.isinf(second.distance_m)).mean() < 0.001
+        both = ~sky & ~np.isinf(second.distance_m)
+        ratio = first.distance_m[both] / second.distance_m[both]
+        assert (np.abs(ratio - 1.0) > 0.02).mean() < 0.005
+
+
+def test_a_box_goes_round_all_pixels_of_its_body(
+    studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+) -> None:
+    actors = studios["open3d"].actors
+    for frame, _ in pairs:
+        for sighting in frame.sightings:
+            rows, columns = np.nonzero(frame.instance == actors.index(sighting.actor) + 1)
+            if len(rows):
+                assert sighting.box.left - 1.0 <= columns.min()
+                assert columns.max() <= sighting.box.right + 1.0
+                assert sighting.box.top - 1.0 <= rows.min()
+                assert rows.max() <= sighting.box.bottom + 1.0
+
+
+def test_distances_are_metric(pairs: list[tuple[Frame, Frame]], studios: dict[str, Studio]) -> None:
+    frame = pairs[0][0]
+    truck = next(s for s in frame.sightings if s.actor == "fire_truck")
+    number = studios["open3d"].actors.index("fire_truck") + 1
+    there = frame.distance_m[frame.instance == number]
+    assert np.abs(there - truck.range_m).max() < 8.0
+
+
+def test_a_tail_camera_sees_its_own_aircraft_and_does_not_report_it(
+    studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+) -> None:
+    nose, tail = pairs[1][0], pairs[2][0]
+    own = studios["open3d"].actors.index("c310") + 1
+    assert (tail.instance == own).mean() > 0.02
+    assert not (nose.instance == own).any()
+    assert all(s.actor != "c310" for s in (*tail.sightings, *nose.sightings))
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+def test_a_fixed_camera_gives_the_same_picture_again(
+    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+) -> None:
+    first, again = (studios[renderer].shoot(["runway_01"], stage.bodies, 0)[0] for _ in range(2))
+    assert np.array_equal(first.colour, again.colour)
+    assert np.array_equal(first.instance, again.instance)
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+def test_what_stands_before_a_body_takes_from_what_is_seen_of_it(
+    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+) -> None:
+    truck, camera = stage.bodies[1], stage.cameras[0]
+    assert isinstance(camera.at, Pose)
+    eye = np.asarray(camera.at.position_m)
+    there = np.asarray((truck.east_m, truck.north_m, truck.up_m))
+    nearer = eye + 0.8 * (there - eye)
+    hiding = stage.bodies[0]._replace(
+        east_m=float(nearer[0]), north_m=float(nearer[1]), up_m=2.0, shape="gear"
+    )
+    frame = studios[renderer].shoot(["runway_01"], [truck, hiding], 0)[0]
+    seen = {sighting.actor: sighting for sighting in frame.sightings}
+    assert seen["fire_truck"].visible_fraction < 0.6
+    assert seen["737"].visible_fraction == pytest.approx(1.0, abs=0.02)

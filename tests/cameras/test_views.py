@@ -1,0 +1,85 @@
+"""Poses, pictures and boxes; cameras that cannot be."""
+
+from __future__ import annotations
+
+import datetime
+import math
+
+import numpy as np
+import pytest
+
+from airhilt.cameras.mesh import box
+from airhilt.cameras.outline import Outline
+from airhilt.cameras.rain import rain_visibility_m
+from airhilt.cameras.sun import sun_direction
+from airhilt.cameras.view import Intrinsics, Pose, View
+from airhilt.errors import CameraError
+
+LENS = Intrinsics(640, 360, math.radians(60.0))
+
+
+def test_what_is_ahead_is_in_the_middle_and_what_is_right_of_it_is_right() -> None:
+    view = View(LENS, Pose.of((10.0, 20.0, 5.0), heading_rad=math.pi / 2.0))
+    points = view.in_camera([(110.0, 20.0, 5.0), (110.0, 10.0, 5.0), (110.0, 20.0, 15.0)])
+    middle, south, above = view.pixels(points)
+    assert middle == pytest.approx((320.0, 180.0))
+    assert south[0] > 320.0
+    assert above[1] < 180.0
+
+
+def test_a_bank_to_the_right_lowers_the_right_side() -> None:
+    pose = Pose.of((0.0, 0.0, 0.0), heading_rad=0.0, roll_rad=0.3)
+    assert pose.rotation[2, 0] < 0.0
+    assert Pose.of((0.0, 0.0, 0.0), 0.0, pitch_rad=0.3).rotation[2, 1] > 0.0
+
+
+def test_directions_go_through_the_pixels_from_which_they_come() -> None:
+    view = View(LENS, Pose.of((1.0, 2.0, 3.0), 0.7, 0.1, -0.2))
+    columns, rows = view.sample_places(view.whole, 1)
+    towards = view.directions(columns, rows)
+    point = np.asarray(view.pose.position_m) + 50.0 * towards[:, 100, 600]
+    assert view.pixels(view.in_camera(point)) == pytest.approx((600.5, 100.5), abs=1e-3)
+
+
+def test_a_box_about_a_body_that_reaches_behind_the_camera_fills_its_side() -> None:
+    outline = Outline.of(box((0.5, 0.5, 0.5), 4.0, 60.0, 3.0))
+    view = View(LENS, Pose.of((5.0, 0.0, 1.5), 0.0))
+    found = outline.box(Pose.of((0.0, 0.0, 0.0), 0.0), view)
+    assert found is not None
+    assert found.within(view).left == 0.0
+    assert found.right < 320.0
+    assert outline.box(Pose.of((0.0, -100.0, 0.0), 0.0), view) is None
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "fov_deg", "said"),
+    [
+        (640, 360, 0.0, "field of view"),
+        (640, 360, 180.0, "field of view"),
+        (640, 360, math.nan, "field of view"),
+        (16_000, 9_000, 60.0, "width_px is 16000"),
+        (640, 0, 60.0, "height_px is 0"),
+    ],
+)
+def test_a_lens_that_cannot_be_is_refused(
+    width: int, height: int, fov_deg: float, said: str
+) -> None:
+    with pytest.raises(CameraError, match=said):
+        Intrinsics(width, height, math.radians(fov_deg))
+
+
+def test_a_pose_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(CameraError, match="finite"):
+        Pose.of((0.0, math.nan, 0.0), 0.0)
+
+
+def test_the_sun_is_in_the_south_at_noon_and_as_high_as_the_season_has_it() -> None:
+    east, north, up = sun_direction(math.radians(39.0), datetime.date(2026, 6, 21), 12.0)
+    assert abs(east) < 1e-3
+    assert north < 0.0
+    assert math.degrees(math.asin(up)) == pytest.approx(90.0 - 39.0 + 23.44, abs=0.1)
+
+
+def test_rain_takes_from_the_visibility() -> None:
+    assert rain_visibility_m(0.0) == math.inf
+    assert rain_visibility_m(25.0) < rain_visibility_m(5.0) < 5000.0
