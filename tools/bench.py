@@ -7,6 +7,7 @@
     python tools/bench.py procedures        every procedure, type and weather, over 20 seeds
     python tools/bench.py phraseology       calls that are read in a second on one core
     python tools/bench.py speech            what sound costs a call, and how late words come
+    python tools/bench.py render            CPU time of a picture, with both renderers
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
     python tools/bench.py headon --json
@@ -342,6 +343,70 @@ def speech() -> dict[str, float]:
     }
 
 
+def render() -> dict[str, float]:
+    """Take pictures of 640 by 360 pixels with three bodies in them, turn by turn.
+
+    Moving the rays' worth of numbers is the measure of how fast the machine is just now.
+    """
+    import numpy as np
+
+    from airhilt import load
+    from airhilt.cameras.bodies import BodyState, Model, aircraft_model, vehicle_model
+    from airhilt.cameras.mounts import Camera, Mount, cameras_of, frame_of
+    from airhilt.cameras.renderers import RENDERERS
+    from airhilt.cameras.stage import light_of, world_of
+    from airhilt.cameras.studio import Studio
+    from airhilt.cameras.view import Intrinsics, Pose
+    from airhilt.positions import RunwayPosition
+    from airhilt.scenario.geometry import Setting
+
+    scenario = load("s01b_nominal")
+    setting = Setting.of(scenario)
+    light = light_of(scenario, setting)
+    world = world_of(scenario, setting, light)
+    models: dict[str, Model] = {
+        "737": aircraft_model("737"),
+        "B747": aircraft_model("B747"),
+        "fire_truck": vehicle_model("fire_truck"),
+    }
+    nose = Mount("737", Pose.of((0.0, 17.5, 1.0), 0.0, -0.03), sees_own_aircraft=False)
+    cameras = [
+        cameras_of(scenario, setting, models)["runway_01"],
+        Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
+    ]
+    assert setting.layout is not None
+    course = setting.layout.runway("01").course_rad
+
+    def body(actor: str, along_m: float, up_m: float, turned: float, shape: str) -> BodyState:
+        place = RunwayPosition(type="runway", runway="01", along_m=along_m)
+        east, north = frame_of(setting).to_local(setting.place(place))
+        return BodyState(actor, east, north, up_m, course + turned, 0.0, 0.0, shape, True)
+
+    bodies = [
+        body("737", -700.0, 45.0, 0.0, "gear"),
+        body("B747", 900.0, 4.1, 1.2, "gear"),
+        body("fire_truck", 500.0, 0.0, 1.5, "driving"),
+    ]
+    numbers = np.random.default_rng(0).random((640 * 360, 6), dtype=np.float32)
+    measured: dict[str, list[float]] = {}
+
+    def measure(name: str, action: Callable[[], object]) -> None:
+        begun = time.process_time()
+        action()
+        measured.setdefault(name, []).append(1000.0 * (time.process_time() - begun))
+
+    studios = {name: Studio(world, light, models, cameras, name) for name in RENDERERS}
+    for turn in range(25):
+        there = [one._replace(north_m=one.north_m + turn) for one in bodies]
+        measure("numpy_exp_ms", lambda: np.exp(numbers))
+        for name, studio in studios.items():
+            measure(f"{name}_fixed_ms", lambda: studio.shoot(["runway_01"], there, 0))
+            measure(f"{name}_moving_ms", lambda: studio.shoot(["nose"], there, 0))
+    for studio in studios.values():
+        studio.close()
+    return {name: min(times) for name, times in measured.items()}
+
+
 def startup() -> dict[str, float]:
     """Time the command line to its help and to the first simulated second."""
 
@@ -400,6 +465,7 @@ BENCHMARKS = {
     "airport": airport,
     "phraseology": phraseology,
     "speech": speech,
+    "render": render,
     "startup": startup,
 }
 

@@ -32,6 +32,7 @@ STILL_SAMPLES = 3
 TOUCHES_M = 0.25
 """What is so much farther than a surface still lies on it."""
 SHADOW_BELOW_M = 150.0
+SMALLEST_SHADOW_PX = 4.0
 TURN_STEPS = 24
 """A picture of the own aircraft is kept while the light turns less than a step of this part of
 a radian."""
@@ -309,7 +310,7 @@ class Studio:
             return
         shape = self._shape(body)
         box = self._outlines[shape].shadow_box(pose, view, light.sun)
-        if box is None or box.within(view).area < 0.5:
+        if box is None or box.within(view).area < SMALLEST_SHADOW_PX:
             return
         window = box.within(view).window(view)
         samples = max(min(_fineness(window), 2), self._fine)

@@ -40,7 +40,7 @@ class Stage:
         known = cameras_of(self.scenario, self.setting, MODELS)
         lens = Intrinsics(640, 360, 40.0 * DEGREE)
         nose = Mount("c310", Pose.of((0.0, 4.5, 0.5), 0.0, -0.04), sees_own_aircraft=False)
-        tail = Mount("c310", Pose.of((0.0, -3.8, 2.0), 0.0, -0.1), sees_own_aircraft=True)
+        tail = Mount("c310", Pose.of((0.0, -3.7, 2.6), 0.0, -0.12), sees_own_aircraft=True)
         self.cameras = [
             known["runway_01"],
             Camera("nose", lens, nose),
