@@ -126,10 +126,7 @@ def cells(
     """Return irregular cells that cover a ring about the origin, smaller towards its middle."""
     draws = stream(seed, name)
     part = draws.uniform(size=count)
-    if inner_m > 0.0:
-        radii = inner_m * (outer_m / inner_m) ** part
-    else:
-        radii = outer_m * np.sqrt(part)
+    radii = inner_m * (outer_m / inner_m) ** part if inner_m > 0.0 else outer_m * np.sqrt(part)
     angles = draws.uniform(0.0, math.tau, size=count)
     points = MultiPoint(np.column_stack((radii * np.cos(angles), radii * np.sin(angles))))
     around = ring(0.0, outer_m)

@@ -18,6 +18,7 @@ from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
 LEAST_TILE_M = 700.0
+CANVAS_STEP_PX = 64
 
 _AIR = """
 uniform vec3 airlight;
@@ -198,22 +199,25 @@ class _Tiles:
 
 @dataclass(frozen=True)
 class _Canvas:
-    """Where is drawn, for one size of pictures."""
+    """Where is drawn: the first corner of a frame buffer that is at least as large."""
 
     frame: Any
     size: tuple[int, int]
 
     def covered(self) -> npt.NDArray[np.bool_]:
         """Return where something has been drawn."""
-        red = np.frombuffer(self.frame.read(components=1, alignment=1), dtype=np.uint8)
+        red = np.frombuffer(self.frame.read(self.size, components=1, alignment=1), dtype=np.uint8)
         return np.asarray(red.reshape(self.size[::-1]) > 0)
 
     def read(self) -> Samples:
         """Return what has been drawn."""
         width, height = self.size
-        colour = np.frombuffer(self.frame.read(components=4), dtype=np.uint8)
-        distance = np.frombuffer(self.frame.read(components=1, attachment=1, dtype="f4"), "f4")
-        return Samples(colour.reshape(height, width, 4)[..., :3], distance.reshape(height, width))
+        colour = np.frombuffer(self.frame.read(self.size, components=4), dtype=np.uint8)
+        distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
+        return Samples(
+            colour.reshape(height, width, 4)[..., :3],
+            np.frombuffer(distance, dtype=np.float32).reshape(height, width),
+        )
 
 
 class ModernGLRenderer:
@@ -228,7 +232,7 @@ class ModernGLRenderer:
     def __init__(self, world: Mesh, light: Light) -> None:
         self._context = context = _open_context()
         self._light = light
-        self._canvases: dict[tuple[int, int], _Canvas] = {}
+        self._frames: dict[tuple[int, int], Any] = {}
         self._bodies: dict[str, _Body] = {}
         self._world_program = context.program(_WORLD_VERTEX, _WORLD_FRAGMENT)
         self._sky_program = context.program(_SKY_VERTEX, _SKY_FRAGMENT)
@@ -339,21 +343,23 @@ class ModernGLRenderer:
         return canvas.covered()
 
     def _canvas(self, window: Window, samples: int) -> _Canvas:
-        """Return a cleared canvas for a window; the last of each size is kept."""
+        """Return a cleared canvas for a window. Frame buffers are costly to make: few sizes do."""
         size = window.width * samples, window.height * samples
-        canvas = self._canvases.get(size)
-        if canvas is None:
-            if len(self._canvases) >= 64:
-                self._canvases.pop(next(iter(self._canvases))).frame.release()
+        width, height = (CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX) for side in size)
+        frame = self._frames.get((width, height))
+        if frame is None:
             context = self._context
-            frame = context.framebuffer(
-                [context.texture(size, 4), context.texture(size, 1, dtype="f4")],
-                context.depth_renderbuffer(size),
+            frame = self._frames[width, height] = context.framebuffer(
+                [
+                    context.texture((width, height), 4),
+                    context.texture((width, height), 1, dtype="f4"),
+                ],
+                context.depth_renderbuffer((width, height)),
             )
-            canvas = self._canvases[size] = _Canvas(frame, size)
-        canvas.frame.use()
-        canvas.frame.clear()
-        return canvas
+        frame.use()
+        frame.viewport = 0, 0, *size
+        frame.clear()
+        return _Canvas(frame, size)
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
         """Return triangles for drawing; corners that are alike are stored, and lit, once."""
