@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from airhilt.actors.performer import Performer
@@ -70,6 +70,8 @@ class Model:
         Its meshes by their names.
     lamps
         Return its lights, in its own axes, at a time in seconds, with landing lights or without.
+    far
+        Coarser meshes of some of these names, for pictures in which it is small.
     aircraft
         Its type if it is one, for cameras that are mounted on it.
     """
@@ -78,6 +80,7 @@ class Model:
     kind: str
     shapes: Mapping[str, Mesh]
     lamps: Callable[[float, bool], Iterator[Lamp]]
+    far: Mapping[str, Mesh] = field(default_factory=dict)
     aircraft: AircraftType | None = None
 
 
@@ -104,6 +107,7 @@ def aircraft_model(name: str) -> Model:
         name,
         {"clean": aircraft_mesh(kind, False), "gear": aircraft_mesh(kind, True)},
         lambda t_s, lit: aircraft_lamps(kind, t_s, lit),
+        {"clean": aircraft_mesh(kind, False, True), "gear": aircraft_mesh(kind, True, True)},
         kind,
     )
 

@@ -57,11 +57,14 @@ class Light:
         Meteorological visibility.
     overcast
         0 a blue sky, 1 none: fog and rain whiten it.
+    backdrop
+        How many times farther ground and clouds are seen than bodies.
     """
 
     sun: npt.NDArray[np.float64]
     visibility_m: float
     overcast: float
+    backdrop: float = 1.0
 
     @property
     def sun_elevation_rad(self) -> float:
@@ -179,12 +182,17 @@ class Light:
         lit = self.shade(mesh.colours, mesh.face_normals, mesh.sunlit)
         return lit + (mesh.glow * np.float32(self.darkness))[:, None] * mesh.colours
 
-    def through_air(self, colours: Floats, distances_m: Floats) -> Floats:
+    @property
+    def backdrop_extinction_per_m(self) -> float:
+        """Of the air before ground and clouds."""
+        return self.extinction_per_m / self.backdrop
+
+    def through_air(self, colours: Floats, distances_m: Floats, extinction_per_m: float) -> Floats:
         """Return what is left of light after some way, and what the air adds; changes colours.
 
         Colours are of shape (3, n), distances of shape (n,).
         """
-        left = np.exp(distances_m * np.float32(-self.extinction_per_m))
+        left = np.exp(distances_m * np.float32(-extinction_per_m))
         for channel, air in zip(colours, self.airlight, strict=True):
             channel -= air
             channel *= left

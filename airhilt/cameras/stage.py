@@ -20,6 +20,9 @@ from airhilt.units import FOOT
 FOGGY_M = 3000.0
 HAZY_M = 8000.0
 """Visibilities between which the blue of the sky goes."""
+BACKDROP_EN_ROUTE = 5.0
+"""Haze gets thinner with height, so that ground and clouds are seen farther from above than what
+flies as high as the camera, whose visibility is the scenario's."""
 CLOUDS_UNDER_TRAFFIC = 0.6
 """Of the height of the lowest flight: no cloud hides one from another."""
 LOWEST_CLOUDS_M = 400.0
@@ -33,7 +36,8 @@ def light_of(scenario: Scenario, setting: Setting) -> Light:
     thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
     sun = sun_direction(frame_of(setting).origin[0], daylight.date, daylight.solar_time_h)
-    return Light(sun, visibility, overcast)
+    backdrop = BACKDROP_EN_ROUTE if setting.layout is None else 1.0
+    return Light(sun, visibility, overcast, backdrop)
 
 
 def world_of(scenario: Scenario, setting: Setting, light: Light) -> World:

@@ -33,6 +33,8 @@ TOUCHES_M = 0.25
 """What is so much farther than a surface still lies on it."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
+SMALL_PX = 4000
+"""Area of a window in which a body may be coarse."""
 TURN_STEPS = 24
 """A picture of the own aircraft is kept while the light turns less than a step of this part of
 a radian."""
@@ -155,7 +157,13 @@ class Studio:
             for name, mesh in model.shapes.items()
         }
         self._outlines = {name: Outline.of(mesh) for name, mesh in shapes.items()}
-        self._renderer = open_renderer(renderer, world.mesh, shapes, light)
+        far = {
+            f"{model.kind}/{name}/far": mesh
+            for model in self._models.values()
+            for name, mesh in model.far.items()
+        }
+        self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
+        self._far = frozenset(far)
         self._fine = fine
         self._backgrounds: dict[str, Samples] = {}
         self._own: dict[str, tuple[tuple[object, ...], _Layer]] = {}
@@ -254,7 +262,7 @@ class Studio:
         away = math.dist(pose.position_m, view.pose.position_m)
         window = box.window(view)
         samples = max(_fineness(window), self._fine)
-        drawn = self._renderer.body(shape, pose, view, window, samples)
+        drawn = self._renderer.body(self._drawn(shape, window), pose, view, window, samples)
         rows, columns = window.slices
         behind = behind_m[rows, columns]
         behind = np.repeat(np.repeat(behind, samples, axis=0), samples, axis=1)
@@ -314,7 +322,8 @@ class Studio:
             return
         window = box.within(view).window(view)
         samples = max(min(_fineness(window), 2), self._fine)
-        shaded = _mean(self._renderer.shadow(shape, pose, view, window, samples), samples)
+        fitting = self._drawn(shape, window)
+        shaded = _mean(self._renderer.shadow(fitting, pose, view, window, samples), samples)
         rows, columns = window.slices
         down = view.directions(*view.sample_places(window, 1))[2]
         away = distance[rows, columns]
@@ -384,6 +393,11 @@ class Studio:
                 )
             )
         return tuple(sorted(found, key=lambda sighting: sighting.range_m))
+
+    def _drawn(self, shape: str, window: Window) -> str:
+        """Return the mesh of a shape that fits the size in which it is seen."""
+        far = f"{shape}/far"
+        return far if window.area < SMALL_PX and far in self._far else shape
 
     def _shape(self, body: BodyState) -> str:
         return f"{self._models[body.actor].kind}/{body.shape}"

@@ -109,8 +109,9 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
     require_triangulation()
     seed = _seed(name)
     layers = [
-        _land(0.0, 26_000.0, 420, (*FIELDS, *FIELDS, WATER), seed, "fields"),
-        _land(26_000.0, HORIZON_M, 420, (*FIELDS, *FIELDS, WATER), seed, "far fields"),
+        _land(0.0, 9_000.0, 480, FIELDS, seed, "fields"),
+        _land(9_000.0, 40_000.0, 420, (*FIELDS, *FIELDS, WATER), seed, "far fields"),
+        _land(40_000.0, HORIZON_M, 240, (*FIELDS, *FIELDS, WATER), seed, "farthest fields"),
     ]
     parts = [sheet(layers, Polygon(), seed), _base()]
     woods = scenery.trees(scenery.scattered(300.0, 9000.0, 500, Polygon(), seed, "woods"), seed)

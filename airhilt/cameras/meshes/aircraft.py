@@ -35,6 +35,7 @@ GLASS = srgb(26, 34, 44)
 TYRE = srgb(30, 30, 32)
 BLADE = srgb(60, 60, 62)
 SEGMENTS = 28
+COARSE_SEGMENTS = 12
 """Around a fuselage."""
 WINDOW_PITCH_M = 0.51
 """Between cabin windows: Boeing D6-58325-6, section 2.3, frames 20 in apart."""
@@ -67,9 +68,9 @@ LIVERIES = {
 }  # fmt: skip
 
 
-def aircraft_mesh(kind: AircraftType, gear_down: bool) -> Mesh:
-    """Return the shape of a type."""
-    return _Aircraft(kind).mesh(gear_down)
+def aircraft_mesh(kind: AircraftType, gear_down: bool, coarse: bool = False) -> Mesh:
+    """Return the shape of a type; a coarse one is for pictures in which it is small."""
+    return _Aircraft(kind, coarse).mesh(gear_down)
 
 
 def wing_tip_m(kind: AircraftType) -> tuple[float, float, float]:
@@ -78,7 +79,9 @@ def wing_tip_m(kind: AircraftType) -> tuple[float, float, float]:
 
 
 class _Aircraft:
-    def __init__(self, kind: AircraftType) -> None:
+    def __init__(self, kind: AircraftType, coarse: bool = False) -> None:
+        self._coarse = coarse
+        self._segments = COARSE_SEGMENTS if coarse else SEGMENTS
         self._shape = kind.mesh
         self._is_jet = kind.category in ("jet", "heavy_jet")
         self._is_heavy = kind.category == "heavy_jet"
@@ -121,14 +124,16 @@ class _Aircraft:
                 np.linspace(0.66, 1.0, 14),
             ))
         )  # fmt: skip
-        angles = np.linspace(0.0, math.tau, SEGMENTS, endpoint=False)
+        if self._coarse:
+            stations = np.concatenate((np.linspace(0, 0.16, 6), np.linspace(0.24, 1.0, 14)))
+        angles = np.linspace(0.0, math.tau, self._segments, endpoint=False)
         rings = []
         for part in stations:
             half_width, half_height, rise = self._section(float(part))
             rings.append(
                 np.column_stack((
                     half_width * np.cos(angles),
-                    np.full(SEGMENTS, self._length * (0.5 - part)),
+                    np.full(self._segments, self._length * (0.5 - part)),
                     self._axis + rise + half_height * np.sin(angles),
                 ))
             )  # fmt: skip
@@ -167,7 +172,7 @@ class _Aircraft:
             colours[tail] = livery.tail
             row = (above > 0.08) & (above < 0.34) & (along > 0.16) & (along < 0.66)
             windows = np.floor(aft / (WINDOW_PITCH_M / 2.0)).astype(int) % 2 == 0
-            colours[row & windows] = GLASS
+            colours[row & windows & (not self._coarse)] = GLASS
             screen = (along > 0.028) & (along < 0.062) & (above > 0.18) & (above < 0.62)
             colours[screen] = GLASS
         else:
@@ -186,7 +191,8 @@ class _Aircraft:
             colours[(front < 0.13 * length) & (above > 0.2) & (above < 0.5)] = GLASS
             return colours
 
-        hump = ellipsoid(paint, radius, length / 2.0, 0.72 * self._radius, 24, 24)
+        finer = (8, 8) if self._coarse else (24, 24)
+        hump = ellipsoid(paint, radius, length / 2.0, 0.72 * self._radius, *finer)
         ahead = 0.445 * self._length - length / 2.0
         return hump.moved(0.0, ahead, self._axis + 0.66 * self._radius)
 
@@ -327,12 +333,13 @@ class _Aircraft:
     def _turbofan(self, front: float, right: float, up: float) -> Mesh:
         radius = 0.21 * self._shape.fuselage_diameter_m + (0.2 if self._is_heavy else 0.15)
         length = 3.6 * radius
-        angles = np.linspace(0.0, math.tau, 20, endpoint=False)
+        sides = 10 if self._coarse else 20
+        angles = np.linspace(0.0, math.tau, sides, endpoint=False)
 
         def ring(back: float, part: float) -> Floats:
             return np.column_stack((
                 right + radius * part * np.cos(angles),
-                np.full(20, front - back * length),
+                np.full(sides, front - back * length),
                 up + radius * part * np.sin(angles),
             )).astype(np.float32)[::-1]  # fmt: skip
 

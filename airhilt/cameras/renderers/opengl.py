@@ -268,6 +268,7 @@ class ModernGLRenderer:
             ):
                 if name in program:
                     program[name] = value
+        self._world_program["extinction"] = light.backdrop_extinction_per_m
         self._shadow_program["sun"] = tuple(light.sun)
 
     def add_shape(self, name: str, mesh: Mesh) -> None:

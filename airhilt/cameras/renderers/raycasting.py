@@ -73,10 +73,11 @@ class Open3DRenderer:
         slope += _of(normals[2], pieces) * towards[2]
         with np.errstate(divide="ignore"):
             distance = np.divide(_of(heights, pieces), slope, out=slope)
+        light = self._light
         colour = np.stack([_of(channel, pieces) for channel in self._colours])
-        self._light.through_air(colour, distance)
+        light.through_air(colour, distance, light.backdrop_extinction_per_m)
         sky = np.flatnonzero(pieces == MISSED)
-        colour[:, sky] = self._light.sky_towards(towards[:, sky])
+        colour[:, sky] = light.sky_towards(towards[:, sky])
         return Samples(encode(colour).reshape(*shape, 3), distance.reshape(shape))
 
     def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
@@ -98,7 +99,8 @@ class Open3DRenderer:
             normals /= np.linalg.norm(normals, axis=1, keepdims=True)
             lit = self._light.shade(body.colours[faces], normals)
             lit += (body.glow[faces] * self._light.darkness)[:, None] * body.colours[faces]
-            seen = self._light.through_air(np.ascontiguousarray(lit.T), distance[hit])
+            air = self._light.extinction_per_m
+            seen = self._light.through_air(np.ascontiguousarray(lit.T), distance[hit], air)
             colour[hit] = encode(seen)
         return Samples(colour.reshape(*size, 3), distance.reshape(size))
 
