@@ -29,7 +29,13 @@ NEEDED = (
     "espeakng-loader",
     "jiwer",
 )
-OPTIONAL = {"faster-whisper": "whisper", "coqui-tts": "coqui", "resvg-py": "plot"}
+OPTIONAL = {
+    "open3d-cpu": "vision",
+    "moderngl": "moderngl",
+    "faster-whisper": "whisper",
+    "coqui-tts": "coqui",
+    "resvg-py": "plot",
+}
 """Extras by the package that they bring."""
 
 

@@ -82,14 +82,14 @@ def trees(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
 
 
 def _tree(colour: Colour, pointed: bool) -> Mesh:
-    angles = np.linspace(0.0, math.tau, 6, endpoint=False)
+    angles = np.linspace(0.0, math.tau, 5, endpoint=False)
 
     def ring(radius: float, up: float) -> list[tuple[float, float, float]]:
         return [(radius * math.cos(a), radius * math.sin(a), up) for a in angles]
 
     if pointed:
         return loft([ring(0.28, 0.08), ring(0.02, 1.0)], colour, crease_rad=1.0)
-    return loft([ring(0.16, 0.0), ring(0.5, 0.32), ring(0.44, 0.68), ring(0.12, 1.0)], colour)
+    return loft([ring(0.22, 0.0), ring(0.5, 0.45), ring(0.2, 1.0)], colour)
 
 
 def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:

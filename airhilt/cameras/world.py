@@ -166,7 +166,7 @@ class _Airport:
         parts += list(self._furniture())
         forbidden = unary_union([self._inside, self._water])
         reach = max(math.hypot(*corner) for corner in self._inside.convex_hull.exterior.coords)
-        woods = scenery.scattered(200.0, reach + 3500.0, 900, forbidden, self._seed, "woods")
+        woods = scenery.scattered(200.0, reach + 3500.0, 650, forbidden, self._seed, "woods")
         town = scenery.scattered(200.0, reach + 5000.0, 420, forbidden, self._seed, "town")
         for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
             if found is not None:

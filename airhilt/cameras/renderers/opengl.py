@@ -240,6 +240,7 @@ class ModernGLRenderer:
         self._shadow_program = context.program(_SHADOW_VERTEX, _SHADOW_FRAGMENT)
         self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
         self._sky.repeat_x = False
+        self._sky.filter = context.NEAREST, context.NEAREST
         self._tallest_m = float(world.corners[..., 2].max())
         self._sky_array = context.vertex_array(self._sky_program, [])
         order, self._tiles = _tiles(world)
