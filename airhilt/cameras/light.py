@@ -19,6 +19,8 @@ CONTRAST_THRESHOLD = 0.02
 """H. Koschmieder, Beitraege zur Physik der freien Atmosphaere 12 (1924) 33-55: what is just seen
 against the horizon at the meteorological visibility."""
 EXTINCTION = -math.log(CONTRAST_THRESHOLD)
+LAMPS_BELOW_M = 5000.0
+"""FAA JO 7110.65, 3-4-10: runway edge lights are on when the visibility is less than 3 miles."""
 SKY_STEPS = 2048
 LOWEST_SKY = -0.25
 """Sine of the elevation where the table of the sky begins."""
@@ -75,6 +77,11 @@ class Light:
     def darkness(self) -> float:
         """0 in daylight, 1 at night, between them while the sun is low."""
         return float(np.clip((4.0 - math.degrees(self.sun_elevation_rad)) / 10.0, 0.0, 1.0))
+
+    @property
+    def needs_lamps(self) -> bool:
+        """Whether the lights of an airport are on."""
+        return self.darkness > 0.0 or self.visibility_m < LAMPS_BELOW_M
 
     @cached_property
     def extinction_per_m(self) -> float:

@@ -245,7 +245,7 @@ class Studio:
             samples = max(STILL_SAMPLES, self._fine)
             kept = _resolved(self._renderer.world(view, samples), samples)
             picture = np.ascontiguousarray(kept.colour)
-            if self._light.darkness > 0.0:
+            if self._light.needs_lamps:
                 shine(picture, kept.distance_m, self._world.lamps, view, self._light)
             kept = self._backgrounds[camera.name] = Samples(picture, kept.distance_m)
         return kept
@@ -364,7 +364,7 @@ class Studio:
         distance: Floats,
     ) -> None:
         others = [lamp for actor, lamp in lamps if own is None or actor != own.actor]
-        if not camera.is_fixed and self._light.darkness > 0.0:
+        if not camera.is_fixed and self._light.needs_lamps:
             others.extend(self._world.lamps)
         shine(colour, distance, others, view, self._light)
 
