@@ -66,6 +66,10 @@ class RendererError(AirhiltError):
     """Pictures cannot be drawn: something is not installed, or the renderer has died."""
 
 
+class VisionError(AirhiltError):
+    """A detector, its model or its service does not do what it must."""
+
+
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
     first = error.errors()[0]

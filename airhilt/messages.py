@@ -169,7 +169,87 @@ class AdsbReport(Message):
     t_adsb_out_ns: Nanoseconds = Field(description="the receiver gave out the report")
 
 
+VisibleClass = Literal["airplane", "truck", "bird", "deer", "coyote"]
+"""Classes of what cameras see, by the names that COCO has where it has one."""
+
+Box = tuple[float, float, float, float]
+"""Left, top, right, bottom in pixels; (0, 0) is the outer corner of the first pixel."""
+
+
+class CameraView(BaseModel):
+    """Where a camera looked from, as its owner knows it, and how it maps the world to pixels.
+
+    A pinhole camera with square pixels and the principal point in the middle. Turned first to the
+    heading, then up by the pitch, then clockwise about its axis by the roll.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    latitude_deg: float = Field(ge=-90.0, le=90.0)
+    longitude_deg: float = Field(ge=-180.0, le=180.0)
+    height_m: float = Field(description="above the ground of the scene")
+    heading_deg: float = Field(ge=0.0, lt=360.0)
+    pitch_deg: float = Field(ge=-90.0, le=90.0)
+    roll_deg: float = Field(ge=-180.0, le=180.0)
+    horizontal_fov_deg: float = Field(gt=0.0, lt=180.0)
+    width_px: int = Field(ge=1)
+    height_px: int = Field(ge=1)
+    carrier: str | None = Field(
+        default=None, description="callsign of the aircraft that it is on; null on the ground"
+    )
+
+
+class CameraInfo(Message):
+    """``camera/<camera>/info``: what never changes about a camera, once before its pictures."""
+
+    camera: str
+    rate_hz: float = Field(gt=0.0)
+    width_px: int = Field(ge=1)
+    height_px: int = Field(ge=1)
+    horizontal_fov_deg: float = Field(gt=0.0, lt=180.0)
+    carrier: str | None = None
+    own_aircraft: tuple[int, ...] = Field(
+        default=(),
+        description="pixels that its own aircraft may cover, as lengths of runs, row by row: "
+        "free, covered, free and so on; empty if none",
+    )
+
+
+class CameraFrame(Message):
+    """``camera/<camera>/frame``: attachment to one picture, 8-bit sRGB, row by row."""
+
+    camera: str
+    seq: int = Field(ge=0)
+    t_frame_ns: Nanoseconds = Field(description="end of the exposure")
+    view: CameraView
+    encoding: Literal["rgb8"] = "rgb8"
+    sha256: str = Field(description="of the pixels")
+
+
 # --- what workers give ----------------------------------------------------------------------
+
+
+class Detection(BaseModel):
+    """Something that was recognised in a picture."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    label: VisibleClass
+    confidence: Confidence
+    box: Box
+    track_id: int | None = Field(
+        default=None, description="the same for the same thing, from picture to picture"
+    )
+    hits: int = Field(default=1, ge=1, description="pictures in which it was found so far")
+
+
+class Detections(Message):
+    """``vision/<camera>``: what was found in one picture; ``t_ns`` is the paper's t_vision."""
+
+    camera: str
+    seq: int = Field(ge=0, description="of the picture")
+    t_frame_ns: Nanoseconds
+    view: CameraView
+    detections: tuple[Detection, ...] = ()
+    engine: str
 
 
 class Word(BaseModel):
@@ -386,6 +466,29 @@ ConflictPhase = Literal[
 ]
 
 
+class SightingTruth(BaseModel):
+    """What is true of an actor in a picture."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    actor: str
+    label: VisibleClass
+    box: Box = Field(description="about all of it that is within the picture, hidden or not")
+    pixels: float = Field(ge=0.0, description="area that is seen")
+    visible_fraction: Confidence = Field(description="of its area within the picture")
+    truncation: Confidence = Field(description="part of its whole box outside of the picture")
+    range_m: float = Field(ge=0.0)
+    transmission: Confidence = Field(description="part of its contrast that the air leaves")
+
+
+class CameraTruth(Message):
+    """``truth/camera/<camera>``: what really is in a picture."""
+
+    camera: str
+    seq: int = Field(ge=0)
+    t_frame_ns: Nanoseconds
+    sightings: tuple[SightingTruth, ...]
+
+
 class ConflictTruth(Message):
     """``truth/conflict``: what became true of two actors at this instant.
 
@@ -525,14 +628,18 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "briefing": Briefing,
     "status/{modality}": Status,
     "radio/{frequency_khz}/tx": Transmission,
+    "camera/{camera}/info": CameraInfo,
+    "camera/{camera}/frame": CameraFrame,
     "adsb/{icao24}": AdsbReport,
     "asr/{frequency_khz}": Transcript,
+    "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,
     "tts/{id}": AdvisoryAudio,
     "command/{actor}": ActorCommand,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
     "truth/hearing/{actor}": HearingTruth,
+    "truth/camera/{camera}": CameraTruth,
     "truth/conflict": ConflictTruth,
     "truth/runway/{runway}": RunwayTruth,
     "truth/event": Event,
@@ -548,13 +655,14 @@ WORKER_MESSAGES: dict[str, type[BaseModel]] = {
 
 WORKER_OUTPUTS: dict[str, type[Message]] = {
     "asr": Transcript,
+    "vision": Detections,
     "advisory": Advisory,
     "tts": AdvisoryAudio,
 }
 """What a worker may publish, by the first part of the key. Truth and sensors are not its own."""
 
 
-HEADERS = (Transmission, AdvisoryAudio)
+HEADERS = (Transmission, AdvisoryAudio, CameraFrame)
 """Messages that go with raw bytes: the bytes are the payload of the key, these the attachment."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from airhilt.actors.performer import Performer
 from airhilt.cameras.lamps import Lamp, aircraft_lamps, vehicle_lamps
@@ -15,14 +15,12 @@ from airhilt.cameras.meshes.aircraft import aircraft_mesh
 from airhilt.cameras.view import Pose
 from airhilt.flight import Aircraft
 from airhilt.flight.aircraft_type import AircraftType, load_aircraft_type
+from airhilt.messages import VisibleClass
 from airhilt.scenario.models import Actor, AircraftActor, VehicleActor
 from airhilt.surface.frame import LocalFrame
 from airhilt.surface.kinds import load_kind
 from airhilt.surface.mover import Dimensions, Size
 from airhilt.surface.wildlife import AnimalKind
-
-Label = Literal["airplane", "truck", "bird", "deer", "coyote"]
-"""Classes of what cameras see, as detectors name them (those of COCO where it has one)."""
 
 GEAR_DOWN_BELOW_M = 600.0
 """Above the ground: on a glide path of 3 degrees that is 11 km before the threshold."""
@@ -76,7 +74,7 @@ class Model:
         Its type if it is one, for cameras that are mounted on it.
     """
 
-    label: Label
+    label: VisibleClass
     kind: str
     shapes: Mapping[str, Mesh]
     lamps: Callable[[float, bool], Iterator[Lamp]]
@@ -123,7 +121,7 @@ def vehicle_model(name: str) -> Model:
     }
     mesh = makers.get(name, vehicles.block)(size)
     # Something is towed: what is seen of it is the aircraft.
-    label: Label = "airplane" if name == "tug_with_aircraft" else "truck"
+    label: VisibleClass = "airplane" if name == "tug_with_aircraft" else "truck"
     return Model(label, name, {"driving": mesh}, lambda t_s, _: vehicle_lamps(size, t_s))
 
 
@@ -133,7 +131,7 @@ def animal_model(name: str) -> Model:
     size = kind.dimensions
     flight = kind.flight if isinstance(kind, AnimalKind) else None
     if flight is None:
-        label: Label = "coyote" if name == "coyote" else "deer"
+        label: VisibleClass = "coyote" if name == "coyote" else "deer"
         shape = animals.coyote if label == "coyote" else animals.deer
         return Model(label, name, {"standing": shape(size)}, _no_lamps)
     count = kind.count if isinstance(kind, AnimalKind) else 1

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.cameras.bodies import BodyState, Label, Model
+from airhilt.cameras.bodies import BodyState, Model
 from airhilt.cameras.lamps import Lamp, shine
 from airhilt.cameras.light import Light
 from airhilt.cameras.mesh import Floats
@@ -24,6 +24,7 @@ from airhilt.cameras.rain import Streaks
 from airhilt.cameras.renderers import RendererName, Samples, open_renderer
 from airhilt.cameras.view import Pose, View, Window
 from airhilt.cameras.world import World
+from airhilt.messages import VisibleClass
 
 FINENESS = ((900, 4), (2500, 3), (16_000, 2))
 """Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
@@ -61,7 +62,7 @@ class Sighting:
     """
 
     actor: str
-    label: Label
+    label: VisibleClass
     box: Box
     pixels: float
     visible_fraction: float

@@ -1,0 +1,1 @@
+"""The worker that looks: pictures in, detections out."""

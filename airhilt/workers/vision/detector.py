@@ -1,0 +1,41 @@
+"""What a detector is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.messages import Box, VisibleClass
+
+Picture = npt.NDArray[np.uint8]
+"""8-bit sRGB, shape (rows, columns, 3)."""
+
+
+class Found(NamedTuple):
+    """Something that a detector has found in a picture."""
+
+    label: VisibleClass
+    confidence: float
+    box: Box
+
+
+class Detector(Protocol):
+    """Finds aircraft, vehicles and animals in pictures of any size."""
+
+    @property
+    def name(self) -> str:
+        """As in ``Detections.engine``."""
+        ...
+
+    def detect(self, picture: Picture) -> Sequence[Found]:
+        """Return what is in a picture, the surest first.
+
+        Raises
+        ------
+        airhilt.errors.VisionError
+            It has failed.
+        """
+        ...
