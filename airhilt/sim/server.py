@@ -76,9 +76,8 @@ class Server:
         """Queue an input that has reached the worker now."""
         if self.is_lost:
             return
-        if policy == "latest":
-            self._drop_older(item.key)
-        self._waiting.append((policy, item))
+        if policy != "latest" or not self._replace_older(item):
+            self._waiting.append((policy, item))
         if not self._busy:
             self._busy = True
             self._director.at(self._director.now_ns, self._start, Priority.START)
@@ -94,11 +93,17 @@ class Server:
         """Return the step in hand, if there is one."""
         return self._in_hand
 
-    def _drop_older(self, key: str) -> None:
-        kept = [entry for entry in self._waiting if entry[1].key != key]
-        if len(kept) < len(self._waiting):
-            self.dropped[key] += len(self._waiting) - len(kept)
-            self._waiting = deque(kept)
+    def _replace_older(self, item: Input) -> bool:
+        """Put an input in the place of the one of its key that waits, if there is one.
+
+        It keeps the place, so that of several keys none waits for ever behind the others.
+        """
+        for index, (policy, older) in enumerate(self._waiting):
+            if older.key == item.key:
+                self._waiting[index] = (policy, item)
+                self.dropped[item.key] += 1
+                return True
+        return False
 
     def _take(self) -> tuple[Input, ...]:
         """Take the oldest input, and with a batched one all other batched ones."""

@@ -127,8 +127,17 @@ def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops():
         bench.offer_at(t_ns, name, "latest", key="left")
     bench.offer_at(2, b"other", "latest", key="right")
     bench.run()
-    assert [payload for _, payload in bench.out] == [b"a", b"other", b"d"]
+    assert [payload for _, payload in bench.out] == [b"a", b"d", b"other"]
     assert +bench.server.dropped == {"left": 2}
+
+
+def test_of_several_keys_that_are_too_fast_each_has_its_turn():
+    bench = Bench(echo, Fixed(10))
+    for t_ns in range(0, 60, 6):
+        for key in ("left", "right", "behind"):
+            bench.offer_at(t_ns, key.encode(), "latest", key=key)
+    bench.run()
+    assert [payload for _, payload in bench.out] == [b"left", b"right", b"behind"] * 3
 
 
 def test_latest_never_takes_back_what_the_worker_has_in_hand():
