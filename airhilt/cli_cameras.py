@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from airhilt.cameras import RENDERER, RENDERERS, RendererName
 from airhilt.errors import AirhiltError, CameraError
 
 
@@ -21,26 +22,28 @@ Examples:
 @click.option("--camera", required=True, help="One of the scenario or of its airport.")
 @click.option("--at", "at_s", type=float, default=0.0, show_default=True, metavar="SECONDS")
 @click.option("--seed", type=int, default=0, show_default=True)
-@click.option(
-    "--renderer", type=click.Choice(["open3d", "moderngl"]), default="open3d", show_default=True
-)
+@click.option("--renderer", type=click.Choice(RENDERERS), default=RENDERER, show_default=True)
 @click.option("--boxes", is_flag=True, help="Draw what is really there.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE")
 def render(
-    name: str, camera: str, at_s: float, seed: int, renderer: str, boxes: bool, out: Path | None
+    name: str,
+    camera: str,
+    at_s: float,
+    seed: int,
+    renderer: RendererName,
+    boxes: bool,
+    out: Path | None,
 ) -> None:
     """Write what a camera of a scenario sees at a time, as a PNG.
 
     The actors carry out what they are told at the start; nobody talks, and nobody warns.
     """
     from airhilt import load
-    from airhilt.cameras.renderers import RENDERERS
     from airhilt.cameras.still import still, write_png
 
     if not (math.isfinite(at_s) and 0.0 <= at_s <= 86_400.0):
         raise CameraError(f"--at is {at_s} s; expected 0 to 86400")
-    chosen = next(known for known in RENDERERS if known == renderer)
-    frame = still(load(name), camera, at_s, seed, chosen)
+    frame = still(load(name), camera, at_s, seed, renderer)
     path = out or Path(f"{Path(name).stem}-{camera}-{at_s:g}.png")
     try:
         write_png(frame, path, boxes)

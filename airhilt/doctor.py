@@ -12,6 +12,7 @@ from typing import Any
 
 from airhilt import library
 from airhilt._version import __version__
+from airhilt.cameras import RENDERERS, RendererName
 
 NEEDED = (
     "jsbsim",
@@ -30,8 +31,9 @@ NEEDED = (
     "jiwer",
 )
 OPTIONAL = {
-    "open3d-cpu": "vision",
-    "moderngl": "moderngl",
+    "pillow": "vision",
+    "av": "video",
+    "ultralytics": "yolo",
     "faster-whisper": "whisper",
     "coqui-tts": "coqui",
     "resvg-py": "plot",
@@ -68,6 +70,8 @@ def examine() -> list[Finding]:
         *[_library(kind) for kind in ("aircraft", "scenarios")],
         _jsbsim_models(),
         _recogniser(),
+        _detector(),
+        *[_renderer(name) for name in RENDERERS],
     ]
     return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()], _flite()]
 
@@ -99,6 +103,30 @@ def _recogniser() -> Finding:
     except SpeechError as error:
         return Finding("speech recogniser", "", needed=True, remedy=str(error))
     return Finding("speech recogniser", "(embedded)", needed=True)
+
+
+def _detector() -> Finding:
+    """Load the detector that ships with AIRHILT."""
+    from airhilt.errors import VisionError
+    from airhilt.workers.vision.engines import vision_engine
+
+    try:
+        vision_engine("embedded")
+    except VisionError as error:
+        return Finding("detector", "", needed=True, remedy=str(error))
+    return Finding("detector", "(embedded)", needed=True)
+
+
+def _renderer(name: RendererName) -> Finding:
+    """Let a renderer of camera pictures draw something."""
+    from airhilt.cameras.remote import probe
+    from airhilt.errors import RendererError
+
+    try:
+        probe(name)
+    except RendererError as error:
+        return Finding(f"renderer {name}", "", needed=False, remedy=str(error))
+    return Finding(f"renderer {name}", "(draws)", needed=False)
 
 
 def _flite() -> Finding:

@@ -11,7 +11,7 @@ from airhilt.actors.performer import Performer
 from airhilt.cameras.lamps import Lamp, aircraft_lamps, vehicle_lamps
 from airhilt.cameras.mesh import Mesh
 from airhilt.cameras.meshes import animals, vehicles
-from airhilt.cameras.meshes.aircraft import aircraft_mesh
+from airhilt.cameras.meshes.aircraft import aircraft_meshes
 from airhilt.cameras.view import Pose
 from airhilt.flight import Aircraft
 from airhilt.flight.aircraft_type import AircraftType, load_aircraft_type
@@ -19,7 +19,7 @@ from airhilt.messages import VisibleClass
 from airhilt.scenario.models import Actor, AircraftActor, VehicleActor
 from airhilt.surface.frame import LocalFrame
 from airhilt.surface.kinds import load_kind
-from airhilt.surface.mover import Dimensions, Size
+from airhilt.surface.mover import Dimensions, Size, carried_on
 from airhilt.surface.wildlife import AnimalKind
 
 GEAR_DOWN_BELOW_M = 600.0
@@ -103,9 +103,9 @@ def aircraft_model(name: str) -> Model:
     return Model(
         "airplane",
         name,
-        {"clean": aircraft_mesh(kind, False), "gear": aircraft_mesh(kind, True)},
+        aircraft_meshes(kind),
         lambda t_s, lit: aircraft_lamps(kind, t_s, lit),
-        {"clean": aircraft_mesh(kind, False, True), "gear": aircraft_mesh(kind, True, True)},
+        aircraft_meshes(kind, coarse=True),
         kind,
     )
 
@@ -150,13 +150,23 @@ def _no_lamps(_t_s: float, _lit: bool) -> Iterator[Lamp]:
     return iter(())
 
 
-def state_of(performer: Performer, frame: LocalFrame, ground_m: float, t_s: float) -> BodyState:
+def state_of(
+    performer: Performer, frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
+) -> BodyState:
     """Return where an actor is, in the axes of the scene.
+
+    Parameters
+    ----------
+    t_s
+        Now.
+    elapsed_s
+        Since the control tick that its state is of: it has moved straight on since, and has the
+        attitude that it had then.
 
     The scene is flat: heights are those above the ground's ellipsoid, wherever that is. Between
     two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
     """
-    state = performer.body.state
+    state = carried_on(performer.body.state, elapsed_s)
     east, north = frame.to_local((state.latitude_rad, state.longitude_rad))
     up = state.altitude_m - ground_m
     callsign = performer.actor.callsign

@@ -49,8 +49,9 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
     draws = stream(seed, "ground")
     pieces: list[Mesh] = []
     for layer in layers:
-        left = shapely.difference(layer.area, taken, grid_size=GRID_M)
-        taken = shapely.union(taken, layer.area, grid_size=GRID_M)
+        area = _surfaces(layer.area)
+        left = shapely.difference(area, taken, grid_size=GRID_M)
+        taken = _surfaces(shapely.union(taken, area, grid_size=GRID_M))
         shapely.prepare(left)
         for cell in layer.cells or (left,):
             piece = left
@@ -64,6 +65,14 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
             for part, sunlit in _split(piece, shadows):
                 pieces.append(_triangles(part, (red, green, blue), sunlit))
     return join(pieces)
+
+
+def _surfaces(area: BaseGeometry) -> BaseGeometry:
+    """Return an area without the points and lines that overlays leave where areas touch."""
+    if area.geom_type != "GeometryCollection":
+        return area
+    parts = shapely.get_parts(area)
+    return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
 
 
 def _split(area: BaseGeometry, shadows: BaseGeometry) -> Iterator[tuple[BaseGeometry, float]]:

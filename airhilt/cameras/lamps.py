@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from shapely import Point
 from airhilt.cameras.light import Light
 from airhilt.cameras.mesh import Colour, Floats, srgb
 from airhilt.cameras.meshes.aircraft import wing_tip_m
-from airhilt.cameras.view import NEAR_M, View
+from airhilt.cameras.view import NEAR_M, Pose, View
 from airhilt.flight.aircraft_type import AircraftType
 from airhilt.surface.layout import Layout
 from airhilt.surface.mover import Size
@@ -45,6 +46,8 @@ DAY_LUX = 3e-2
 NIGHT_LUX = 4e-6
 """Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
 GREATEST_RADIUS_PX = 9.0
+FAINTEST_LAMP = 0.02
+"""Part of the light that saturates a pixel: what is fainter is not drawn."""
 
 
 class Lamp(NamedTuple):
@@ -148,46 +151,86 @@ def vehicle_lamps(size: Size, t_s: float) -> Iterator[Lamp]:
         yield Lamp(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
 
 
-def shine(
-    picture: npt.NDArray[np.uint8],
-    distance_m: Floats,
-    lamps: Sequence[Lamp],
-    view: View,
-    light: Light,
-) -> None:
-    """Add points of light to a picture where nothing stands before them."""
-    if not lamps:
-        return
-    places = np.array([lamp.place_m for lamp in lamps])
-    inside = view.in_camera(places)
-    away = np.linalg.norm(inside, axis=1)
-    ahead = inside[:, 2] > NEAR_M
-    pixels = np.full((len(lamps), 2), -1.0)
-    pixels[ahead] = view.pixels(inside[ahead])
-    lens = view.intrinsics
-    seen = (
-        ahead & (pixels[:, 0] >= 0) & (pixels[:, 0] < lens.width_px)
-        & (pixels[:, 1] >= 0) & (pixels[:, 1] < lens.height_px)
-    )  # fmt: skip
-    threshold = NIGHT_LUX**light.darkness * DAY_LUX ** (1.0 - light.darkness)
-    lux = np.array([lamp.candela for lamp in lamps]) / np.maximum(away, 1.0) ** 2
-    lux *= np.exp(-light.extinction_per_m * away)
-    for index in np.flatnonzero(seen).tolist():
-        lamp = lamps[index]
-        column, row = pixels[index]
-        if distance_m[int(row), int(column)] < away[index] - 1.5:
-            continue
-        strength = lux[index] * _towards(lamp, view, places[index], away[index]) / threshold
-        if strength > 0.02:
-            _splat(picture, column, row, strength, lamp.colour)
+class Spot(NamedTuple):
+    """A light in a picture: where, how far, and how bright if nothing stands before it."""
+
+    column: float
+    row: float
+    away_m: float
+    strength: float
+    colour: tuple[float, ...]
 
 
-def _towards(lamp: Lamp, view: View, place: Floats, away: float) -> float:
-    if lamp.beam is None:
-        return 1.0
-    to_camera = (np.asarray(view.pose.position_m) - place) / max(float(away), 1e-6)
-    cosine = float(np.dot(to_camera, lamp.beam))
-    return math.exp(lamp.beam_sharpness * (cosine - 1.0))
+@dataclass(frozen=True)
+class Lamps:
+    """Points of light, in columns.
+
+    Attributes
+    ----------
+    places_m, colours, beams
+        Of shape (n, 3); what shines all round has a beam of sharpness 0.
+    """
+
+    places_m: npt.NDArray[np.float64]
+    colours: npt.NDArray[np.float64]
+    candela: npt.NDArray[np.float64]
+    beams: npt.NDArray[np.float64]
+    sharpness: npt.NDArray[np.float64]
+
+    @classmethod
+    def of(cls, lamps: Sequence[Lamp]) -> Lamps:
+        """Return lamps that are given one by one."""
+        return cls(
+            np.array([lamp.place_m for lamp in lamps]).reshape(-1, 3),
+            np.array([lamp.colour for lamp in lamps]).reshape(-1, 3),
+            np.array([lamp.candela for lamp in lamps]),
+            np.array([lamp.beam or (0.0, 0.0, 0.0) for lamp in lamps]).reshape(-1, 3),
+            np.array([lamp.beam_sharpness if lamp.beam else 0.0 for lamp in lamps]),
+        )
+
+    @classmethod
+    def carried(cls, groups: Sequence[tuple[Pose, Sequence[Lamp]]]) -> Lamps:
+        """Return lamps that are given in the axes of what carries them."""
+        lamps = cls.of([lamp for _, group in groups for lamp in group])
+        counts = [len(group) for _, group in groups]
+        if not sum(counts):
+            return lamps
+        turns = np.repeat([pose.rotation for pose, _ in groups], counts, axis=0)
+        moves = np.repeat([pose.position_m for pose, _ in groups], counts, axis=0)
+        return replace(
+            lamps,
+            places_m=np.einsum("nij,nj->ni", turns, lamps.places_m) + moves,
+            beams=np.einsum("nij,nj->ni", turns, lamps.beams),
+        )
+
+    def seen(self, view: View, light: Light) -> list[Spot]:
+        """Return those that are in the picture and bright enough to be seen."""
+        if not len(self.places_m):
+            return []
+        offset = self.places_m - np.asarray(view.pose.position_m)
+        away = np.maximum(np.linalg.norm(offset, axis=1), 1.0)
+        threshold = NIGHT_LUX**light.darkness * DAY_LUX ** (1.0 - light.darkness)
+        strength = self.candela / away**2 * np.exp(-light.extinction_per_m * away) / threshold
+        cosine = -np.einsum("ij,ij->i", offset, self.beams) / away
+        strength *= np.exp(self.sharpness * (cosine - 1.0))
+        bright = np.flatnonzero(strength > FAINTEST_LAMP)
+        inside = offset[bright] @ view.axes
+        ahead = inside[:, 2] > NEAR_M
+        bright, inside = bright[ahead], inside[ahead]
+        lens = view.intrinsics
+        found = []
+        for index, (column, row) in zip(bright.tolist(), view.pixels(inside).tolist(), strict=True):
+            if 0.0 <= column < lens.width_px and 0.0 <= row < lens.height_px:
+                colour = tuple(self.colours[index].tolist())
+                found.append(Spot(column, row, float(away[index]), float(strength[index]), colour))
+        return found
+
+
+def shine(picture: npt.NDArray[np.uint8], distance_m: Floats, spots: Sequence[Spot]) -> None:
+    """Add lights to a picture where nothing stands before them."""
+    for spot in spots:
+        if distance_m[int(spot.row), int(spot.column)] >= spot.away_m - 1.5:
+            _splat(picture, spot.column, spot.row, spot.strength, spot.colour)
 
 
 def _splat(
@@ -195,7 +238,7 @@ def _splat(
     column: float,
     row: float,
     strength: float,
-    colour: Colour,
+    colour: tuple[float, ...],
 ) -> None:
     """Screen a spot over a picture; what is brighter than white grows instead."""
     peak = min(strength, 1.0)

@@ -162,19 +162,20 @@ class Light:
         """Brightness of the sun itself against the glare."""
         return 20.0 if self.sun[2] > 0.0 else 0.0
 
-    def sky_towards(self, directions: Floats) -> Floats:
-        """Return the colours of the sky in some directions; both of shape (3, n)."""
-        east, north, up = directions
+    def sky_steps(self, up: Floats) -> npt.NDArray[np.intp]:
+        """Return entries of `sky` by the sine of the elevation."""
         step = (up - np.float32(LOWEST_SKY)) * np.float32((SKY_STEPS - 1) / (1.0 - LOWEST_SKY))
-        colours = self.sky.T.take((step + np.float32(0.5)).astype(np.int32), axis=1, mode="clip")
-        if self.glare.max() > 0.0:
-            x, y, z = self.sun.astype(np.float32)
-            apart = np.float32(1.0) - (x * east + y * north + z * up)
-            near = np.flatnonzero(apart < GLARE_ENDS / self.glare_sharpness)
-            lobes = np.exp(-self.glare_sharpness * apart[near])
-            lobes += self.disc * np.exp(-DISC * apart[near])
-            colours[:, near] += self.glare[:, None] * lobes
-        return np.asarray(colours)
+        return np.asarray(np.clip(step + np.float32(0.5), 0, SKY_STEPS - 1), dtype=np.intp)
+
+    @property
+    def glare_from(self) -> float:
+        """Cosine of the angle from the sun at which its glare ends."""
+        return 1.0 - GLARE_ENDS / self.glare_sharpness
+
+    def glare_at(self, apart: Floats) -> Floats:
+        """Return what the sun adds at some angles, given as 1 less their cosine; shape (3, n)."""
+        lobes = np.exp(-self.glare_sharpness * apart) + self.disc * np.exp(-DISC * apart)
+        return np.asarray(self.glare[:, None] * lobes, dtype=np.float32)
 
     def shade(self, colours: Floats, normals: Floats, sunlit: Floats | float = 1.0) -> Floats:
         """Return the light that matt surfaces send back, shape (n, 3)."""
@@ -220,6 +221,10 @@ def encode(linear: Floats) -> npt.NDArray[np.uint8]:
     """Return linear light, shape (3, n), as pixels in 8-bit sRGB (IEC 61966-2-1), shape (n, 3)."""
     pixels = np.empty((linear.shape[1], 3), dtype=np.uint8)
     for channel, light in enumerate(linear):
-        levels = np.minimum(light * np.float32(LEVELS), np.float32(LEVELS - 1)).astype(np.uint16)
-        pixels[:, channel] = _ENCODED.take(levels, mode="clip")
+        pixels[:, channel] = encode_levels(light * np.float32(LEVELS))
     return pixels
+
+
+def encode_levels(levels: Floats) -> npt.NDArray[np.uint8]:
+    """Return one channel of linear light, white being `LEVELS`, in 8-bit sRGB."""
+    return np.asarray(_ENCODED.take(levels.astype(np.intp), mode="clip"))

@@ -81,6 +81,16 @@ class Mesh:
         ones = np.ones(len(faces), dtype=np.float32)
         return cls(corners, _smooth(points, faces, across, crease_rad), colours, glow * ones, ones)
 
+    def part(self, wanted: npt.NDArray[np.bool_]) -> Mesh:
+        """Return those triangles for which ``wanted`` is true."""
+        return Mesh(
+            self.corners[wanted],
+            self.normals[wanted],
+            self.colours[wanted],
+            self.glow[wanted],
+            self.sunlit[wanted],
+        )
+
     def moved(self, right_m: float = 0.0, ahead_m: float = 0.0, up_m: float = 0.0) -> Mesh:
         """Return it somewhere else."""
         offset = np.array((right_m, ahead_m, up_m), dtype=np.float32)
@@ -193,8 +203,8 @@ def _outwards(vertices: Floats, faces: npt.NDArray[np.int64]) -> npt.NDArray[np.
 
 
 def tube(
-    start: Sequence[float],
-    end: Sequence[float],
+    start: npt.ArrayLike,
+    end: npt.ArrayLike,
     radii_m: tuple[float, float],
     colour: Colour,
     sides: int = 8,

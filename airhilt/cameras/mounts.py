@@ -18,6 +18,8 @@ from airhilt.surface.frame import LocalFrame
 from airhilt.units import DEGREE, FOOT
 
 AIRPORT_CAMERA_PX = (640, 360)
+NOSE_LOOKS_DOWN_RAD = 4.0 * DEGREE
+"""About the angle of attack of an airliner in level flight: the horizon is in the middle."""
 TAIL_LOOKS_DOWN_RAD = 7.0 * DEGREE
 
 
@@ -125,10 +127,17 @@ def _declared(
             )
             return Camera(declared.name, lens, pose)
         case ActorMount(actor=actor, station=station):
-            return Camera(declared.name, lens, _station(declared.name, actor, station, models))
+            return Camera(declared.name, lens, station_mount(declared.name, actor, station, models))
 
 
-def _station(name: str, actor: str, station: str, models: Mapping[str, Model]) -> Mount:
+def station_mount(name: str, actor: str, station: str, models: Mapping[str, Model]) -> Mount:
+    """Return where a camera sits on the nose or the tail of an aircraft.
+
+    Raises
+    ------
+    CameraError
+        The actor is no aircraft.
+    """
     kind = models[actor].aircraft if actor in models else None
     if kind is None:
         raise CameraError(
@@ -137,7 +146,8 @@ def _station(name: str, actor: str, station: str, models: Mapping[str, Model]) -
     size = kind.dimensions
     if station == "nose":
         axis = size.height_m - size.wheel_height_offset_m - kind.mesh.fin_height_m
-        return Mount(actor, Pose.of((0.0, size.length_m / 2.0 + 0.4, min(axis, 1.0)), 0.0), False)
+        place = (0.0, size.length_m / 2.0 + 0.4, min(axis, 1.0))
+        return Mount(actor, Pose.of(place, 0.0, -NOSE_LOOKS_DOWN_RAD), False)
     top = size.height_m - size.wheel_height_offset_m
     place = (0.0, -0.45 * size.length_m, top + 0.35)
     return Mount(actor, Pose.of(place, 0.0, -TAIL_LOOKS_DOWN_RAD), True)

@@ -30,9 +30,13 @@ class Box(NamedTuple):
     def within(self, view: View) -> Box:
         """Return what of it is in the picture."""
         lens = view.intrinsics
-        left, right = np.clip((self.left, self.right), 0.0, lens.width_px)
-        top, bottom = np.clip((self.top, self.bottom), 0.0, lens.height_px)
-        return Box(float(left), float(top), float(right), float(bottom))
+        width, height = float(lens.width_px), float(lens.height_px)
+        return Box(
+            min(max(self.left, 0.0), width),
+            min(max(self.top, 0.0), height),
+            min(max(self.right, 0.0), width),
+            min(max(self.bottom, 0.0), height),
+        )
 
     def window(self, view: View, margin_px: int = 1) -> Window:
         """Return the whole pixels of the picture that it touches, and some more."""

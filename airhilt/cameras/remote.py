@@ -9,25 +9,29 @@ from __future__ import annotations
 import json
 import mmap
 import os
-import select
+import selectors
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict
-from typing import IO, Any
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import IO, Any, cast
 
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.cameras import RendererName
 from airhilt.cameras.bodies import BodyState
+from airhilt.cameras.masks import Mask, mask_of, runs_of
 from airhilt.cameras.mesh import Floats
 from airhilt.cameras.mounts import Camera, cameras_of, find_camera
 from airhilt.cameras.outline import Box
-from airhilt.cameras.renderers import RendererName
+from airhilt.cameras.renderers import require_renderer
 from airhilt.cameras.studio import Frame, Sighting
+from airhilt.cameras.view import View
 from airhilt.errors import AirhiltError, CameraError, RendererError, ScenarioError
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
@@ -39,6 +43,10 @@ BYTES_PER_PIXEL = 3 + 1 + 4
 TOLD = {error.__name__: error for error in (CameraError, RendererError, ScenarioError)}
 """Errors that go from one process to the other by their names."""
 STARTING_S = 120.0
+MOST_SAID_BYTES = 1 << 20
+"""Of what the other process says besides its answers, before it is forgotten."""
+LAST_SAID_BYTES = 1 << 12
+"""Of that, in which its last line is."""
 
 
 class RemoteStudio:
@@ -50,6 +58,14 @@ class RemoteStudio:
         Of the cameras; None: those that the scenario declares.
     patience_s
         For the pictures of one instant, before the renderer is given up.
+
+    Attributes
+    ----------
+    actors
+        Those of the numbers in ``Frame.instance``, from 1.
+    own_aircraft
+        For each camera the pixels that the aircraft which carries it may cover, shape (rows,
+        columns).
 
     Raises
     ------
@@ -72,13 +88,14 @@ class RemoteStudio:
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = _cameras(scenario, wanted)
         self._places = _places(self._cameras)
-        self._file = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the studio
+        self._file = _shared_file()
         size = max(sum(camera_bytes(camera) for camera in self._cameras.values()), 1)
         self._file.truncate(size)
         self._pixels = mmap.mmap(self._file.fileno(), size)
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115
+        self._said = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115
         self._process, self._ask, self._answers = self._start()
         self._unread = b""
+        self._last: dict[str, Frame] = {}
         try:
             opened = self._exchange(
                 {
@@ -93,6 +110,9 @@ class RemoteStudio:
             self.close()
             raise
         self.actors: tuple[str, ...] = tuple(opened["actors"])
+        self.own_aircraft: Mapping[str, Mask] = {
+            name: _mask(runs, self._cameras[name]) for name, runs in opened["own_aircraft"].items()
+        }
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
         """Take the pictures of all cameras that are due at an instant.
@@ -110,30 +130,33 @@ class RemoteStudio:
             {"cameras": list(names), "bodies": [list(body) for body in bodies], "t_ns": t_ns},
             self._patience_s,
         )
-        frames = []
-        for name in names:
-            colour, instance, distance = self._planes(name)
-            sightings = tuple(_sighting(found) for found in answer["sightings"][name])
-            frames.append(
-                Frame(
-                    name, t_ns, views[name], colour.copy(), distance.copy(), instance.copy(),
-                    sightings,
-                )
-            )  # fmt: skip
-        return frames
+        return [self._frame(name, t_ns, views[name], answer["pictures"][name]) for name in names]
+
+    def _frame(self, name: str, t_ns: int, view: View, told: Mapping[str, Any]) -> Frame:
+        sightings = tuple(_sighting(found) for found in told["sightings"])
+        last = self._last.get(name)
+        if told["unchanged"] and last is not None:
+            return replace(last, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
+        colour, instance, distance = self._planes(name)
+        frame = Frame(
+            name, t_ns, view, colour.copy(), distance.copy(), instance.copy(), sightings
+        ).sealed()
+        self._last[name] = frame
+        return frame
 
     def close(self) -> None:
-        """End the process."""
-        self._ask.close()
+        """End the process; a question that it died before reading is lost with it."""
         try:
-            self._process.wait(5.0)
-        except subprocess.TimeoutExpired:
+            with suppress(OSError, subprocess.TimeoutExpired):
+                self._ask.close()
+                self._process.wait(5.0)
+        finally:
             self._process.kill()
             self._process.wait()
-        self._answers.close()
-        self._pixels.close()
-        self._file.close()
-        self._said.close()
+            self._answers.close()
+            self._pixels.close()
+            self._file.close()
+            self._said.close()
 
     def __enter__(self) -> RemoteStudio:
         return self
@@ -153,15 +176,14 @@ class RemoteStudio:
         questions, ask = os.pipe()
         answers, answer = os.pipe()
         shared = self._file.fileno()
-        command = [sys.executable, "-m", "airhilt.cameras.remote"]
         numbers = [str(number) for number in (questions, answer, shared)]
         process = subprocess.Popen(  # noqa: S603 - our own module
-            [*command, *numbers],
+            [*COMMAND, *numbers],
             stdin=subprocess.DEVNULL,
             stdout=self._said,
             stderr=self._said,
             pass_fds=(questions, answer, shared),
-            env={**os.environ, **ENVIRONMENT},
+            env=_environment(),
         )
         os.close(questions)
         os.close(answer)
@@ -171,49 +193,76 @@ class RemoteStudio:
         try:
             self._ask.write(json.dumps(question).encode() + b"\n")
             self._ask.flush()
-            line = self._line(time.monotonic() + patience_s)
+            line = self._line(patience_s)
         except (OSError, ValueError):
             line = b""
         if not line:
             raise self._died()
+        self._forget()
         answer = json.loads(line)
         if "error" in answer:
             raise TOLD.get(answer["error"], RendererError)(answer["text"])
         return answer
 
-    def _line(self, until_s: float) -> bytes:
+    def _line(self, patience_s: float) -> bytes:
         """Return the next line of answers; empty when there will be none."""
-        while b"\n" not in self._unread:
-            left_s = until_s - time.monotonic()
-            if left_s <= 0.0 or not select.select([self._answers], [], [], left_s)[0]:
-                self._process.kill()
-                raise RendererError(
-                    f"the renderer {self._renderer} has not answered for "
-                    f"{self._patience_s:.0f} s; no more pictures are drawn"
-                )
-            part = self._answers.read(1 << 16)
-            if not part:
-                return b""
-            self._unread += part
+        until_s = time.monotonic() + patience_s
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._answers, selectors.EVENT_READ)
+            while b"\n" not in self._unread:
+                left_s = until_s - time.monotonic()
+                if left_s <= 0.0 or not selector.select(left_s):
+                    self._process.kill()
+                    raise RendererError(
+                        f"the renderer {self._renderer} has not answered for "
+                        f"{patience_s:.0f} s; no more pictures are drawn"
+                    )
+                part = self._answers.read(1 << 16)
+                if not part:
+                    return b""
+                self._unread += part
         line, _, self._unread = self._unread.partition(b"\n")
         return line
+
+    def _forget(self) -> None:
+        """Make room for what the process says: it writes where this side's file stands too."""
+        if os.fstat(self._said.fileno()).st_size > MOST_SAID_BYTES:
+            self._said.seek(0)
+            self._said.truncate()
 
     def _died(self) -> RendererError:
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(5.0)
-        self._said.seek(0)
+        self._said.seek(max(os.fstat(self._said.fileno()).st_size - LAST_SAID_BYTES, 0))
         last = self._said.read().decode(errors="replace").strip().splitlines()[-1:]
         cause = f": {last[0]}" if last else ""
-        code = self._process.returncode
-        how = f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"
         return RendererError(
-            f"the process of renderer {self._renderer} has ended ({how}){cause}; no more pictures "
-            "are drawn"
+            f"the process of renderer {self._renderer} has ended "
+            f"({_how(self._process.returncode)}){cause}; no more pictures are drawn"
         )
 
 
+COMMAND = (sys.executable, "-P", "-m", "airhilt.cameras.remote")
+"""Of the other side; -P: not from the folder in which it happens to start."""
 ENVIRONMENT = {"EGL_PLATFORM": "surfaceless", "OMP_NUM_THREADS": "1", "LP_NUM_THREADS": "1"}
 """For drivers without a display; and one core for pictures, because a run needs the other."""
+
+
+def _environment() -> dict[str, str]:
+    """Return that of the other side, which imports from where this one does."""
+    places = [str(Path(place).absolute()) for place in sys.path]
+    return {**os.environ, **ENVIRONMENT, "PYTHONPATH": os.pathsep.join(places)}
+
+
+def _shared_file() -> IO[bytes]:
+    """Return a file for pixels, in memory where the system has such."""
+    if hasattr(os, "memfd_create"):
+        return os.fdopen(os.memfd_create("airhilt"), "w+b")
+    return tempfile.TemporaryFile()
+
+
+def _how(code: int | None) -> str:
+    return f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"
 
 
 def camera_bytes(camera: Camera) -> int:
@@ -253,8 +302,42 @@ def _places(cameras: Mapping[str, Camera]) -> dict[str, int]:
     return places
 
 
+def _mask(runs: Sequence[int], camera: Camera) -> Mask:
+    return mask_of(runs, camera.intrinsics.height_px, camera.intrinsics.width_px)
+
+
 def _sighting(found: Mapping[str, Any]) -> Sighting:
     return Sighting(**{**found, "box": Box(*found["box"])})
+
+
+def probe(renderer: RendererName) -> None:
+    """Let a process of its own draw something.
+
+    Raises
+    ------
+    RendererError
+        It could not.
+    """
+    try:
+        done = subprocess.run(  # noqa: S603 - our own module
+            [*COMMAND, renderer],
+            capture_output=True,
+            text=True,
+            env=_environment(),
+            timeout=STARTING_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise RendererError(
+            f"the renderer {renderer} has not drawn anything for {STARTING_S:.0f} s"
+        ) from None
+    if done.returncode:
+        last = done.stderr.strip().splitlines()[-1:]
+        raise RendererError(
+            last[0]
+            if last and done.returncode == 1
+            else f"the process of renderer {renderer} has ended ({_how(done.returncode)})"
+        )
 
 
 # --- the other side -------------------------------------------------------------------------
@@ -277,7 +360,8 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
     except AirhiltError as error:
         answer(_told(error))
         return
-    answer({"actors": studio.actors})
+    own = {name: runs_of(studio.own_aircraft(name)) for name in names}
+    answer({"actors": studio.actors, "own_aircraft": own})
     for line in questions:
         question = json.loads(line)
         bodies = [BodyState(*body) for body in question["bodies"]]
@@ -287,15 +371,22 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
             answer(_told(error))
             continue
         for frame in frames:
-            colour, instance, distance = planes(pixels, places[frame.camera], cameras[frame.camera])
-            colour[...] = frame.colour
-            instance[...] = frame.instance
-            distance[...] = frame.distance_m
-        sightings = {
-            frame.camera: [asdict(sighting) for sighting in frame.sightings] for frame in frames
-        }
-        answer({"sightings": sightings})
+            if not frame.unchanged:
+                place, camera = places[frame.camera], cameras[frame.camera]
+                colour, instance, distance = planes(pixels, place, camera)
+                colour[...] = frame.colour
+                instance[...] = frame.instance
+                distance[...] = frame.distance_m
+        answer({"pictures": {frame.camera: _picture(frame) for frame in frames}})
     studio.close()
+
+
+def _picture(frame: Frame) -> dict[str, Any]:
+    """Return what is told about a picture besides its pixels."""
+    return {
+        "sightings": [asdict(sighting) for sighting in frame.sightings],
+        "unchanged": frame.unchanged,
+    }
 
 
 def _told(error: AirhiltError) -> dict[str, str]:
@@ -303,7 +394,13 @@ def _told(error: AirhiltError) -> dict[str, str]:
 
 
 def main(numbers: Sequence[str]) -> None:
-    """Serve on the pipes and the file of these descriptors."""
+    """Serve on the pipes and the file of these descriptors, or try the renderer of that name."""
+    if len(numbers) == 1:
+        try:
+            require_renderer(cast("RendererName", numbers[0]))
+        except RendererError as error:
+            sys.exit(str(error))
+        return
     questions, answers, shared = (int(number) for number in numbers)
     with os.fdopen(questions, "rb") as asked, os.fdopen(answers, "wb", buffering=0) as told:
         serve(asked, lambda message: _write(told, message), shared)

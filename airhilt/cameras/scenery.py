@@ -95,13 +95,14 @@ def _tree(colour: Colour, pointed: bool) -> Mesh:
 def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
     """Return low houses at places, a few of them tall."""
     draws = stream(seed, "houses")
+    kinds = {colour: _without_floor(box(colour, 1.0, 1.0, 1.0)) for colour in HOUSES}
     found = []
     for east, north in places:
         colour = HOUSES[int(draws.integers(len(HOUSES)))]
         tall = draws.uniform() < 0.12
         height = float(draws.uniform(22.0, 48.0) if tall else draws.uniform(5.0, 14.0))
         size = draws.uniform(12.0, 36.0, size=2)
-        block = box(colour, float(size[0]), float(size[1]), height)
+        block = kinds[colour].stretched(float(size[0]), float(size[1]), height)
         turn = float(draws.uniform(0.0, math.pi))
         sin, cos = math.sin(turn), math.cos(turn)
         low = -float(drop_m(math.hypot(east, north)))
@@ -109,6 +110,11 @@ def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
             block.turned(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1))).moved(east, north, low)
         )
     return join(found) if found else None
+
+
+def _without_floor(mesh: Mesh) -> Mesh:
+    """Return what stands on the ground without what nobody sees."""
+    return mesh.part(mesh.face_normals[:, 2] > -0.5)
 
 
 def clouds(base_m: float, reach_m: float, count: int, seed: int) -> Mesh:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from airhilt.cameras import RendererName
 from airhilt.cameras.bodies import Model, model_of
 from airhilt.cameras.light import Light
 from airhilt.cameras.mounts import Camera, cameras_of, find_camera, frame_of
 from airhilt.cameras.rain import rain_visibility_m
-from airhilt.cameras.renderers import RendererName
 from airhilt.cameras.studio import Studio
 from airhilt.cameras.sun import sun_direction
 from airhilt.cameras.world import World, airport_world, open_country
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
-from airhilt.scenario.models import Airborne
+from airhilt.scenario.models import Airborne, Daylight, Weather
 from airhilt.units import FOOT
 
 FOGGY_M = 3000.0
@@ -30,13 +30,18 @@ LOWEST_CLOUDS_M = 400.0
 
 def light_of(scenario: Scenario, setting: Setting) -> Light:
     """Return how a scenario is lit."""
-    weather, daylight = scenario.weather, scenario.daylight
+    latitude_rad, _ = frame_of(setting).origin
+    return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, setting.layout is None)
+
+
+def air_and_sun(weather: Weather, daylight: Daylight, latitude_rad: float, en_route: bool) -> Light:
+    """Return how a place is lit; what the rain takes from the visibility is counted."""
     rain_m = rain_visibility_m(weather.rain_mm_h)
     visibility = 1.0 / (1.0 / weather.visibility_m + 1.0 / rain_m)
     thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
-    sun = sun_direction(frame_of(setting).origin[0], daylight.date, daylight.solar_time_h)
-    backdrop = BACKDROP_EN_ROUTE if setting.layout is None else 1.0
+    sun = sun_direction(latitude_rad, daylight.date, daylight.solar_time_h)
+    backdrop = BACKDROP_EN_ROUTE if en_route else 1.0
     return Light(sun, visibility, overcast, backdrop)
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.actors import build_cast
+from airhilt.cameras import RendererName
 from airhilt.cameras.bodies import state_of
 from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.remote import RemoteStudio
-from airhilt.cameras.renderers import RendererName
 from airhilt.cameras.studio import Frame
 from airhilt.errors import CameraError
 from airhilt.scenario import Scenario

@@ -9,19 +9,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.cameras import RendererName
+from airhilt.cameras.backdrop import KEPT_PX, Backdrop
 from airhilt.cameras.bodies import BodyState, Model
-from airhilt.cameras.lamps import Lamp, shine
+from airhilt.cameras.lamps import Lamp, Lamps, Spot, shine
+from airhilt.cameras.layers import Layer, by_sample
 from airhilt.cameras.light import Light
+from airhilt.cameras.masks import Mask
 from airhilt.cameras.mesh import Floats
-from airhilt.cameras.mounts import Camera, Mount
+from airhilt.cameras.mounts import Camera, Mount, find_camera
 from airhilt.cameras.outline import Box, Outline
 from airhilt.cameras.rain import Streaks
-from airhilt.cameras.renderers import RendererName, Samples, open_renderer
+from airhilt.cameras.renderers import Part, Samples, open_renderer
 from airhilt.cameras.view import Pose, View, Window
 from airhilt.cameras.world import World
 from airhilt.messages import VisibleClass
@@ -30,12 +35,17 @@ FINENESS = ((900, 4), (2500, 3), (16_000, 2))
 """Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
 STILL_SAMPLES = 3
 """Along each side of a pixel of a background that is drawn once."""
-TOUCHES_M = 0.25
-"""What is so much farther than a surface still lies on it."""
+FAINTEST = 1.0 / 512.0
+"""Pixels, times what the air leaves of their contrast: less changes no level of any pixel."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
+ON_GROUND_M = 0.3
 SMALL_PX = 4000
 """Area of a window in which a body may be coarse."""
+OWN_SAMPLES = 2
+OWN_MARGIN_PX = 2
+"""By which the mask of the own aircraft is larger than what is seen of it."""
+AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """A picture of the own aircraft is kept while the light turns less than a step of this part of
 a radian."""
@@ -50,9 +60,10 @@ class Sighting:
     box
         About all of the body that is within the picture, whether hidden or not; pixels.
     pixels
-        Area that is seen.
+        Area that is seen; 0 also of what is too small, or too far in the haze, to change any
+        pixel.
     visible_fraction
-        Of the body's area within the picture, that nothing hides.
+        Of the body's area within the picture, that nothing hides; 0 where ``pixels`` is 0.
     truncation
         Part of the box about the whole body that lies outside of the picture.
     range_m
@@ -78,16 +89,19 @@ class Sighting:
 
 @dataclass(frozen=True)
 class Frame:
-    """A picture and what is true of it.
+    """A picture and what is true of it; its arrays cannot be written to.
 
     Attributes
     ----------
     colour
         8-bit sRGB, shape (rows, columns, 3).
     distance_m
-        From the camera along the ray, infinite in the sky.
+        From the camera along the ray, infinite in the sky. Of the still world before a camera
+        that moves it may be that of some pictures before: see `airhilt.cameras.backdrop`.
     instance
         0 where no body fills the pixel, else the number of the actor in the studio, from 1.
+    unchanged
+        The picture is the camera's last one again: colours, distances and instances.
     """
 
     camera: str
@@ -97,21 +111,38 @@ class Frame:
     distance_m: Floats
     instance: npt.NDArray[np.uint8]
     sightings: tuple[Sighting, ...]
+    unchanged: bool = False
+
+    def sealed(self) -> Frame:
+        """Return it, its arrays being safe from writing: several frames may have them."""
+        for plane in (self.colour, self.distance_m, self.instance):
+            plane.flags.writeable = False
+        return self
 
 
-@dataclass
-class _Layer:
-    """A body in its window, in pixels."""
+class _Seen(NamedTuple):
+    """A body that reaches into a picture: which mesh of it fits, where, and about it a box."""
 
-    number: int
+    body: BodyState
+    pose: Pose
+    shape: str
     window: Window
     box: Box
     whole: Box
     range_m: float
-    silhouette: float
-    cover: Floats
-    colour: Floats
-    distance_m: Floats
+    transmission: float
+
+    @property
+    def leaves_a_trace(self) -> bool:
+        return self.box.area * self.transmission > FAINTEST
+
+
+class _Plain(NamedTuple):
+    """A picture of the world with at most the own aircraft before it, and what it shows."""
+
+    drawn: int
+    own: Layer | None
+    frame: Frame
 
 
 class Studio:
@@ -166,8 +197,10 @@ class Studio:
         self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
         self._far = frozenset(far)
         self._fine = fine
-        self._backgrounds: dict[str, Samples] = {}
-        self._own: dict[str, tuple[tuple[object, ...], _Layer]] = {}
+        self._lights = Lamps.of(world.lamps)
+        self._backdrops = {camera.name: self._backdrop(camera) for camera in self._cameras.values()}
+        self._plain: dict[str, _Plain] = {}
+        self._own: dict[str, tuple[tuple[object, ...], Layer]] = {}
         self._streaks = {
             camera.name: Streaks(
                 (camera.intrinsics.width_px, camera.intrinsics.height_px), rain_mm_h, camera.name
@@ -196,8 +229,37 @@ class Studio:
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
-        lamps = self._lamps(there, poses, t_ns)
+        lamps = self._lamps(there, t_ns)
         return [self._picture(self._cameras[name], there, poses, lamps, t_ns) for name in names]
+
+    def own_aircraft(self, name: str) -> Mask:
+        """Return the pixels of a camera that its own aircraft may cover, shape (rows, columns).
+
+        It is in its place with wheels up or down, and some pixels larger; none of a camera that
+        does not see the aircraft that carries it.
+
+        Raises
+        ------
+        CameraError
+            There is no such camera.
+        """
+        camera = find_camera(self._cameras, name)
+        lens = camera.intrinsics
+        covered = np.zeros((lens.height_px, lens.width_px), dtype=bool)
+        if isinstance(camera.at, Pose) or not camera.at.sees_own_aircraft:
+            return covered
+        model = self._models[camera.at.actor]
+        view = View(lens, camera.at.pose)
+        for name in model.shapes:
+            shape = f"{model.kind}/{name}"
+            whole = self._outlines[shape].box(AT_ORIGIN, view)
+            if whole is None or whole.within(view).area <= 0.0:
+                continue
+            window = whole.within(view).window(view)
+            part = Part(shape, AT_ORIGIN, window, OWN_SAMPLES)
+            drawn = by_sample(self._renderer.parts(view, [part])[0].distance_m, OWN_SAMPLES)
+            covered[window.slices] |= np.isfinite(drawn).any(axis=0)
+        return _grown(covered, OWN_MARGIN_PX)
 
     # --- one picture ----------------------------------------------------------------------
 
@@ -206,53 +268,69 @@ class Studio:
         camera: Camera,
         bodies: Mapping[str, BodyState],
         poses: Mapping[str, Pose],
-        lamps: Sequence[tuple[str, Lamp]],
+        lamps: Mapping[str, Sequence[Lamp]],
         t_ns: int,
     ) -> Frame:
         view = camera.view(bodies)
-        background = self._background(camera, view)
-        colour, distance = background.colour.copy(), background.distance_m.copy()
+        backdrop = self._backdrops[camera.name]
+        backdrop.look(view)
+        mount = camera.at if isinstance(camera.at, Mount) else None
+        carrier = mount.actor if mount is not None else None
+        others = [body for actor, body in bodies.items() if actor != carrier]
+        seen = [one for body in others if (one := self._seen(body, poses[body.actor], view))]
+        drawn = [one for one in seen if one.leaves_a_trace]
+        faint = [one for one in seen if not one.leaves_a_trace]
+        shadows = [part for body in others if (part := self._shadow(body, poses[body.actor], view))]
+        own = None
+        if mount is not None and mount.sees_own_aircraft:
+            own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
+        spots = self._spots(camera, view, lamps, poses, carrier)
+        is_plain = not (drawn or shadows or spots or camera.name in self._streaks)
+        last = self._plain.get(camera.name)
+        if is_plain and last and last.drawn == backdrop.drawn and last.own is own:
+            sightings = self._sightings([], faint)
+            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
+
+        colour, distance = backdrop.colour.copy(), backdrop.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
-        own = camera.at if isinstance(camera.at, Mount) else None
-        layers = []
-        for actor, body in bodies.items():
-            if own is not None and own.actor == actor:
-                continue
-            self._cast_shadow(body, poses[actor], view, colour, distance)
-            layer = self._layer(body, poses[actor], view, background.distance_m)
-            if layer is not None:
-                layers.append(layer)
-        if own is not None and own.sees_own_aircraft:
-            layer = self._own_layer(camera.name, own, bodies[own.actor], poses, view)
-            if layer is not None:
-                layers.append(layer)
+        parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
+        pictures = self._renderer.parts(view, [*shadows, *parts])
+        for part, picture in zip(shadows, pictures, strict=False):
+            self._darken(part, picture, view, backdrop, colour)
+        layers = [
+            self._layer(one, part, picture, backdrop.distance_m[one.window.slices])
+            for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
+        ]
+        if own is not None:
+            layers.append(own)
         layers.sort(key=lambda layer: -layer.range_m)
         for layer in layers:
-            _lay(layer, colour, distance, instance)
-        self._shine(camera, view, lamps, own, colour, distance)
+            layer.lay(colour, distance, instance)
+        shine(colour, distance, spots)
         if camera.name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[camera.name].fall(colour, self._taken[camera.name], bright)
         self._taken[camera.name] += 1
-        number = self._numbers.get(own.actor) if own is not None else None
-        sightings = self._sightings(layers, number)
-        return Frame(camera.name, t_ns, view, colour, distance, instance, sightings)
+        sightings = self._sightings(layers, faint, own)
+        frame = Frame(camera.name, t_ns, view, colour, distance, instance, sightings).sealed()
+        if is_plain:
+            self._plain[camera.name] = _Plain(backdrop.drawn, own, frame)
+        else:
+            self._plain.pop(camera.name, None)
+        return frame
 
-    def _background(self, camera: Camera, view: View) -> Samples:
+    def _backdrop(self, camera: Camera) -> Backdrop:
         if not camera.is_fixed:
-            return _resolved(self._renderer.world(view, self._fine), self._fine)
-        kept = self._backgrounds.get(camera.name)
-        if kept is None:
-            samples = max(STILL_SAMPLES, self._fine)
-            kept = _resolved(self._renderer.world(view, samples), samples)
-            picture = np.ascontiguousarray(kept.colour)
-            if self._light.needs_lamps:
-                shine(picture, kept.distance_m, self._world.lamps, view, self._light)
-            kept = self._backgrounds[camera.name] = Samples(picture, kept.distance_m)
-        return kept
+            return Backdrop(self._renderer, self._fine)
+        return Backdrop(self._renderer, max(STILL_SAMPLES, self._fine), self._light_up)
 
-    def _layer(self, body: BodyState, pose: Pose, view: View, behind_m: Floats) -> _Layer | None:
-        """Return a body as it stands before the world, None if it is not in the picture."""
+    def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
+        """Draw the lights of the world, which are always on, into what is drawn once."""
+        if self._light.needs_lamps:
+            shine(colour, distance_m, self._lights.seen(view, self._light))
+
+    def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
+        """Return a body if it is in the picture, hidden or not."""
         shape = self._shape(body)
         whole = self._outlines[shape].box(pose, view)
         if whole is None:
@@ -262,140 +340,133 @@ class Studio:
             return None
         away = math.dist(pose.position_m, view.pose.position_m)
         window = box.window(view)
-        samples = max(_fineness(window), self._fine)
-        drawn = self._renderer.body(self._drawn(shape, window), pose, view, window, samples)
-        rows, columns = window.slices
-        behind = behind_m[rows, columns]
-        behind = np.repeat(np.repeat(behind, samples, axis=0), samples, axis=1)
-        there = np.isfinite(drawn.distance_m)
-        seen = there & (drawn.distance_m < behind + TOUCHES_M)
-        cover = _mean(seen, samples)
-        colour = np.stack(
-            [_mean(np.where(seen, drawn.colour[..., c], 0), samples) for c in range(3)], axis=-1
-        )
-        nearest = np.where(seen, drawn.distance_m, np.float32(np.inf))
-        return _Layer(
-            self._numbers[body.actor],
-            window,
-            box,
-            whole,
-            away,
-            float(there.sum()) / samples**2,
-            cover,
-            colour,
-            _least(nearest, samples),
-        )
+        left = math.exp(-self._light.extinction_per_m * away)
+        return _Seen(body, pose, self._fitting(shape, window), window, box, whole, away, left)
 
-    def _own_layer(
-        self, name: str, mount: Mount, body: BodyState, poses: Mapping[str, Pose], view: View
-    ) -> _Layer | None:
+    def _layer(self, seen: _Seen, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
+        number = self._numbers[seen.body.actor]
+        return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
+                        part.samples, behind_m)  # fmt: skip
+
+    def _own_layer(self, name: str, body: BodyState, pose: Pose, view: View) -> Layer | None:
         """Return the camera's own aircraft; it is drawn anew when its light has changed."""
-        pose = poses[mount.actor]
         light = np.round(np.asarray(self._light.sun) @ pose.rotation * TURN_STEPS)
         key = (body.shape, *light.tolist())
         kept = self._own.get(name)
         if kept is None or kept[0] != key:
-            far = np.full(
-                (view.intrinsics.height_px, view.intrinsics.width_px), np.inf, dtype=np.float32
-            )
-            layer = self._layer(body, pose, view, far)
-            if layer is None:
+            seen = self._seen(body, pose, view)
+            if seen is None:
                 return None
+            part = Part(seen.shape, pose, seen.window, self._samples(seen.window))
+            drawn = self._renderer.parts(view, [part])[0]
+            nothing = np.full((seen.window.height, seen.window.width), np.inf, dtype=np.float32)
+            layer = self._layer(seen, part, drawn, nothing)
             layer.range_m = 0.0
             kept = self._own[name] = (key, layer)
         return kept[1]
 
-    def _cast_shadow(
-        self, body: BodyState, pose: Pose, view: View, colour: npt.NDArray[np.uint8],
-        distance: Floats,
-    ) -> None:  # fmt: skip
-        """Darken the flat ground where a body keeps the sun off."""
+    def _shadow(self, body: BodyState, pose: Pose, view: View) -> Part | None:
+        """Return the shadow of a body on flat ground if it is in the picture."""
         light = self._light
         if (
             body.up_m > SHADOW_BELOW_M
             or light.sun[2] < math.sin(math.radians(4.0))
             or light.overcast > 0.8
         ):
-            return
+            return None
         shape = self._shape(body)
-        box = self._outlines[shape].shadow_box(pose, view, light.sun)
-        if box is None or box.within(view).area < SMALLEST_SHADOW_PX:
-            return
-        window = box.within(view).window(view)
+        whole = self._outlines[shape].shadow_box(pose, view, light.sun)
+        if whole is None:
+            return None
+        box = whole.within(view)
+        left = math.exp(-light.extinction_per_m * math.dist(pose.position_m, view.pose.position_m))
+        if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
+            return None
+        window = box.window(view)
         samples = max(min(_fineness(window), 2), self._fine)
-        fitting = self._drawn(shape, window)
-        shaded = _mean(self._renderer.shadow(fitting, pose, view, window, samples), samples)
-        rows, columns = window.slices
-        down = view.directions(*view.sample_places(window, 1))[2]
-        away = distance[rows, columns]
+        return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
+
+    def _darken(
+        self, part: Part, drawn: Samples, view: View, backdrop: Backdrop,
+        colour: npt.NDArray[np.uint8],
+    ) -> None:  # fmt: skip
+        """Darken the flat ground where a body keeps the sun off."""
+        light = self._light
+        shaded = np.isfinite(by_sample(drawn.distance_m, part.samples))
+        down = view.directions(*view.sample_places(part.window, 1))[2]
+        away = backdrop.distance_m[part.window.slices]
         with np.errstate(invalid="ignore"):
-            on_ground = np.abs(away * down + np.float32(view.pose.position_m[2])) < 0.3
-            kept = shaded * on_ground * np.exp(-np.float32(light.extinction_per_m) * away)
+            # The ground may have been drawn when it was a little out of its place.
+            near = np.float32(ON_GROUND_M) + np.float32(KEPT_PX / view.intrinsics.focal_px) * away
+            on_ground = np.abs(away * down + np.float32(view.pose.position_m[2])) < near
+            kept = shaded.mean(axis=0, dtype=np.float32) * on_ground
+            kept *= np.exp(-np.float32(light.extinction_per_m) * away)
         lit = light.diffuse + light.direct * max(float(light.sun[2]), 0.0)
         darker = 1.0 - (light.diffuse / lit) ** (1.0 / 2.2)
-        part = colour[rows, columns]
-        part[...] = (part * (1.0 - kept[..., None] * darker)).astype(np.uint8)
+        ground = colour[part.window.slices]
+        ground[...] = (ground * (1.0 - kept[..., None] * darker)).astype(np.uint8)
+
+    def _samples(self, window: Window) -> int:
+        return max(_fineness(window), self._fine)
 
     # --- lights and truth -----------------------------------------------------------------
 
-    def _lamps(
-        self, bodies: Mapping[str, BodyState], poses: Mapping[str, Pose], t_ns: int
-    ) -> list[tuple[str, Lamp]]:
-        found = []
-        for number, (actor, body) in enumerate(bodies.items()):
-            pose = poses[actor]
-            # Nobody's lights flash together with another's.
-            t_s = t_ns / 1e9 + 0.37 * number
-            for lamp in self._models[actor].lamps(t_s, body.lit):
-                place = pose.rotation @ np.asarray(lamp.place_m) + np.asarray(pose.position_m)
-                beam = None if lamp.beam is None else pose.rotation @ np.asarray(lamp.beam)
-                found.append((actor, lamp._replace(
-                    place_m=tuple(place.tolist()),
-                    beam=None if beam is None else tuple(beam.tolist()),
-                )))  # fmt: skip
-        return found
+    def _lamps(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Lamp]]:
+        """Return the lights that are on, in the axes of the actors that carry them."""
+        # Nobody's lights flash together with another's.
+        return {
+            actor: list(self._models[actor].lamps(t_ns / 1e9 + 0.37 * number, body.lit))
+            for number, (actor, body) in enumerate(bodies.items())
+        }
 
-    def _shine(
+    def _spots(
         self,
         camera: Camera,
         view: View,
-        lamps: Sequence[tuple[str, Lamp]],
-        own: Mount | None,
-        colour: npt.NDArray[np.uint8],
-        distance: Floats,
-    ) -> None:
-        others = [lamp for actor, lamp in lamps if own is None or actor != own.actor]
+        lamps: Mapping[str, Sequence[Lamp]],
+        poses: Mapping[str, Pose],
+        carrier: str | None,
+    ) -> list[Spot]:
+        carried = [(poses[actor], group) for actor, group in lamps.items() if actor != carrier]
+        found = Lamps.carried(carried).seen(view, self._light)
         if not camera.is_fixed and self._light.needs_lamps:
-            others.extend(self._world.lamps)
-        shine(colour, distance, others, view, self._light)
+            found.extend(self._lights.seen(view, self._light))
+        return found
 
-    def _sightings(self, layers: Sequence[_Layer], own: int | None) -> tuple[Sighting, ...]:
+    def _sightings(
+        self, layers: Sequence[Layer], faint: Sequence[_Seen], own: Layer | None = None
+    ) -> tuple[Sighting, ...]:
         """Return what is true of each body; layers are in order, the nearest last."""
-        found = []
+        found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
         for index, layer in enumerate(layers):
-            if layer.number == own:
+            if layer is own:
                 continue
             seen = layer.cover.copy()
             for nearer in layers[index + 1 :]:
-                _hide(seen, layer.window, nearer)
-            actor = self.actors[layer.number - 1]
+                nearer.hide(seen, layer.window)
             pixels = float(seen.sum())
-            inside = layer.box.area / max(layer.whole.area, 1e-9)
+            fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
+            actor = self.actors[layer.number - 1]
             found.append(
-                Sighting(
-                    actor,
-                    self._models[actor].label,
-                    layer.box,
-                    pixels,
-                    min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0,
-                    1.0 - min(inside, 1.0),
-                    layer.range_m,
-                    math.exp(-self._light.extinction_per_m * layer.range_m),
-                )
+                self._sighting(actor, layer.box, layer.whole, layer.range_m, pixels, fraction)
             )
         return tuple(sorted(found, key=lambda sighting: sighting.range_m))
 
-    def _drawn(self, shape: str, window: Window) -> str:
+    def _sighting(
+        self,
+        actor: str,
+        box: Box,
+        whole: Box,
+        range_m: float,
+        pixels: float = 0.0,
+        visible_fraction: float = 0.0,
+    ) -> Sighting:
+        inside = min(box.area / max(whole.area, 1e-9), 1.0)
+        left = math.exp(-self._light.extinction_per_m * range_m)
+        label = self._models[actor].label
+        return Sighting(actor, label, box, pixels, visible_fraction, 1.0 - inside, range_m, left)
+
+    def _fitting(self, shape: str, window: Window) -> str:
         """Return the mesh of a shape that fits the size in which it is seen."""
         far = f"{shape}/far"
         return far if window.area < SMALL_PX and far in self._far else shape
@@ -408,55 +479,10 @@ def _fineness(window: Window) -> int:
     return next((samples for area, samples in FINENESS if window.area <= area), 1)
 
 
-def _resolved(drawn: Samples, samples: int) -> Samples:
-    """Return the pixels of samples: their mean colours, and the distance of one in the middle."""
-    if samples == 1:
-        return drawn
-    rows, columns = (side // samples for side in drawn.distance_m.shape)
-    fine = drawn.colour.reshape(rows, samples, columns, samples, 3)
-    colour = np.round(fine.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
-    middle = samples // 2
-    return Samples(colour, np.ascontiguousarray(drawn.distance_m[middle::samples, middle::samples]))
-
-
-def _mean(samples: npt.NDArray[np.generic], count: int) -> Floats:
-    if count == 1:
-        return samples.astype(np.float32)
-    rows, columns = (side // count for side in samples.shape)
-    blocks = samples.reshape(rows, count, columns, count)
-    return np.asarray(blocks.mean(axis=(1, 3), dtype=np.float32))
-
-
-def _least(samples: Floats, count: int) -> Floats:
-    if count == 1:
-        return samples
-    rows, columns = (side // count for side in samples.shape)
-    return np.asarray(samples.reshape(rows, count, columns, count).min(axis=(1, 3)))
-
-
-def _lay(
-    layer: _Layer, colour: npt.NDArray[np.uint8], distance: Floats, instance: npt.NDArray[np.uint8]
-) -> None:
-    """Put a layer before what is already in the picture."""
-    rows, columns = layer.window.slices
-    part = colour[rows, columns]
-    part[...] = np.rint(part * (1.0 - layer.cover[..., None]) + layer.colour).astype(np.uint8)
-    filled = layer.cover >= 0.5
-    instance[rows, columns][filled] = layer.number
-    distance[rows, columns][filled] = layer.distance_m[filled]
-
-
-def _hide(seen: Floats, window: Window, nearer: _Layer) -> None:
-    """Take from what is seen of a layer what a nearer one covers."""
-    left, top = max(window.left, nearer.window.left), max(window.top, nearer.window.top)
-    right = min(window.right, nearer.window.right)
-    bottom = min(window.bottom, nearer.window.bottom)
-    if left >= right or top >= bottom:
-        return
-    cover = nearer.cover[
-        top - nearer.window.top : bottom - nearer.window.top,
-        left - nearer.window.left : right - nearer.window.left,
-    ]
-    seen[top - window.top : bottom - window.top, left - window.left : right - window.left] *= (
-        1.0 - cover
-    )
+def _grown(mask: Mask, margin_px: int) -> Mask:
+    """Return a mask with all pixels that are as near as some margin, along rows and columns."""
+    grown = np.pad(mask, margin_px)
+    for axis in (0, 1):
+        steps = range(-margin_px, margin_px + 1)
+        grown = np.logical_or.reduce([np.roll(grown, step, axis) for step in steps])
+    return grown[margin_px:-margin_px, margin_px:-margin_px]

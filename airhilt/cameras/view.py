@@ -22,6 +22,8 @@ NEAR_M = 0.3
 """Nothing nearer is drawn."""
 GREATEST_SIDE_PX = 4096
 SMALLEST_SIDE_PX = 16
+LARGEST_MB = 8 * GREATEST_SIDE_PX**2 // 10**6
+"""Colour, instance and distance of the largest picture."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,8 @@ class Intrinsics:
         for name, side in (("width_px", self.width_px), ("height_px", self.height_px)):
             if not SMALLEST_SIDE_PX <= side <= GREATEST_SIDE_PX:
                 raise CameraError(
-                    f"{name} is {side}; expected {SMALLEST_SIDE_PX} to {GREATEST_SIDE_PX} pixels"
+                    f"{name} is {side}; expected {SMALLEST_SIDE_PX} to {GREATEST_SIDE_PX} pixels "
+                    f"(a picture of the largest takes {LARGEST_MB} MB)"
                 )
         if not math.radians(0.1) <= self.horizontal_fov_rad <= math.radians(170.0):
             raise CameraError(

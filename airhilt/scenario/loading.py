@@ -289,7 +289,7 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
         *_duplicates("actors", "callsign", callsigns),
         *_duplicates("actors", "icao24", _addresses(scenario)),
         *_duplicates("radio/lines", "id", line_ids, str.lower),
-        *_duplicates("cameras", "name", [camera.name for camera in scenario.cameras]),
+        *_duplicates("cameras", "name", [camera.name for camera in scenario.cameras], str.lower),
     ]
     if shared:
         yield from shared

@@ -19,6 +19,8 @@ from airhilt.radio import profiles
 
 Callsign = Annotated[str, Field(pattern=r"^[A-Z0-9]{2,8}$", examples=["AAL123"])]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,40}$")]
+CameraName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,39}$")]
+"""Files are named after cameras."""
 
 
 class _Model(BaseModel):
@@ -310,12 +312,15 @@ class ActorMount(_Model):
 class Camera(_Model):
     """A camera."""
 
-    name: Identifier
+    name: CameraName
     mount: Annotated[FixedMount | ActorMount, Field(discriminator="type")]
-    horizontal_fov_deg: float = Field(default=60.0, gt=0.0, lt=180.0)
+    horizontal_fov_deg: float = Field(default=60.0, ge=0.1, le=170.0)
     width_px: int = Field(default=640, ge=16, le=4096)
     height_px: int = Field(default=360, ge=16, le=4096)
     rate_hz: float = Field(default=16.0, ge=1.0, le=30.0)
+    phase_s: float = Field(
+        default=0.0, ge=0.0, lt=1.0, description="end of its first exposure after the start"
+    )
 
 
 class Wind(_Model):

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
 from airhilt.surface.runway import Place
+from airhilt.surveillance.kinematics import curvature_radii_m
 
 
 class SurfaceState(NamedTuple):
@@ -94,6 +95,27 @@ class Motion(Protocol):
     def track_rad(self) -> float: ...  # noqa: D102
     @property
     def vertical_rate_m_s(self) -> float: ...  # noqa: D102
+
+
+M = TypeVar("M", bound=Motion)
+
+
+def carried_on(state: M, elapsed_s: float) -> M:
+    """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
+    if elapsed_s == 0.0:
+        return state
+    meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
+    height = state.altitude_m
+    moved: M = state._replace(  # type: ignore[attr-defined]
+        latitude_rad=state.latitude_rad
+        + state.velocity_north_m_s * elapsed_s / (meridional + height),
+        longitude_rad=state.longitude_rad
+        + state.velocity_east_m_s
+        * elapsed_s
+        / ((prime_vertical + height) * math.cos(state.latitude_rad)),
+        altitude_m=height - state.velocity_down_m_s * elapsed_s,
+    )
+    return moved
 
 
 class Size(Protocol):

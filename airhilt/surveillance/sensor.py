@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TypeVar
 
 from airhilt.actors.performer import Performer
 from airhilt.messages import AdsbReport, DeclaredLatency
@@ -21,7 +19,7 @@ from airhilt.scenario.models import (
 )
 from airhilt.sim import Director, LatencySpec, Priority, StepRecord
 from airhilt.sim.streams import stream
-from airhilt.surface.mover import Motion, Mover
+from airhilt.surface.mover import Motion, Mover, carried_on
 from airhilt.surveillance.adsb import (
     IDENTIFICATION_INTERVAL_S,
     POSITION_INTERVAL_S,
@@ -34,7 +32,6 @@ from airhilt.surveillance.adsb import (
     SurfaceRate,
     Transponder,
 )
-from airhilt.surveillance.kinematics import curvature_radii_m
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 
 STAGE = "adsb"
@@ -42,8 +39,6 @@ DECLARED_LATENCY = DeclaredLatency(median_s=0.05, sigma=0.3)
 """Of a receiver from the end of a squitter to its report, where it is not measured."""
 LOOK_NS = SECOND_NS // 2
 """How often a transponder that stands on the ground looks whether it has begun to move."""
-
-M = TypeVar("M", bound=Motion)
 
 
 class AdsbSensor:
@@ -173,24 +168,6 @@ class AdsbSensor:
     def unfinished(self) -> list[StepRecord]:
         """Return the reports that are still in a receiver."""
         return [replace(step, outputs=0, finished=False) for step in self._in_flight.values()]
-
-
-def carried_on(state: M, elapsed_s: float) -> M:
-    """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
-    if elapsed_s == 0.0:
-        return state
-    meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
-    height = state.altitude_m
-    moved: M = state._replace(  # type: ignore[attr-defined]
-        latitude_rad=state.latitude_rad
-        + state.velocity_north_m_s * elapsed_s / (meridional + height),
-        longitude_rad=state.longitude_rad
-        + state.velocity_east_m_s
-        * elapsed_s
-        / ((prime_vertical + height) * math.cos(state.latitude_rad)),
-        altitude_m=height - state.velocity_down_m_s * elapsed_s,
-    )
-    return moved
 
 
 def _declared(scenario: Scenario) -> tuple[AdsbReceiver, ...]:

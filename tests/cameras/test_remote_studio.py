@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import math
 import os
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,9 +15,11 @@ import pytest
 
 from airhilt import load
 from airhilt.actors import build_cast
+from airhilt.cameras import remote
 from airhilt.cameras.bodies import BodyState, state_of
 from airhilt.cameras.mounts import frame_of
-from airhilt.cameras.remote import RemoteStudio
+from airhilt.cameras.remote import RemoteStudio, probe
+from airhilt.cameras.renderers import raycasting, require_renderer
 from airhilt.cameras.still import TICK_S, still, write_png
 from airhilt.errors import CameraError, RendererError
 from airhilt.scenario import Scenario
@@ -115,10 +119,143 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_renderer_without_its_libraries_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
+    for attempt in (
+        lambda: probe("moderngl"),
+        lambda: RemoteStudio(washington(), None, "moderngl"),
+    ):
+        with pytest.raises(RendererError, match=r"apt install .*libegl1") as caught:
+            attempt()
+        assert "\n" not in str(caught.value)
+
+
+def test_open3d_without_its_libraries_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail() -> None:
+        raise ImportError("libGL.so.1: cannot open shared object file")
+
+    monkeypatch.setattr(raycasting, "_bindings", fail)
+    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL.*--renderer moderngl"):
+        require_renderer("open3d")
+    monkeypatch.setitem(sys.modules, "moderngl", None)
+    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL") as caught:
+        require_renderer("open3d")
+    assert "moderngl" not in str(caught.value), "which is not there either"
+
+
+def test_a_renderer_that_can_draw_is_found() -> None:
+    probe("moderngl")
+
+
+def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "json.py").write_text("raise SystemExit('a file of the user')")
+    monkeypatch.chdir(tmp_path)
+    probe("moderngl")
+    with RemoteStudio(washington(), renderer="moderngl") as opened:
+        assert opened.actors
+
+
+def test_the_renderer_is_that_of_the_package_that_starts_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a checkout that is not installed, too."""
+    package = tmp_path / "airhilt" / "cameras"
+    package.mkdir(parents=True)
+    (package.parent / "__init__.py").touch()
+    (package / "__init__.py").touch()
+    (package / "remote.py").write_text("raise SystemExit('the one of this path')")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", ["", *sys.path])
+    with pytest.raises(RendererError, match="the one of this path"):
+        probe("moderngl")
+
+
+def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(remote, "STARTING_S", 0.0)
+    with pytest.raises(RendererError, match="has not answered for 0 s"):
+        RemoteStudio(washington(), renderer="moderngl")
+
+
+def test_a_studio_may_be_the_last_of_thousands_of_open_files(
+    studio: RemoteStudio, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    try:
+        high = fcntl.fcntl(studio._answers, fcntl.F_DUPFD_CLOEXEC, 1500)
+    except OSError:
+        pytest.skip("this system allows no more files")
+    with os.fdopen(high, "rb", buffering=0) as answers, monkeypatch.context() as patch:
+        patch.setattr(studio, "_answers", answers)
+        assert studio.shoot(["field"], bodies, 0)
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs files in memory")
+def test_pixels_lie_in_memory_and_not_on_a_disk(studio: RemoteStudio) -> None:
+    place = Path(f"/proc/self/fd/{studio._file.fileno()}").readlink()
+    assert "memfd:" in str(place)
+
+
+def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
+    studio: RemoteStudio, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(remote, "MOST_SAID_BYTES", 50)
+    for _ in range(2):
+        os.write(studio._said.fileno(), b"a driver's warning\n" * 3)
+        studio.shoot(["field"], bodies, 0)
+        assert os.fstat(studio._said.fileno()).st_size == 0
+
+
+@pytest.mark.slow
+def test_memory_stays_flat_over_10000_pictures(
+    studio: RemoteStudio, bodies: list[BodyState]
+) -> None:
+    held = []
+    for number in range(10_001):
+        shift = number % 50
+        studio.shoot(["field"], [one._replace(east_m=one.east_m + shift) for one in bodies], 0)
+        if number in (500, 10_000):
+            held.append(held_mb(studio.process_id))
+    assert held[1] < 1.02 * held[0]
+    assert held[1] < 1000.0
+
+
+def held_mb(process_id: int) -> float:
+    """Return the memory that a process holds, where the system tells it."""
+    status = Path(f"/proc/{process_id}/status")
+    if not status.exists():
+        pytest.skip("this system has no /proc")
+    lines = dict(line.split(":", 1) for line in status.read_text().splitlines())
+    return float(lines["VmRSS"].split()[0]) / 1024.0
+
+
+def test_nothing_is_drawn_again_when_nothing_changes(studio: RemoteStudio) -> None:
+    first, again = (studio.shoot(["field"], [], t_ns)[0] for t_ns in (0, 1))
+    assert again.unchanged
+    assert again.t_ns == 1
+    assert again.colour is first.colour
+
+
+def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
+    mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
+    with RemoteStudio(washington(mount=mount), renderer="moderngl") as opened:
+        mask = opened.own_aircraft["field"]
+    assert mask.shape == (90, 160)
+    assert 0.02 < mask.mean() < 0.8
+
+
 # The last: it leaves nothing to draw with.
 def test_the_death_of_the_process_is_an_error_with_a_name(
     studio: RemoteStudio, bodies: list[BodyState]
 ) -> None:
     os.kill(studio.process_id, signal.SIGKILL)
+    studio._process.wait()
     with pytest.raises(RendererError, match=r"moderngl has ended \(signal 9\)"):
         studio.shoot(["field"], bodies, 0)
+    studio.close()  # The question that nobody took is no error of its own.

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 
+from airhilt.cameras.masks import mask_of, runs_of
 from airhilt.cameras.mesh import box
 from airhilt.cameras.outline import Outline
 from airhilt.cameras.rain import rain_visibility_m
@@ -83,3 +84,23 @@ def test_the_sun_is_in_the_south_at_noon_and_as_high_as_the_season_has_it() -> N
 def test_rain_takes_from_the_visibility() -> None:
     assert rain_visibility_m(0.0) == math.inf
     assert rain_visibility_m(25.0) < rain_visibility_m(5.0) < 5000.0
+
+
+@pytest.mark.parametrize("first", [False, True])
+def test_a_mask_comes_back_from_its_runs(first: bool) -> None:
+    mask = np.zeros((5, 7), dtype=bool)
+    mask[1:3, 2:7] = True
+    mask[0, 0] = first
+    runs = runs_of(mask)
+    assert runs[0] == (0 if first else 9)
+    assert np.array_equal(mask_of(runs, 5, 7), mask)
+
+
+def test_a_mask_that_covers_nothing_has_no_runs() -> None:
+    assert runs_of(np.zeros((5, 7), dtype=bool)) == ()
+    assert not mask_of((), 5, 7).any()
+
+
+def test_runs_of_another_picture_are_refused() -> None:
+    with pytest.raises(ValueError, match="35 pixels; expected the 8 by 5"):
+        mask_of((30, 5), 5, 8)

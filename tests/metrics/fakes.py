@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from airhilt.flight import AircraftState, AircraftType, load_aircraft_type
 from airhilt.metrics.monitor import ConflictMonitor
 from airhilt.scenario.geometry import Site
-from airhilt.surface.mover import Dimensions
+from airhilt.surface.mover import Dimensions, carried_on
 from airhilt.surveillance.kinematics import Minima
-from airhilt.surveillance.sensor import carried_on
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 
 MINIMA = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)

@@ -11,7 +11,8 @@ from airhilt.flight import AircraftState
 from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import AircraftActor, Scenario
 from airhilt.sim import Director, Priority, Virtual, parse_latency
-from airhilt.surveillance.sensor import AdsbSensor, carried_on
+from airhilt.surface.mover import carried_on
+from airhilt.surveillance.sensor import AdsbSensor
 from airhilt.units import DEGREE, SECOND_NS
 
 STATE = AircraftState(

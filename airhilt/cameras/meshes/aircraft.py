@@ -68,9 +68,14 @@ LIVERIES = {
 }  # fmt: skip
 
 
-def aircraft_mesh(kind: AircraftType, gear_down: bool, coarse: bool = False) -> Mesh:
-    """Return the shape of a type; a coarse one is for pictures in which it is small."""
-    return _Aircraft(kind, coarse).mesh(gear_down)
+def aircraft_meshes(kind: AircraftType, *, coarse: bool = False) -> dict[str, Mesh]:
+    """Return the shapes of a type, ``clean`` and with its ``gear`` down.
+
+    Coarse ones are for pictures in which it is small.
+    """
+    shape = _Aircraft(kind, coarse)
+    clean = shape.clean()
+    return {"clean": clean, "gear": join([clean, *shape.gear()])}
 
 
 def wing_tip_m(kind: AircraftType) -> tuple[float, float, float]:
@@ -97,7 +102,7 @@ class _Aircraft:
         self._axis = self._fin_top - kind.mesh.fin_height_m - foot
         """Height of the fuselage's axis; fins of jets stand on its top, others on the tail cone."""
 
-    def mesh(self, gear_down: bool) -> Mesh:
+    def clean(self) -> Mesh:
         right = [self._wing(), self._tailplane()]
         parts = [self._fuselage(), self._fin(), *right, *(part.mirrored() for part in right)]
         parts += [self._engine(*place) for place in self._shape.engines_m]
@@ -108,8 +113,6 @@ class _Aircraft:
         if self._shape.wing_position == "high":
             strut = self._strut()
             parts += [strut, strut.mirrored()]
-        if gear_down:
-            parts += self._gear()
         return join(parts)
 
     # --- fuselage ---------------------------------------------------------------------------
@@ -125,7 +128,7 @@ class _Aircraft:
             ))
         )  # fmt: skip
         if self._coarse:
-            stations = np.concatenate((np.linspace(0, 0.16, 6), np.linspace(0.24, 1.0, 14)))
+            stations = np.array((0.0, 0.012, 0.028, 0.062, 0.16, 0.4, 0.64, 0.76, 0.88, 1.0))
         angles = np.linspace(0.0, math.tau, self._segments, endpoint=False)
         rings = []
         for part in stations:
@@ -191,7 +194,7 @@ class _Aircraft:
             colours[(front < 0.13 * length) & (above > 0.2) & (above < 0.5)] = GLASS
             return colours
 
-        finer = (8, 8) if self._coarse else (24, 24)
+        finer = (8, 6) if self._coarse else (24, 24)
         hump = ellipsoid(paint, radius, length / 2.0, 0.72 * self._radius, *finer)
         ahead = 0.445 * self._length - length / 2.0
         return hump.moved(0.0, ahead, self._axis + 0.66 * self._radius)
@@ -254,7 +257,7 @@ class _Aircraft:
         up, dihedral = self._wing_root_up, self._dihedral
         sweep = math.tan(math.radians(shape.wing_sweep_deg))
         sections = []
-        for part in (0.0, 0.33, 0.66, 1.0):
+        for part in (0.0, 0.33, 1.0) if self._coarse else (0.0, 0.33, 0.66, 1.0):
             out = 0.3 * radius + part * (self._half_span - 0.3 * radius)
             past = max(out - radius, 0.0)
             straight = shape.wing_root_chord_m + part * (
@@ -270,6 +273,8 @@ class _Aircraft:
             [(tip_out - 0.05, tip_at, tip_up), (tip_out + 0.35 * rise, tip_at - 0.9 * rise,
              tip_up + rise)], (chord, 0.45 * chord), 0.08, self._livery.tail
         )  # fmt: skip
+        if self._coarse:
+            return join([wing, winglet])
         fairings = [
             ellipsoid(self._livery.wing, 0.12 * radius, 0.32 * chord_here, 0.16 * radius, 8, 7)
             .moved(out, at - 0.92 * chord_here, height - 0.14 * radius)
@@ -292,7 +297,7 @@ class _Aircraft:
         sections = [
             (part * half, at - sweep * part * half, up + rise * part * half,
              chord * (1.15 - 0.65 * part))
-            for part in (0.0, 0.5, 1.0)
+            for part in ((0.0, 1.0) if self._coarse else (0.0, 0.5, 1.0))
         ]  # fmt: skip
         colour = self._livery.wing if self._is_jet else self._livery.body
         return _surface(sections, 0.1, colour)
@@ -333,7 +338,7 @@ class _Aircraft:
     def _turbofan(self, front: float, right: float, up: float) -> Mesh:
         radius = 0.21 * self._shape.fuselage_diameter_m + (0.2 if self._is_heavy else 0.15)
         length = 3.6 * radius
-        sides = 10 if self._coarse else 20
+        sides = 8 if self._coarse else 20
         angles = np.linspace(0.0, math.tau, sides, endpoint=False)
 
         def ring(back: float, part: float) -> Floats:
@@ -343,16 +348,22 @@ class _Aircraft:
                 up + radius * part * np.sin(angles),
             )).astype(np.float32)[::-1]  # fmt: skip
 
+        # The pylon, up and back to the wing.
+        wing_up = self._axis - 0.45 * self._radius + 0.1 * (abs(right) - self._radius)
+        pylon = box(self._livery.wing, 0.28 * radius, 0.75 * length, max(wing_up - up, 0.4))
+        pylon = pylon.moved(right, front - 0.75 * length, up)
+        if self._coarse:
+            skin = loft([ring(1.0, 0.55), ring(0.35, 1.04), ring(0.0, 0.92)], self._livery.engine)
+            fan = loft([ring(0.0, 0.92), ring(0.02, 0.02)], DARK)
+            tail = loft([ring(1.0, 0.55), ring(1.2, 0.12)][::-1], GREY)
+            return join([skin, fan, tail, pylon])
         cowl = [ring(1.0, 0.55), ring(0.72, 0.82), ring(0.35, 1.04), ring(0.06, 1.0),
                 ring(0.0, 0.92)]  # fmt: skip
         skin = loft(cowl, self._livery.engine)
         lip = loft([ring(0.0, 0.92), ring(0.03, 0.84), ring(0.12, 0.8)], SILVER)
         fan = loft([ring(0.12, 0.8), ring(0.1, 0.02)], DARK)
         cone = loft([ring(1.0, 0.55), ring(0.98, 0.36), ring(1.2, 0.12)][::-1], GREY, closed=True)
-        # The pylon, up and back to the wing.
-        wing_up = self._axis - 0.45 * self._radius + 0.1 * (abs(right) - self._radius)
-        pylon = box(self._livery.wing, 0.28 * radius, 0.75 * length, max(wing_up - up, 0.4))
-        return join([skin, lip, fan, cone, pylon.moved(right, front - 0.75 * length, up)])
+        return join([skin, lip, fan, cone, pylon])
 
     def _propeller(self, front: float, right: float, up: float) -> Mesh:
         radius = 0.34 if self._single else 0.4
@@ -377,7 +388,7 @@ class _Aircraft:
             )  # fmt: skip
         return join([loft(rings, self._livery.engine, closed=True), spinner, *blades])
 
-    def _gear(self) -> list[Mesh]:
+    def gear(self) -> list[Mesh]:
         radius = {True: 0.6, False: 0.55}[self._is_heavy] if self._is_jet else 0.22
         width = 0.4 if self._is_jet else 0.16
         nose_at = self._length * (0.5 - (0.12 if self._is_jet else 0.16))
@@ -395,10 +406,18 @@ class _Aircraft:
             inboard = 0.75 * right if not self._is_jet else right
             parts.append(
                 tube((inboard, at, top), (right, at, self._ground + radius),
-                     (0.14, 0.14) if self._is_jet else (0.06, 0.06), SILVER)
+                     (0.14, 0.14) if self._is_jet else (0.06, 0.06), SILVER,
+                     4 if self._coarse else 8)
             )  # fmt: skip
             sides = (-0.45, 0.45) if self._is_jet else (0.0,)
             rows = (-0.7, 0.7) if self._is_heavy and right else (0.0,)
+            if self._coarse:
+                reach = (sides[-1] + width / 2.0, 0.0, 0.0)
+                hub = right, at, self._ground + radius
+                parts.append(
+                    tube(np.subtract(hub, reach), np.add(hub, reach), (radius, radius), TYRE, 6)
+                )
+                continue
             parts += [
                 wheel(TYRE, radius, width).moved(right + side, at + row, self._ground + radius)
                 for side in sides

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from airhilt.cameras.mesh import Colour, Mesh, box, join, srgb, tube, wheel
-from airhilt.cameras.meshes.aircraft import GLASS, GREY, TYRE, WHITE, aircraft_mesh
+from airhilt.cameras.meshes.aircraft import GLASS, GREY, TYRE, WHITE, aircraft_meshes
 from airhilt.flight.aircraft_type import load_aircraft_type
 from airhilt.surface.mover import Size
 
@@ -85,7 +85,7 @@ def tug_with_aircraft(size: Size) -> Mesh:
     """Return a tug, its towbar and a 737 behind it."""
     length = size.length_m
     kind = load_aircraft_type("737")
-    towed = aircraft_mesh(kind, gear_down=True)
+    towed = aircraft_meshes(kind)["gear"]
     stretch = size.span_m / kind.dimensions.span_m
     towed = towed.moved(up_m=kind.dimensions.wheel_height_offset_m).stretched(stretch, stretch, 1.0)
     aft = -length / 2.0 + kind.dimensions.length_m * stretch / 2.0

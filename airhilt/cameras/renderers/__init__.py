@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Literal, NamedTuple, Protocol
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.cameras import RENDERERS, RendererName
 from airhilt.cameras.light import Light
 from airhilt.cameras.mesh import Floats, Mesh
-from airhilt.cameras.view import Pose, View, Window
+from airhilt.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.errors import RendererError
-
-RendererName = Literal["open3d", "moderngl"]
-RENDERERS: tuple[RendererName, ...] = ("open3d", "moderngl")
 
 
 class Samples(NamedTuple):
@@ -33,22 +31,37 @@ class Samples(NamedTuple):
     distance_m: Floats
 
 
+class Part(NamedTuple):
+    """A body, or its shadow on flat ground, that is to be drawn alone in a window.
+
+    Attributes
+    ----------
+    samples
+        Along each side of a pixel.
+    """
+
+    shape: str
+    pose: Pose
+    window: Window
+    samples: int
+    is_shadow: bool = False
+
+
 class Renderer(Protocol):
-    """Draws the parts of a picture: the still world, and one body at a time.
+    """Draws the still world, and each body alone.
 
     The samples of a window are ``samples`` squared a pixel, in the order of the picture's rows.
     """
 
-    def world(self, view: View, samples: int = 1) -> Samples:
+    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the world behind all bodies, with the sky and the air."""
 
-    def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
-        """Return a body alone, through the air; its distance is infinite beside it."""
+    def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
+        """Return bodies through the air, and shadows.
 
-    def shadow(
-        self, shape: str, pose: Pose, view: View, window: Window, samples: int
-    ) -> npt.NDArray[np.bool_]:
-        """Return where a body keeps the sun from the flat ground."""
+        The distance is infinite beside a body. Of a shadow it tells no more than that: it is
+        finite where the body keeps the sun from the ground.
+        """
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
         """Take in the shape of a body."""
@@ -81,3 +94,19 @@ def open_renderer(
     for shape, mesh in shapes.items():
         renderer.add_shape(shape, mesh)
     return renderer
+
+
+def require_renderer(name: RendererName) -> None:
+    """Complain about a backend that cannot draw here; what it loads stays in the process.
+
+    Raises
+    ------
+    RendererError
+        Something that it needs is not installed.
+    """
+    triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
+    light = Light(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
+    renderer = open_renderer(name, triangle, {}, light)
+    view = View(Intrinsics(16, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
+    renderer.world(view, view.whole)
+    renderer.close()

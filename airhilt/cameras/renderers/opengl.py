@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,13 +12,15 @@ import numpy.typing as npt
 
 from airhilt.cameras.light import DISC, GLARE_ENDS, LOWEST_SKY, Light
 from airhilt.cameras.mesh import Floats, Mesh
-from airhilt.cameras.renderers import Samples
-from airhilt.cameras.view import NEAR_M, Pose, View, Window
+from airhilt.cameras.renderers import Part, Samples
+from airhilt.cameras.view import NEAR_M, View, Window
 from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
 LEAST_TILE_M = 700.0
 CANVAS_STEP_PX = 64
+SHELF_PX = 1024
+"""Width of a row of windows that are drawn together."""
 
 _AIR = """
 uniform vec3 airlight;
@@ -71,8 +73,7 @@ void main() {
 }
 """
 _SKY_FRAGMENT = (
-    "#version 330\n"
-    + _AIR
+    _AIR
     + f"""
 uniform sampler2D sky;
 uniform vec3 sun;
@@ -85,9 +86,11 @@ layout(location = 1) out float out_distance;
 void main() {{
     vec3 d = normalize(towards);
     vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
+#ifdef GLARE
     float apart = 1.0 - dot(d, sun);
     if (apart < {GLARE_ENDS} / sharpness)
         colour += (exp(-sharpness * apart) + disc * exp(-{DISC} * apart)) * glare;
+#endif
     out_colour = vec4(encode(colour), 1.0);
     out_distance = uintBitsToFloat(0x7F800000u);
 }}
@@ -134,7 +137,7 @@ void main() {
     vec3 light = max(dot(n, sun), 0.0) * direct + mix(reflected, diffuse, 0.5 + 0.5 * n.z);
     float away = length(offset);
     out_colour = vec4(encode(through_air(colour * (light + glow * darkness), away)), 1.0);
-    out_distance = away;
+    out_distance = 1.0 / away;
 }
 """
 )
@@ -157,8 +160,8 @@ _SHADOW_FRAGMENT = """
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance;
 void main() {
-    out_colour = vec4(1.0);
-    out_distance = 0.0;
+    out_colour = vec4(0.0);
+    out_distance = 1.0;
 }
 """
 
@@ -183,14 +186,14 @@ class _Tiles:
     middles: npt.NDArray[np.float64]
     radii_m: npt.NDArray[np.float64]
 
-    def seen_in(self, view: View) -> Iterator[tuple[int, int]]:
-        """Yield first corners and numbers of corners of what may reach into a picture."""
+    def seen_in(self, view: View, window: Window) -> Iterator[tuple[int, int]]:
+        """Yield first corners and numbers of corners of what may reach into a window."""
         x, y, z = view.in_camera(self.middles).T
-        lens = view.intrinsics
+        left, top, right, bottom = _edges(view, window)
         seen = z > -self.radii_m
-        for across, half_px in ((x, lens.width_px / 2.0), (y, lens.height_px / 2.0)):
-            slope = half_px / lens.focal_px
-            seen &= np.abs(across) - slope * z <= self.radii_m * math.hypot(1.0, slope)
+        for across, low, high in ((x, left, right), (y, top, bottom)):
+            seen &= across - high * z <= self.radii_m * math.hypot(1.0, high)
+            seen &= low * z - across <= self.radii_m * math.hypot(1.0, low)
         edges = np.flatnonzero(np.diff(np.concatenate(([False], seen, [False]))))
         for begin, end in edges.reshape(-1, 2):
             first = int(self.bounds[begin])
@@ -204,13 +207,8 @@ class _Canvas:
     frame: Any
     size: tuple[int, int]
 
-    def covered(self) -> npt.NDArray[np.bool_]:
-        """Return where something has been drawn."""
-        red = np.frombuffer(self.frame.read(self.size, components=1, alignment=1), dtype=np.uint8)
-        return np.asarray(red.reshape(self.size[::-1]) > 0)
-
     def read(self) -> Samples:
-        """Return what has been drawn."""
+        """Return colours, and what has been drawn for distances."""
         width, height = self.size
         colour = np.frombuffer(self.frame.read(self.size, components=4), dtype=np.uint8)
         distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
@@ -235,14 +233,17 @@ class ModernGLRenderer:
         self._frames: dict[tuple[int, int], Any] = {}
         self._bodies: dict[str, _Body] = {}
         self._world_program = context.program(_WORLD_VERTEX, _WORLD_FRAGMENT)
-        self._sky_program = context.program(_SKY_VERTEX, _SKY_FRAGMENT)
+        self._sky_programs = [
+            context.program(_SKY_VERTEX, version + _SKY_FRAGMENT)
+            for version in ("#version 330\n", "#version 330\n#define GLARE\n")
+        ]
         self._body_program = context.program(_BODY_VERTEX, _BODY_FRAGMENT)
         self._shadow_program = context.program(_SHADOW_VERTEX, _SHADOW_FRAGMENT)
         self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
         self._sky.repeat_x = False
         self._sky.filter = context.NEAREST, context.NEAREST
         self._tallest_m = float(world.corners[..., 2].max())
-        self._sky_array = context.vertex_array(self._sky_program, [])
+        self._skies = [context.vertex_array(program, []) for program in self._sky_programs]
         order, self._tiles = _tiles(world)
         self._world = self._array(
             self._world_program,
@@ -254,7 +255,7 @@ class ModernGLRenderer:
 
     def _set_light(self) -> None:
         light = self._light
-        for program in (self._world_program, self._sky_program, self._body_program):
+        for program in (self._world_program, *self._sky_programs, self._body_program):
             for name, value in (
                 ("airlight", tuple(light.airlight)),
                 ("extinction", light.extinction_per_m),
@@ -293,60 +294,83 @@ class ModernGLRenderer:
         """Give back what was taken."""
         self._context.release()
 
-    def world(self, view: View, samples: int = 1) -> Samples:
+    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the world behind all bodies, with the sky and the air."""
-        canvas = self._canvas(view.whole, samples)
+        canvas = self._canvas((window.width * samples, window.height * samples))
         eye = view.pose.position_m
-        self._sky.use(0)
-        lens = view.intrinsics
-        half = lens.width_px / 2.0 / lens.focal_px, lens.height_px / 2.0 / lens.focal_px
-        right, down, ahead = view.axes.T
-        corners = np.column_stack((right * half[0], down * half[1], ahead))
         self._context.enable(self._context.DEPTH_TEST)
         self._context.depth_func = "<="
         near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
-        self._world_program["projection"] = _columns(_projection(view, view.whole, near))
+        self._world_program["projection"] = _columns(_projection(view, window, near))
         self._world_program["eye"] = eye
-        for first, count in self._tiles.seen_in(view):
+        # Everything is closed and faces outwards; in a picture upside down, clockwise.
+        self._context.front_face = "cw"
+        self._context.enable(self._context.CULL_FACE)
+        for first, count in self._tiles.seen_in(view, window):
             self._world.render(vertices=count, first=first)
+        self._context.disable(self._context.CULL_FACE)
         # Last, and as far as can be: only where nothing else is.
-        self._sky_program["corners"] = _columns(corners)
-        self._sky_array.render(vertices=3)
+        left, top, right, bottom = _edges(view, window)
+        x, y, ahead = view.axes.T
+        middle = ahead + (left + right) / 2.0 * x + (top + bottom) / 2.0 * y
+        corners = np.column_stack(((right - left) / 2.0 * x, (bottom - top) / 2.0 * y, middle))
+        has_glare = self._has_glare(view, window)
+        self._sky.use(0)
+        self._sky_programs[has_glare]["corners"] = _columns(corners)
+        self._skies[has_glare].render(vertices=3)
         return canvas.read()
 
-    def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
-        """Return a body alone, through the air."""
-        canvas = self._canvas(window, samples)
-        canvas.frame.color_mask = (False,) * 4, (True,) * 4
-        canvas.frame.clear(red=np.inf)
-        canvas.frame.color_mask = (True,) * 4, (True,) * 4
-        program = self._body_program
-        away = np.subtract(pose.position_m, view.pose.position_m)
-        self._context.enable(self._context.DEPTH_TEST)
+    def _has_glare(self, view: View, window: Window) -> bool:
+        """Return whether the bright sky about the sun may reach into a window."""
+        light = self._light
+        columns = np.array([window.left, window.right, window.left, window.right])
+        rows = np.array([window.top, window.top, window.bottom, window.bottom])
+        edges = view.directions(columns.astype(np.float32), rows.astype(np.float32))
+        middle = edges.sum(axis=1) / np.linalg.norm(edges.sum(axis=1))
+        reach = math.acos(max(float((middle @ edges).min()), -1.0))
+        reach += math.acos(max(light.glare_from, -1.0))
+        away = math.acos(min(max(float(middle @ light.sun), -1.0), 1.0))
+        return bool(light.glare.any()) and away < reach
+
+    def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
+        """Return bodies through the air, and shadows: all are drawn on one canvas."""
+        if not parts:
+            return []
+        sizes = [(p.window.width * p.samples, p.window.height * p.samples) for p in parts]
+        places, whole = _shelves(sizes)
+        canvas = self._canvas(whole)
+        self._body_program["extinction"] = self._light.extinction_per_m
+        self._shadow_program["eye"] = view.pose.position_m
+        for part, place, size in zip(parts, places, sizes, strict=True):
+            canvas.frame.viewport = canvas.frame.scissor = (*place, *size)
+            self._draw(view, part)
+        canvas.frame.scissor = None
+        colour, inverse = canvas.read()
+        with np.errstate(divide="ignore"):
+            distance = np.float32(1.0) / inverse
+        found = []
+        for (left, top), (width, height) in zip(places, sizes, strict=True):
+            window = slice(top, top + height), slice(left, left + width)
+            found.append(Samples(colour[window], distance[window]))
+        return found
+
+    def _draw(self, view: View, part: Part) -> None:
+        body, context = self._bodies[part.shape], self._context
+        program = self._shadow_program if part.is_shadow else self._body_program
+        away = np.subtract(part.pose.position_m, view.pose.position_m)
         near = max(NEAR_M, 0.2 * (float(np.linalg.norm(away)) - 100.0))
-        program["projection"] = _columns(_projection(view, window, near))
-        program["rotation"] = _columns(pose.rotation)
-        program["place"] = tuple(away)
-        self._bodies[shape].drawn.render()
-        return canvas.read()
+        if part.is_shadow:
+            context.disable(context.DEPTH_TEST)
+            near = NEAR_M
+        else:
+            context.enable(context.DEPTH_TEST)
+        program["projection"] = _columns(_projection(view, part.window, near))
+        program["rotation"] = _columns(part.pose.rotation)
+        program["place"] = part.pose.position_m if part.is_shadow else tuple(away)
+        (body.shadow if part.is_shadow else body.drawn).render()
 
-    def shadow(
-        self, shape: str, pose: Pose, view: View, window: Window, samples: int
-    ) -> npt.NDArray[np.bool_]:
-        """Return where a body keeps the sun from the flat ground."""
-        canvas = self._canvas(window, samples)
-        program = self._shadow_program
-        self._context.disable(self._context.DEPTH_TEST)
-        program["projection"] = _columns(_projection(view, window, NEAR_M))
-        program["rotation"] = _columns(pose.rotation)
-        program["place"] = pose.position_m
-        program["eye"] = view.pose.position_m
-        self._bodies[shape].shadow.render()
-        return canvas.covered()
-
-    def _canvas(self, window: Window, samples: int) -> _Canvas:
-        """Return a cleared canvas for a window. Frame buffers are costly to make: few sizes do."""
-        size = window.width * samples, window.height * samples
+    def _canvas(self, size: tuple[int, int]) -> _Canvas:
+        """Return a cleared canvas. Frame buffers are costly to make: few sizes do."""
         width, height = (CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX) for side in size)
         frame = self._frames.get((width, height))
         if frame is None:
@@ -399,17 +423,41 @@ def _by_corner(corners: Floats, colours: Floats) -> Floats:
     return np.concatenate((corners, spread), axis=2)
 
 
+def _shelves(
+    sizes: Sequence[tuple[int, int]],
+) -> tuple[list[tuple[int, int]], tuple[int, int]]:
+    """Return places for rectangles side by side, row above row, and the size of it all."""
+    widest = max(SHELF_PX, *(width for width, _ in sizes))
+    places = []
+    left = top = tallest = used = 0
+    for width, height in sizes:
+        if left + width > widest:
+            left, top, tallest = 0, top + tallest, 0
+        places.append((left, top))
+        left, tallest = left + width, max(tallest, height)
+        used = max(used, left)
+    return places, (used, top + tallest)
+
+
+def _edges(view: View, window: Window) -> tuple[float, float, float, float]:
+    """Return left, top, right and bottom of a window at a depth of 1."""
+    lens = view.intrinsics
+    across, down = lens.width_px / 2.0, lens.height_px / 2.0
+    focal = lens.focal_px
+    return (
+        (window.left - across) / focal,
+        (window.top - down) / focal,
+        (window.right - across) / focal,
+        (window.bottom - down) / focal,
+    )
+
+
 def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.float64]:
     """Return clip coordinates from offsets in the world; the first row of a picture is the lowest.
 
     OpenGL keeps the lowest row first, so drawing upside down saves turning what is read.
     """
-    lens = view.intrinsics
-    focal = lens.focal_px
-    left = (window.left - lens.width_px / 2.0) / focal
-    right = (window.right - lens.width_px / 2.0) / focal
-    top = (window.top - lens.height_px / 2.0) / focal
-    bottom = (window.bottom - lens.height_px / 2.0) / focal
+    left, top, right, bottom = _edges(view, window)
     frustum = np.array((
         (2.0 / (right - left), 0.0, -(right + left) / (right - left), 0.0),
         (0.0, 2.0 / (bottom - top), -(bottom + top) / (bottom - top), 0.0),

@@ -7,21 +7,34 @@ distance follows from the plane. Only the other pixels cost rays of their own.
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
+import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from importlib.machinery import PathFinder
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.cameras.light import Light, encode
+from airhilt.cameras.light import LEVELS, SKY_STEPS, Light, encode, encode_levels
+from airhilt.cameras.masks import Mask
 from airhilt.cameras.mesh import Floats, Mesh
-from airhilt.cameras.renderers import Samples
+from airhilt.cameras.renderers import Part, Samples
 from airhilt.cameras.view import Pose, View, Window
 from airhilt.errors import RendererError, first_line
 
+BINDINGS = "open3d.cpu.pybind"
+SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
 THREADS = 1
 """Of a cast: runs share a machine with each other."""
 Number = TypeVar("Number", bound=np.generic)
+Pieces = npt.NDArray[np.intp]
+"""Numbers of pieces."""
+RAISED_M = 0.5
+"""Above the ground: what reaches higher may stand before the sky."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -32,6 +45,13 @@ class _Body:
     normals: Floats
     colours: Floats
     glow: Floats
+
+
+class _Glare(NamedTuple):
+    """Light about the sun, shape (3, n), and in which samples it is."""
+
+    at: npt.NDArray[np.intp]
+    colour: Floats
 
 
 class Open3DRenderer:
@@ -47,7 +67,10 @@ class Open3DRenderer:
         self._open3d = _import_open3d()
         self._light = light
         self._world = self._scene(world)
-        self._piece_of, self._normals, self._heights, self._colours = _pieces(world, light)
+        self._piece_of, self._normals, self._heights, colours = _pieces(world, light)
+        tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
+        self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
+        self._raised = _raised(world)
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
@@ -58,30 +81,36 @@ class Open3DRenderer:
         """Give back what was taken."""
         self._bodies.clear()
 
-    def world(self, view: View, samples: int = 1) -> Samples:
+    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the world behind all bodies, with the sky and the air."""
-        directions = view.directions(*view.sample_places(view.whole, samples))
-        shape = directions.shape[1:]
+        x, y = _on_focal_plane(view, *view.sample_places(window, samples))
         if samples == 1:
-            pieces = self._adaptively(view, directions).reshape(-1)
+            pieces = self._adaptively(view, x, y)
         else:
-            pieces = self._pieces_at(view, directions.reshape(3, -1))
-        towards = directions.reshape(3, -1)
-        normals, heights = self._planes_from(view)
-        slope = _of(normals[0], pieces) * towards[0]
-        slope += _of(normals[1], pieces) * towards[1]
-        slope += _of(normals[2], pieces) * towards[2]
+            pieces = self._pieces_at(view, *np.broadcast_arrays(x, y))
+        length = np.sqrt(x * x + (y * y + np.float32(1.0)))
+        sky = pieces == MISSED
+        glare = self._look_up(view, x, y, length, pieces, sky)
+        # A plane n p = h is met at the depth h / (n d): its inverse is linear in the picture.
+        right, down, ahead = self._slopes(view)
+        inverse_depth = _of(right, pieces)
+        inverse_depth *= x
+        part = _of(down, pieces)
+        part *= y
+        inverse_depth += part
+        inverse_depth += _of(ahead, pieces)
         with np.errstate(divide="ignore"):
-            distance = np.divide(_of(heights, pieces), slope, out=slope)
-        light = self._light
-        colour = np.stack([_of(channel, pieces) for channel in self._colours])
-        light.through_air(colour, distance, light.backdrop_extinction_per_m)
-        sky = np.flatnonzero(pieces == MISSED)
-        colour[:, sky] = light.sky_towards(towards[:, sky])
-        return Samples(encode(colour).reshape(*shape, 3), distance.reshape(shape))
+            distance = np.divide(length, inverse_depth, out=inverse_depth)
+        left = np.exp(distance * np.float32(-self._light.backdrop_extinction_per_m))
+        np.copyto(left, np.float32(1.0), where=sky)
+        return Samples(self._colour_of(pieces, left, glare), distance)
 
-    def body(self, shape: str, pose: Pose, view: View, window: Window, samples: int) -> Samples:
-        """Return a body alone, through the air."""
+    def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
+        """Return bodies through the air, and shadows."""
+        return [self._shadow(view, *part[:4]) if part.is_shadow else self._body(view, *part[:4])
+                for part in parts]  # fmt: skip
+
+    def _body(self, view: View, shape: str, pose: Pose, window: Window, samples: int) -> Samples:
         body = self._bodies[shape]
         directions = view.directions(*view.sample_places(window, samples))
         size = directions.shape[1:]
@@ -104,15 +133,14 @@ class Open3DRenderer:
             colour[hit] = encode(seen)
         return Samples(colour.reshape(*size, 3), distance.reshape(size))
 
-    def shadow(
-        self, shape: str, pose: Pose, view: View, window: Window, samples: int
-    ) -> npt.NDArray[np.bool_]:
-        """Return where a body keeps the sun from the flat ground."""
+    def _shadow(self, view: View, shape: str, pose: Pose, window: Window, samples: int) -> Samples:
         directions = view.directions(*view.sample_places(window, samples))
-        shaded = np.zeros(directions.shape[1:], dtype=bool)
+        size = directions.shape[1:]
+        shaded = np.full(size, np.inf, dtype=np.float32)
+        drawn = Samples(np.zeros((*size, 3), dtype=np.uint8), shaded)
         below = directions[2] < -1e-5
         if not below.any():
-            return shaded
+            return drawn
         towards = directions[:, below].T.astype(np.float64)
         position = np.asarray(view.pose.position_m, dtype=np.float64)
         away = -position[2] / towards[:, 2]
@@ -122,41 +150,96 @@ class Open3DRenderer:
         )
         tensor = self._open3d.core.Tensor.from_numpy(_rays(ground @ pose.rotation, sun))
         scene = self._bodies[shape].scene
-        shaded[below] = scene.test_occlusions(tensor, nthreads=THREADS).numpy()
-        return shaded
+        hidden = scene.test_occlusions(tensor, nthreads=THREADS).numpy()
+        shaded[below] = np.where(hidden, np.float32(0.0), np.float32(np.inf))
+        return drawn
 
-    def _adaptively(self, view: View, directions: Floats) -> npt.NDArray[np.int32]:
+    def _adaptively(self, view: View, x: Floats, y: Floats) -> Pieces:
         """Return the piece that each sample meets."""
-        rows, columns = directions.shape[1:]
-        towards = np.ascontiguousarray(directions[:, ::2, ::2])
-        height, width = towards.shape[1:]
-        coarse = self._pieces_at(view, towards.reshape(3, -1)).reshape(height, width)
+        rows, columns = y.shape[0], x.shape[1]
+        coarse = self._pieces_at(view, *np.broadcast_arrays(x[:, ::2], y[::2]))
+        height, width = coarse.shape
         # The neighbours below and to the right; the last ones are their own.
         below = np.vstack((coarse[1:], coarse[-1:]))
         alike = coarse == below
         alike[:, :-1] &= (coarse[:, 1:] == coarse[:, :-1]) & (below[:, 1:] == coarse[:, :-1])
-        pieces = np.empty((height, 2, width, 2), dtype=np.int32)
+        pieces = np.empty((height, 2, width, 2), dtype=np.intp)
         pieces[...] = coarse[:, None, :, None]
-        unsure = np.empty((height, 2, width, 2), dtype=bool)
-        unsure[...] = ~alike[:, None, :, None]
-        unsure[:, 0, :, 0] = False
-        found = np.ascontiguousarray(pieces.reshape(2 * height, 2 * width)[:rows, :columns])
-        ask = np.flatnonzero(unsure.reshape(2 * height, 2 * width)[:rows, :columns])
-        towards = directions.reshape(3, -1).take(ask, axis=1)
-        found.reshape(-1)[ask] = self._pieces_at(view, towards)
-        return found
+        found = pieces.reshape(2 * height, 2 * width)[:rows, :columns]
+        # The other three of each block that is not sure.
+        row, column = np.divmod(np.flatnonzero(~alike), width)
+        row, column = (2 * row + [[0], [1], [1]]).ravel(), (2 * column + [[1], [0], [1]]).ravel()
+        inside = (row < rows) & (column < columns)
+        row, column = row[inside], column[inside]
+        found[row, column] = self._pieces_at(view, x[0, column], y[row, 0])
+        return np.ascontiguousarray(found)
 
-    def _pieces_at(self, view: View, directions: Floats) -> npt.NDArray[np.int32]:
-        answer = self._cast(self._world, _rays(np.asarray(view.pose.position_m), directions))
+    def _pieces_at(self, view: View, x: Floats, y: Floats) -> Pieces:
+        """Return the pieces towards places of the focal plane, of their shape."""
+        towards = _towards(view, x.reshape(-1), y.reshape(-1))
+        pieces = np.full(x.size, MISSED, dtype=np.intp)
+        eye = np.asarray(view.pose.position_m)
+        # Whatever looks higher than all that stands looks into the sky.
+        asked = np.flatnonzero(towards[2] <= self._highest(eye) * np.hypot(*towards[:2]))
+        answer = self._cast(self._world, _rays(eye, towards[:, asked]))
         # Open3D marks a miss with the greatest number, which wraps to the entry before the first.
         faces = answer["primitive_ids"].numpy().view(np.int32)
-        return _of(self._piece_of, faces + 1)
+        pieces[asked] = _of(self._piece_of, faces + 1)
+        return pieces.reshape(x.shape)
 
-    def _planes_from(self, view: View) -> tuple[Floats, Floats]:
-        """Return normals of all planes, and their heights above the camera's place."""
+    def _highest(self, eye: npt.NDArray[np.float64]) -> np.float32:
+        """Return the greatest slope, up over along, at which the world is seen; at least 0."""
+        middles, radii, tops = self._raised
+        if not len(tops):
+            return np.float32(0.0)
+        along = np.hypot(middles[:, 0] - eye[0], middles[:, 1] - eye[1]) - radii
+        return np.float32(max(float(((tops - eye[2]) / np.maximum(along, 1.0)).max()), 0.0))
+
+    def _look_up(
+        self, view: View, x: Floats, y: Floats, length: Floats, pieces: Pieces, sky: Mask
+    ) -> _Glare | None:
+        """Tell pieces of the sky apart by their elevation; return the glare of the sun on them."""
+        rows = np.flatnonzero(sky.any(axis=1))
+        if not len(rows):
+            return None
+        block = slice(int(rows[0]), int(rows[-1]) + 1)
+        axes = view.axes.astype(np.float32)
+        up = (x * axes[2, 0] + (y[block] * axes[2, 1] + axes[2, 2])) / length[block]
+        steps = self._light.sky_steps(up)
+        steps += len(self._heights)
+        np.copyto(pieces[block], steps, where=sky[block])
+        # The sun's glare, if any of it is in the picture.
+        sun = view.axes.T @ self._light.sun
+        across = sun[0] * x + (sun[1] * y[block] + sun[2])
+        near = np.flatnonzero((across > self._light.glare_from * length[block]) & sky[block])
+        if not len(near) or not self._light.glare.any():
+            return None
+        apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
+        return _Glare(near + block.start * pieces.shape[1], self._light.glare_at(apart))
+
+    def _slopes(self, view: View) -> Floats:
+        """Return how the inverse depth of each piece grows to the right and down, and ahead."""
         heights = self._heights - np.asarray(view.pose.position_m) @ self._normals
         heights[MISSED] = 1.0
-        return self._normals.astype(np.float32), heights.astype(np.float32)
+        # No ray meets a plane in which the camera lies.
+        heights[heights == 0.0] = np.inf
+        slopes = np.zeros((3, len(heights) + SKY_STEPS), dtype=np.float32)
+        slopes[:, : len(heights)] = (view.axes.T @ self._normals) / heights
+        return slopes
+
+    def _colour_of(
+        self, pieces: Pieces, left: Floats, glare: _Glare | None
+    ) -> npt.NDArray[np.uint8]:
+        """Return what pieces look like when some of their light is left."""
+        colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
+        for index, air in enumerate(self._light.airlight.tolist()):
+            seen = _of(self._beyond_air[index], pieces)
+            seen *= left
+            seen += np.float32(air * LEVELS)
+            if glare is not None:
+                seen.reshape(-1)[glare.at] += glare.colour[index] * np.float32(LEVELS)
+            colour[..., index] = encode_levels(seen)
+        return colour
 
     def _scene(self, mesh: Mesh) -> Any:
         scene = self._open3d.t.geometry.RaycastingScene(nthreads=THREADS)
@@ -169,9 +252,32 @@ class Open3DRenderer:
         return scene.cast_rays(self._open3d.core.Tensor.from_numpy(rays), nthreads=THREADS)
 
 
-def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.int32]) -> npt.NDArray[Number]:
+def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDArray[Number]:
     """Return entries of a table; clipping spares NumPy a look at each before."""
     return table.take(entries, mode="clip")
+
+
+def _raised(world: Mesh) -> tuple[Floats, Floats, Floats]:
+    """Return what stands up from the ground: circles about its triangles, and how high they are."""
+    tops = world.corners[..., 2].max(axis=1)
+    standing = world.corners[tops > RAISED_M]
+    middles = standing[..., :2].mean(axis=1)
+    radii = np.linalg.norm(standing[..., :2] - middles[:, None], axis=2).max(axis=1)
+    return middles, radii, tops[tops > RAISED_M]
+
+
+def _on_focal_plane(view: View, columns: Floats, rows: Floats) -> tuple[Floats, Floats]:
+    """Return places in the picture as they are at a depth of 1, right of the axis and below it."""
+    lens = view.intrinsics
+    focal = np.float32(lens.focal_px)
+    x = (columns - np.float32(lens.width_px / 2.0)) / focal
+    return x, (rows - np.float32(lens.height_px / 2.0)) / focal
+
+
+def _towards(view: View, x: Floats, y: Floats) -> Floats:
+    """Return the ways, of depth 1, towards n places of the focal plane; shape (3, n)."""
+    axes = view.axes.astype(np.float32)
+    return np.stack([x * axis[0] + y * axis[1] + axis[2] for axis in axes])
 
 
 def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
@@ -184,7 +290,7 @@ def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
 
 def _pieces(
     world: Mesh, light: Light
-) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64], npt.NDArray[np.float64], Floats]:
+) -> tuple[Pieces, npt.NDArray[np.float64], npt.NDArray[np.float64], Floats]:
     """Return the piece of each triangle; normals, heights and colours of pieces in columns.
 
     Triangles of one colour in one plane are one piece. The first entry stands for no triangle,
@@ -197,7 +303,7 @@ def _pieces(
     _, first, piece = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     none = np.zeros((1, 3))
     return (
-        np.concatenate(([MISSED], piece.reshape(-1) + 1)).astype(np.int32),
+        np.concatenate(([MISSED], piece.reshape(-1) + 1)).astype(np.intp),
         np.ascontiguousarray(np.vstack((none, normals[first])).T),
         np.concatenate(([1.0], heights[first])),
         np.ascontiguousarray(np.vstack((none, baked[first])).T, dtype=np.float32),
@@ -206,11 +312,36 @@ def _pieces(
 
 def _import_open3d() -> Any:
     try:
-        import open3d
+        return _bindings()
     except ImportError as error:
+        is_alone = importlib.util.find_spec("moderngl") is None
+        other = "" if is_alone else "; or choose --renderer moderngl"
         raise RendererError(
             "the renderer open3d needs Open3D 0.19 and its system libraries: "
-            "pip install 'airhilt[vision]' and apt install libgl1 libegl1 libx11-6 libgomp1 "
-            f"({first_line(error)}); or choose --renderer moderngl"
+            f"pip install 'airhilt[vision]' and apt install {SYSTEM_LIBRARIES} "
+            f"({first_line(error)}){other}"
         ) from None
-    return open3d
+
+
+def _bindings() -> Any:
+    """Return what of Open3D is in C++: the package about it imports tools to show things in.
+
+    Those take three times as long as this does.
+    """
+    package = importlib.util.find_spec("open3d")
+    if package is None or not package.submodule_search_locations:
+        raise ImportError("no module named 'open3d'")
+    folder = Path(package.submodule_search_locations[0]) / "cpu"
+    if BINDINGS in sys.modules:
+        return sys.modules[BINDINGS]
+    spec = PathFinder.find_spec(BINDINGS, [str(folder)])
+    if spec is None or spec.loader is None or sys.platform == "win32":
+        return importlib.import_module("open3d")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[BINDINGS] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[BINDINGS]
+        raise
+    return module

@@ -1,0 +1,43 @@
+"""Masks of pictures as lengths of runs, as `airhilt.messages.CameraInfo` has them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+Mask = npt.NDArray[np.bool_]
+"""Of the pixels of a picture, shape (rows, columns)."""
+
+
+def runs_of(mask: Mask) -> tuple[int, ...]:
+    """Return the lengths of runs, row by row: free, covered, free and so on; none if all is free.
+
+    The first is 0 where the first pixel is covered.
+    """
+    if not mask.any():
+        return ()
+    flat = mask.reshape(-1)
+    changes = np.flatnonzero(flat[1:] != flat[:-1]) + 1
+    bounds = np.concatenate(([0], [0] if flat[0] else [], changes, [flat.size]))
+    return tuple(int(length) for length in np.diff(bounds))
+
+
+def mask_of(runs: Sequence[int], rows: int, columns: int) -> Mask:
+    """Return the mask of some lengths of runs.
+
+    Raises
+    ------
+    ValueError
+        They do not add up to the pixels of the picture.
+    """
+    if not runs:
+        return np.zeros((rows, columns), dtype=bool)
+    if min(runs) < 0 or sum(runs) != rows * columns:
+        raise ValueError(
+            f"runs of {sum(runs)} pixels; expected the {columns} by {rows} of the picture, and "
+            "none below 0"
+        )
+    covered = np.arange(len(runs)) % 2 == 1
+    return np.repeat(covered, runs).reshape(rows, columns)

@@ -1,0 +1,48 @@
+"""What a scenario says of its cameras is checked before anything is drawn."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+from airhilt import load
+from airhilt.cameras.view import Intrinsics
+from airhilt.errors import ScenarioError
+from airhilt.scenario import Scenario, parse
+from airhilt.scenario.models import Camera
+
+
+def with_cameras(*changes: dict[str, object]) -> Scenario:
+    """Return a scenario with a camera for each, changed so."""
+    document = load("s02a_headon").model_dump(mode="json")
+    document["cameras"] = [document["cameras"][0] | change for change in changes]
+    return parse(json.dumps(document), "test")
+
+
+@pytest.mark.parametrize("end", ["minimum", "maximum"])
+@pytest.mark.parametrize("field", ["horizontal_fov_deg", "width_px", "height_px"])
+def test_whatever_lens_a_scenario_may_declare_can_be_drawn(field: str, end: str) -> None:
+    limit = Camera.model_json_schema()["properties"][field][end]
+    (camera,) = with_cameras({field: limit}).cameras
+    fov_rad = math.radians(camera.horizontal_fov_deg)
+    assert Intrinsics(camera.width_px, camera.height_px, fov_rad)
+
+
+@pytest.mark.parametrize("fov_deg", [0.01, 179.9])
+def test_a_lens_that_cannot_be_drawn_is_refused_with_its_path(fov_deg: float) -> None:
+    with pytest.raises(ScenarioError, match="cameras/0/horizontal_fov_deg"):
+        with_cameras({"horizontal_fov_deg": fov_deg})
+
+
+@pytest.mark.parametrize("name", [".", "..", "-x", "_x", ".hidden", "a/b", "", "x" * 41])
+def test_a_camera_has_a_name_that_a_file_can_have(name: str) -> None:
+    with pytest.raises(ScenarioError, match="cameras/0/name"):
+        with_cameras({"name": name})
+
+
+def test_names_of_cameras_differ_in_more_than_their_case() -> None:
+    with pytest.raises(ScenarioError, match=r"cameras/1/name.*'Tower'.*has already, as 'tower'"):
+        with_cameras({"name": "tower"}, {"name": "Tower"})
+    assert len(with_cameras({"name": "tower"}, {"name": "7.tower_B-2"}).cameras) == 2

@@ -1,0 +1,200 @@
+"""When the cameras of a run expose, and what they give out."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt import load
+from airhilt.actors import build_cast
+from airhilt.actors.performer import Performer
+from airhilt.cameras.bodies import BodyState
+from airhilt.cameras.masks import Mask
+from airhilt.cameras.outline import Box
+from airhilt.cameras.rig import CameraRig, Exposures, angles_of, view_message
+from airhilt.cameras.studio import Frame, Sighting
+from airhilt.cameras.view import Intrinsics, Pose, View, attitude
+from airhilt.errors import RendererError
+from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
+from airhilt.scenario import Scenario
+from airhilt.scenario.geometry import Setting
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.surface.frame import LocalFrame
+from airhilt.units import DEGREE, SECOND_NS
+
+LENS = Intrinsics(64, 36, 0.8)
+
+
+@dataclass
+class Fake:
+    """Takes grey pictures, and fails from a time on."""
+
+    fails_at_ns: int | None = None
+    shots: list[tuple[int, tuple[str, ...]]] = field(default_factory=list)
+    own_aircraft: dict[str, Mask] = field(default_factory=dict)
+
+    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+        if self.fails_at_ns is not None and t_ns >= self.fails_at_ns:
+            raise RendererError("the driver has died")
+        self.shots.append((t_ns, tuple(names)))
+        view = View(LENS, Pose.of((10.0, 20.0, 30.0), 1.0, 0.1, -0.2))
+        blank = np.full((36, 64, 3), len(self.shots) % 256, dtype=np.uint8)
+        distance = np.full((36, 64), np.inf, dtype=np.float32)
+        instance = np.zeros((36, 64), dtype=np.uint8)
+        seen = Sighting(bodies[0].actor, "airplane", Box(1, 2, 3, 4), 4.0, 1.0, 0.0, 900.0, 0.5)
+        return [Frame(name, t_ns, view, blank, distance, instance, (seen,)) for name in names]
+
+
+class Run:
+    """A rig on its own, with all that it publishes."""
+
+    def __init__(self, scenario: Scenario, photographer: Fake, until_s: float) -> None:
+        setting = Setting.of(scenario)
+        self.cast: dict[str, Performer] = build_cast(scenario, setting, 0, 0.05)
+        self.published: list[tuple[str, Message, bytes | None]] = []
+        self.losses: list[tuple[int, str]] = []
+        self.director = Director(Virtual())
+        self.rig = CameraRig(
+            self.director,
+            photographer,
+            scenario.cameras,
+            setting,
+            self.cast,
+            state_at_ns=lambda: 0,
+            publish=lambda key, message, *, raw=None: self.published.append((key, message, raw)),
+            lost=lambda cause: self.losses.append((self.director.now_ns, cause)),
+        )
+        end_ns = round(until_s * SECOND_NS)
+        self.director.at(end_ns, self.director.stop, Priority.OBSERVE)
+
+    def go(self) -> Run:
+        self.rig.start()
+        self.director.run()
+        return self
+
+    def frames(self, camera: str) -> list[CameraFrame]:
+        return [
+            message
+            for key, message, _ in self.published
+            if key == f"camera/{camera}/frame" and isinstance(message, CameraFrame)
+        ]
+
+
+def scenario_with(**changes: object) -> Scenario:
+    """Return the head-on encounter with its first camera changed."""
+    document = json.loads(load("s02a_headon").model_dump_json())
+    document["cameras"][0] |= changes
+    return Scenario.model_validate(document)
+
+
+@given(rate_hz=st.floats(1.0, 30.0), seq=st.integers(0, 1_000_000))
+def test_exposures_keep_their_rate_without_drift(rate_hz: float, seq: int) -> None:
+    exposures = Exposures(rate_hz, 250)
+    assert exposures.end_ns(seq) == pytest.approx(250 + seq / rate_hz * 1e9, abs=1.0)
+    assert exposures.end_ns(seq + 1) > exposures.end_ns(seq)
+
+
+def test_cameras_that_are_due_together_share_one_pass() -> None:
+    fake = Fake()
+    Run(scenario_with(), fake, 1.0).go()
+    assert len(fake.shots) == 17
+    assert all(names == ("nose-AAL123", "nose-DAL456") for _, names in fake.shots)
+
+
+def test_each_camera_has_a_rate_and_a_phase_of_its_own() -> None:
+    run = Run(scenario_with(rate_hz=5.0, phase_s=0.1), Fake(), 1.0).go()
+    ends = [frame.t_frame_ns / SECOND_NS for frame in run.frames("nose-AAL123")]
+    assert ends == pytest.approx([0.1, 0.3, 0.5, 0.7, 0.9])
+    assert len(run.frames("nose-DAL456")) == 17
+
+
+def test_pictures_are_numbered_and_vouched_for() -> None:
+    run = Run(scenario_with(), Fake(), 0.5).go()
+    frames = run.frames("nose-AAL123")
+    assert [frame.seq for frame in frames] == list(range(9))
+    assert len({frame.sha256 for frame in frames}) == 9
+    raw = [raw for key, _, raw in run.published if key == "camera/nose-AAL123/frame"]
+    assert all(pixels is not None and len(pixels) == 64 * 36 * 3 for pixels in raw)
+
+
+def test_what_is_in_a_picture_is_told_as_truth() -> None:
+    run = Run(scenario_with(), Fake(), 0.1).go()
+    truth = [m for key, m, _ in run.published if key == "truth/camera/nose-AAL123"]
+    assert isinstance(truth[0], CameraTruth)
+    assert truth[0].sightings[0].range_m == 900.0
+    assert all(
+        key.startswith("truth/") or not isinstance(message, CameraTruth)
+        for key, message, _ in run.published
+    )
+
+
+def test_what_never_changes_is_told_once_before_the_first_picture() -> None:
+    mask = np.zeros((360, 640), dtype=bool)
+    mask[10, 5:9] = True
+    run = Run(scenario_with(), Fake(own_aircraft={"nose-AAL123": mask}), 0.5).go()
+    infos = [message for _, message, _ in run.published if isinstance(message, CameraInfo)]
+    assert [info.camera for info in infos] == ["nose-AAL123", "nose-DAL456"]
+    assert infos[0].own_aircraft == (10 * 640 + 5, 4, 350 * 640 - 9)
+    assert infos[0].carrier == "AAL123"
+    assert isinstance(run.published[0][1], CameraInfo)
+
+
+def test_the_camera_of_an_aircraft_that_has_ended_gives_no_more_pictures() -> None:
+    run = Run(scenario_with(), Fake(), 1.0)
+    run.director.at(SECOND_NS // 2, lambda: end(run.cast["AAL123"]), Priority.PHYSICS)
+    run.go()
+    assert len(run.frames("nose-AAL123")) == 8
+    assert len(run.frames("nose-DAL456")) == 17
+
+
+def end(performer: Performer) -> None:
+    performer.body.ended = "collision"
+
+
+def test_a_renderer_that_dies_is_told_once_and_asked_no_more() -> None:
+    fake = Fake(fails_at_ns=SECOND_NS // 2)
+    run = Run(scenario_with(), fake, 2.0).go()
+    assert run.losses == [(SECOND_NS // 2, "the driver has died")]
+    assert len(fake.shots) == 8
+
+
+def test_a_picture_taken_between_two_ticks_shows_bodies_further_on() -> None:
+    places = []
+
+    class Watching(Fake):
+        def shoot(
+            self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+        ) -> list[Frame]:
+            places.append((bodies[0].east_m, bodies[0].north_m))
+            return super().shoot(names, bodies, t_ns)
+
+    run = Run(scenario_with(), Watching(), 1.0).go()
+    state = run.cast["AAL123"].body.state
+    moved = np.hypot(*(np.subtract(places[-1], places[0])))
+    assert moved == pytest.approx(state.ground_speed_m_s, rel=1e-2)
+
+
+@given(
+    heading=st.floats(0.0, 6.28),
+    pitch=st.floats(-1.5, 1.5),
+    roll=st.floats(-3.1, 3.1),
+)
+def test_angles_of_a_view_are_those_of_its_attitude(
+    heading: float, pitch: float, roll: float
+) -> None:
+    rotation = attitude(heading, pitch, roll)
+    assert attitude(*angles_of(rotation)) == pytest.approx(rotation, abs=1e-6)
+
+
+def test_a_view_is_told_in_degrees_where_the_camera_is() -> None:
+    frame = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
+    told = view_message(View(LENS, Pose.of((0.0, 0.0, 12.0), -0.5)), frame, None)
+    assert told.latitude_deg == pytest.approx(38.85)
+    assert told.heading_deg == pytest.approx(360.0 - 0.5 / DEGREE)
+    assert told.height_m == 12.0

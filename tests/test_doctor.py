@@ -1,0 +1,40 @@
+"""`airhilt doctor` says what is missing before a run does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from airhilt import doctor
+from airhilt.doctor import Finding, examine
+from airhilt.workers.vision import embedded
+
+
+@pytest.fixture(autouse=True)
+def _no_renderers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They take seconds, and are tried elsewhere."""
+    monkeypatch.setattr(doctor, "RENDERERS", ())
+
+
+def found() -> dict[str, Finding]:
+    return {finding.name: finding for finding in examine()}
+
+
+def test_the_detector_is_loaded() -> None:
+    assert str(found()["detector"]) == "ok       detector (embedded)"
+
+
+def test_a_detector_without_its_model_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(embedded, "MODEL", tmp_path / "detector.onnx")
+    detector = found()["detector"]
+    assert str(detector).startswith("MISSING  detector: ")
+    assert str(tmp_path) in detector.remedy
+
+
+def test_pillow_is_named_with_the_extra_that_brings_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "_version", lambda name: "" if name == "pillow" else "1")
+    assert str(found()["pillow"]).startswith("absent   pillow: ")
+    assert "'airhilt[vision]'" in found()["pillow"].remedy
