@@ -6,10 +6,12 @@ from pathlib import Path
 
 import onnxruntime
 
-from airhilt.errors import SpeechError, first_line
+from airhilt.errors import AirhiltError, SpeechError, first_line
 
 
-def open_network(path: Path, subject: str, expected: str) -> onnxruntime.InferenceSession:
+def open_network(
+    path: Path, subject: str, expected: str, error: type[AirhiltError] = SpeechError
+) -> onnxruntime.InferenceSession:
     """Return the network of an ONNX file.
 
     Parameters
@@ -18,21 +20,23 @@ def open_network(path: Path, subject: str, expected: str) -> onnxruntime.Inferen
         What it is for, at the head of messages.
     expected
         What kind of network, at their end.
+    error
+        Class of what is raised.
 
     Raises
     ------
-    SpeechError
+    AirhiltError
         There is no such file, or no network in it that can be run.
     """
     if not path.is_file():
-        raise SpeechError(f"{subject}: no such file; expected {expected}")
+        raise error(f"{subject}: no such file; expected {expected}")
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1
     options.log_severity_level = 4
     try:
         return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
-    except Exception as error:  # onnxruntime raises classes of its own that share no base
-        raise SpeechError(
-            f"{subject}: no ONNX model that can be run: {first_line(error)}; expected {expected}"
+    except Exception as cause:  # onnxruntime raises classes of its own that share no base
+        raise error(
+            f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
         ) from None

@@ -16,6 +16,7 @@ from airhilt.messages import (
     WORKER_OUTPUTS,
     Advisory,
     AdvisoryAudio,
+    Detections,
     Message,
     Transcript,
     WorkerDescription,
@@ -199,6 +200,11 @@ def parse_output(
         raise WorkerError(
             f"worker {worker!r} published on {key!r} a transcript of {message.frequency_khz} kHz; "
             "expected the frequency in the key"
+        )
+    if isinstance(message, Detections) and key != f"vision/{message.camera}":
+        raise WorkerError(
+            f"worker {worker!r} published on {key!r} what is in a picture of camera "
+            f"{message.camera!r}; expected the camera in the key"
         )
     if isinstance(message, Advisory) and key != f"advisory/{message.recipient}":
         raise WorkerError(

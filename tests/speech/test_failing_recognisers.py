@@ -21,7 +21,7 @@ from airhilt.radio.voices.wav import decode_wav
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 from services import Slow, answering, nobody, service
 
 RIGHT = json.dumps({"text": "Washington Center.", "confidence": 0.9}).encode()

@@ -22,7 +22,7 @@ from airhilt.record import read_log
 from airhilt.replay import replay
 from airhilt.scenario import Scenario
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 from services import answering, nobody, service
 
 CHANNEL = Path(__file__).parents[1] / "data" / "channels" / "echo.onnx"

@@ -19,7 +19,7 @@ from airhilt.radio.voices.http import HttpTts
 from airhilt.radio.voices.wav import decode_wav, encode_wav
 from airhilt.workers.asr.http import HttpAsr
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 from services import (
     Slow,
     Slowness,

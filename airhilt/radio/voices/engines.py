@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import SpeechError
-from airhilt.radio.service import is_service
 from airhilt.radio.voices.cache import CachedTts
 from airhilt.radio.voices.engine import TtsEngine
+from airhilt.service import is_service
 
 EXPECTED = "espeak, flite, coqui:FOLDER, or the address of a service"
 

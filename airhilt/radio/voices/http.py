@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 
-from airhilt.radio.service import HttpService
+from airhilt.errors import SpeechError
 from airhilt.radio.voices.engine import Audio, VoiceSpec
 from airhilt.radio.voices.wav import decode_wav
+from airhilt.service import HttpService
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 20_000_000
@@ -28,7 +29,7 @@ class HttpTts:
     name = "http"
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S, version: str = "1") -> None:
-        self._service = HttpService("voice http", url, timeout_s, MAXIMUM_BYTES)
+        self._service = HttpService("voice http", url, timeout_s, MAXIMUM_BYTES, SpeechError)
         self.version = f"{url} {version}"
 
     def voice_of(self, speaker: str) -> VoiceSpec:

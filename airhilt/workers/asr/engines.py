@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import SpeechError
-from airhilt.radio.service import is_service
+from airhilt.service import is_service
 from airhilt.workers.asr.engine import AsrEngine
 
 EXPECTED = "embedded, embedded:FOLDER, whisper:FOLDER_OR_NAME, or the address of a service"

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from airhilt.errors import first_problem
+from airhilt.errors import SpeechError, first_problem
 from airhilt.messages import Confidence, Word
-from airhilt.radio.service import HttpService
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.radio.voices.wav import encode_wav
+from airhilt.service import HttpService
 from airhilt.workers.asr.canonical import canonical
 from airhilt.workers.asr.engine import Recognised
 
@@ -41,7 +41,7 @@ class HttpAsr:
     name = "http"
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
-        self._service = HttpService("ASR http", url, timeout_s, MAXIMUM_BYTES)
+        self._service = HttpService("ASR http", url, timeout_s, MAXIMUM_BYTES, SpeechError)
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:  # noqa: ARG002
         """Return what the service makes of the audio; nothing is asked of no audio."""

@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Sequence
 
 from airhilt.messages import (
+    SPEAK_MIN_LEVEL,
     Advisory,
     AdvisoryAudio,
     DeclaredLatency,
@@ -20,8 +21,6 @@ from airhilt.radio.voices.wav import SAMPLE_BYTES, to_pcm
 from airhilt.sim.worker import Input, Output
 from airhilt.workers.protocol import Step
 
-SPEAK_MIN_LEVEL = Severity.CAUTION
-"""Advisories below it are shown and not spoken (AIRHILT, arXiv 2511.18718)."""
 ASSISTANT = "ASSISTANT"
 """The speaker whose voice the assistant has."""
 

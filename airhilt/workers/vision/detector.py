@@ -8,10 +8,13 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.errors import VisionError
 from airhilt.messages import Box, VisibleClass
 
 Picture = npt.NDArray[np.uint8]
 """8-bit sRGB, shape (rows, columns, 3)."""
+GRID_PX = 16
+"""Strides of networks divide it: what begins at multiples of it is seen as it is in the whole."""
 
 
 class Found(NamedTuple):
@@ -20,6 +23,10 @@ class Found(NamedTuple):
     label: VisibleClass
     confidence: float
     box: Box
+
+
+class PictureMissed(VisionError):
+    """A detector has failed to look at one picture, and may succeed with the next."""
 
 
 class Detector(Protocol):
@@ -35,7 +42,9 @@ class Detector(Protocol):
 
         Raises
         ------
+        PictureMissed
+            It has not seen this picture.
         airhilt.errors.VisionError
-            It has failed.
+            It has failed for good.
         """
         ...

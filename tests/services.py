@@ -32,7 +32,7 @@ def service(answer: Answer) -> Iterator[str]:
     thread = threading.Thread(target=server.serve_forever, args=(0.02,))
     thread.start()
     try:
-        yield f"http://127.0.0.1:{server.server_port}/speech"
+        yield f"http://127.0.0.1:{server.server_port}/service"
     finally:
         server.shutdown()
         thread.join()
@@ -126,4 +126,4 @@ def nobody() -> str:
     """Return an address where nothing listens."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
-        return f"http://127.0.0.1:{free.getsockname()[1]}/speech"
+        return f"http://127.0.0.1:{free.getsockname()[1]}/service"

@@ -1,4 +1,4 @@
-"""Calls of HTTP services: speech that somebody else's program makes or recognises."""
+"""Calls of HTTP services: programs of somebody else that speak, listen or look."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import urllib.parse
 from contextlib import closing, suppress
 from http import HTTPStatus
 
-from airhilt.errors import SpeechError
+from airhilt.errors import AirhiltError
 
 READ_BYTES = 65_536
 QUOTED_BYTES = 200
@@ -39,14 +39,23 @@ class HttpService:
         Wall time for the whole exchange, from looking up the name to the last byte.
     maximum_bytes
         Of an answer.
+    failure
+        Class of all errors.
 
     Raises
     ------
-    SpeechError
+    AirhiltError
         The address is none.
     """
 
-    def __init__(self, subject: str, url: str, timeout_s: float, maximum_bytes: int) -> None:
+    def __init__(
+        self,
+        subject: str,
+        url: str,
+        timeout_s: float,
+        maximum_bytes: int,
+        failure: type[AirhiltError],
+    ) -> None:
         try:
             self._address = urllib.parse.urlsplit(url)
             is_address = is_service(url) and bool(self._address.hostname)
@@ -54,20 +63,21 @@ class HttpService:
         except ValueError:
             is_address = False
         if not is_address or not all("!" <= character <= "~" for character in url):
-            raise SpeechError(
+            raise failure(
                 f"{subject}: {url!r} is no address; expected one such as http://127.0.0.1:8000/path"
             )
         self.subject = subject
         self.url = url
         self._timeout_s = timeout_s
         self._maximum_bytes = maximum_bytes
+        self._failure = failure
 
     def post(self, body: bytes, content_type: str) -> bytes:
         """Return the answer to a request.
 
         Raises
         ------
-        SpeechError
+        AirhiltError
             The service is down, slow, says that it failed, or answers without an end.
         """
         try:
@@ -87,7 +97,7 @@ class HttpService:
 
         Raises
         ------
-        SpeechError
+        AirhiltError
             It is not there.
         """
         kind, host = _CONNECTIONS[self._address.scheme], self._address.hostname or ""
@@ -105,7 +115,7 @@ class HttpService:
 
         Raises
         ------
-        SpeechError
+        AirhiltError
             The service says that it failed, or answers too much.
         """
         address = self._address
@@ -128,7 +138,7 @@ class HttpService:
             if size > self._maximum_bytes:
                 raise self.error(
                     f"answers with more than {self._maximum_bytes} bytes",
-                    "an answer to one call on the radio",
+                    "no more than that",
                 )
             blocks.append(block)
         promised = answer.length
@@ -136,9 +146,9 @@ class HttpService:
             raise http.client.IncompleteRead(b"".join(blocks), promised)
         return b"".join(blocks)
 
-    def error(self, what: str, expected: str) -> SpeechError:
+    def error(self, what: str, expected: str) -> AirhiltError:
         """Return the error that says what the service does and what was expected."""
-        return SpeechError(f"{self.subject}: {self.url} {what}; expected {expected}")
+        return self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
 
 
 class _Exchange(threading.Thread):

@@ -1,0 +1,147 @@
+"""The embedded detector: a small network that was trained on pictures of AIRHILT.
+
+It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850) and needs
+no suppression of overlapping boxes. ``tools/train_detector.py`` makes it, and docs/detector.md
+says how well it sees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import onnxruntime
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from airhilt.errors import VisionError, first_line, first_problem
+from airhilt.inference import open_network
+from airhilt.messages import Confidence, VisibleClass
+from airhilt.workers.vision.detector import Found, Picture
+
+MODEL = Path(__file__).with_name("model") / "detector.onnx"
+CARD = "card.json"
+EXPECTED = (
+    "a network of tools/train_detector.py: 'picture', uint8 [1, rows, columns, 3], to 'found', "
+    "float [1, n, 6]: left, top, right, bottom, score, class"
+)
+GRID_PX = 16
+SMALLEST_PX = 64
+"""Pictures get a multiple of the one and at least the other on each side: their last rows and
+columns are repeated."""
+
+
+class Card(BaseModel):
+    """What `EmbeddedDetector` reads of the ``card.json`` beside a network."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
+    classes: Annotated[tuple[VisibleClass, ...], Field(min_length=1)]
+    """By the number in the network's output."""
+    threshold: Confidence
+    """Chosen for one false detection in 960 empty pictures, a minute at 16 Hz; docs/detector.md
+    has what comes of it elsewhere."""
+
+
+class EmbeddedDetector:
+    """Detects with the network that ships with AIRHILT, or another of its kind.
+
+    Parameters
+    ----------
+    path
+        ONNX file, with its ``card.json`` beside it.
+    threshold
+        Confidence below which nothing is reported, instead of the card's.
+
+    Raises
+    ------
+    VisionError
+        A file is missing, or is not what it must be.
+    """
+
+    name = "embedded"
+
+    def __init__(self, path: Path | None = None, threshold: float | None = None) -> None:
+        file = path or MODEL
+        card = _card(file.with_name(CARD))
+        self._classes = card.classes
+        self._threshold = card.threshold if threshold is None else threshold
+        if not 0.0 <= self._threshold <= 1.0:
+            raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
+        self._subject = f"detector {file}"
+        self._network = open_network(file, self._subject, EXPECTED, VisionError)
+        _require_shapes(self._network, self._subject)
+
+    def detect(self, picture: Picture) -> Sequence[Found]:
+        """Return what is in a picture; see `Detector.detect`."""
+        if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
+            raise VisionError(
+                f"a picture is {picture.dtype} {list(picture.shape)}; expected uint8 "
+                "[rows, columns, 3]"
+            )
+        rows, columns = picture.shape[:2]
+        if not rows or not columns:
+            return []
+        try:
+            found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
+            raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
+        if not np.isfinite(found).all():
+            raise VisionError(f"{self._subject} answers numbers that are not finite")
+        sure = found[found[:, 4] >= self._threshold]
+        sure = sure[np.argsort(-sure[:, 4], kind="stable")]
+        sure[:, [0, 2]] = sure[:, [0, 2]].clip(0.0, columns)
+        sure[:, [1, 3]] = sure[:, [1, 3]].clip(0.0, rows)
+        return [
+            Found(self._label(number), score, (left, top, right, bottom))
+            for left, top, right, bottom, score, number in sure.tolist()
+            if left < right and top < bottom
+        ]
+
+    def _label(self, number: float) -> VisibleClass:
+        index = int(number)
+        if not 0 <= index < len(self._classes):
+            raise VisionError(
+                f"{self._subject} answers class {number:g}; expected one of the "
+                f"{len(self._classes)} of its {CARD}, from 0"
+            )
+        return self._classes[index]
+
+
+def _card(path: Path) -> Card:
+    try:
+        return Card.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise VisionError(
+            f"{path}: cannot be read: {error.strerror}; expected what tools/train_detector.py "
+            "writes beside a network"
+        ) from None
+    except ValidationError as error:
+        raise VisionError(
+            f"{path}: {first_problem(error)}; expected what tools/train_detector.py writes beside "
+            "a network"
+        ) from None
+
+
+def _require_shapes(network: onnxruntime.InferenceSession, subject: str) -> None:
+    """Complain about a network that takes or gives something else.
+
+    Raises
+    ------
+    VisionError
+        It does.
+    """
+    inputs, outputs = network.get_inputs(), network.get_outputs()
+    found = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in (*inputs, *outputs))
+    takes = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in inputs]
+    gives = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in outputs]
+    if takes != [("picture", "tensor(uint8)", 4, 3)] or gives != [("found", "tensor(float)", 3, 6)]:
+        raise VisionError(f"{subject} has {found}; expected {EXPECTED}")
+
+
+def _padded(picture: Picture) -> Picture:
+    rows, columns = picture.shape[:2]
+    below, beside = (max(side + -side % GRID_PX, SMALLEST_PX) - side for side in (rows, columns))
+    if not below and not beside:
+        return np.ascontiguousarray(picture)
+    return np.pad(picture, ((0, below), (0, beside), (0, 0)), mode="edge")

@@ -1,0 +1,47 @@
+"""The detectors by the names that the command line gives them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from airhilt.errors import VisionError
+from airhilt.service import is_service
+from airhilt.workers.vision.detector import Detector
+from airhilt.workers.vision.gating import WHOLE, GateSettings, gate_of
+
+EXPECTED = "embedded, embedded:FILE.onnx, yolo:FILE, or the address of a service"
+
+
+class VisionEngine(NamedTuple):
+    """A detector, and how it is used."""
+
+    detector: Detector
+    sure: float = 0.0
+    """Confidence from which a finding counts by itself."""
+    gate: GateSettings = WHOLE
+
+
+def vision_engine(name: str) -> VisionEngine:
+    """Return the detector of a name such as ``embedded`` or ``yolo:models/yolov10n.pt``.
+
+    Raises
+    ------
+    VisionError
+        There is none of that name, or it cannot be loaded.
+    """
+    kind, _, argument = name.partition(":")
+    if kind == "embedded":
+        from airhilt.workers.vision.embedded import EmbeddedDetector
+
+        detector = EmbeddedDetector(Path(argument) if argument else None)
+        return VisionEngine(detector, gate=gate_of(detector))
+    if kind == "yolo" and argument:
+        from airhilt.workers.vision.yolo import SURE, YoloDetector
+
+        return VisionEngine(YoloDetector(Path(argument)), SURE)
+    if is_service(name):
+        from airhilt.workers.vision.http import HttpDetector
+
+        return VisionEngine(HttpDetector(name))
+    raise VisionError(f"detector {name!r}: there is none of that name; expected {EXPECTED}")

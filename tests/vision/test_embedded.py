@@ -1,0 +1,163 @@
+"""The embedded detector finds what there is, and says what is wrong with a file."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from airhilt.errors import VisionError
+from airhilt.workers.asr import ctc
+from airhilt.workers.vision.embedded import MODEL, EmbeddedDetector
+
+
+@pytest.fixture(scope="module")
+def detector() -> EmbeddedDetector:
+    return EmbeddedDetector()
+
+
+@pytest.fixture(scope="module")
+def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
+    """A 737 over open country, before a camera in the air, and its box."""
+    pytest.importorskip("moderngl")
+    import datetime
+
+    from airhilt.cameras.bodies import BodyState, aircraft_model
+    from airhilt.cameras.mounts import Camera
+    from airhilt.cameras.stage import air_and_sun
+    from airhilt.cameras.studio import Studio
+    from airhilt.cameras.view import Intrinsics, Pose
+    from airhilt.cameras.world import open_country
+    from airhilt.scenario.models import Daylight, Weather
+
+    day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=10.0)
+    light = air_and_sun(Weather(visibility_m=20_000.0), day, 0.8, True)
+    pose = Pose.of((0.0, 0.0, 900.0), 0.0)
+    camera = Camera("nose", Intrinsics(636, 356, 0.7), pose)
+    studio = Studio(
+        open_country(light, "test", None), light, {"737": aircraft_model("737")}, [camera],
+        "moderngl",
+    )  # fmt: skip
+    body = BodyState("737", -10.0, 150.0, 907.5, 3.1, 0.03, 0.05, "clean", True)
+    frame = studio.shoot(["nose"], [body], 0)[0]
+    studio.close()
+    return frame.colour, tuple(frame.sightings[0].box)
+
+
+def copy(folder: Path, **card: object) -> Path:
+    """Return the detector's file in another place, with changes to its card."""
+    shutil.copy(MODEL, folder)
+    document = json.loads(MODEL.with_name("card.json").read_text())
+    (folder / "card.json").write_text(json.dumps(document | card))
+    return folder / MODEL.name
+
+
+def test_an_airliner_is_found_where_it_is(detector, airliner) -> None:
+    picture, box = airliner
+    surest = detector.detect(picture)[0]
+    assert surest.label == "airplane"
+    assert np.abs(np.subtract(surest.box, box)).max() < 16.0
+
+
+def test_pictures_of_any_size_give_boxes_within_them(detector, airliner) -> None:
+    picture, _ = airliner
+    for rows, columns in ((356, 636), (200, 301), (33, 47), (1, 1)):
+        part = picture[-rows:, :columns]
+        for found in detector.detect(part):
+            left, top, right, bottom = found.box
+            assert 0.0 <= left < right <= columns
+            assert 0.0 <= top < bottom <= rows
+
+
+def test_in_an_even_picture_there_is_nothing(detector) -> None:
+    for level in (0, 90, 200, 255):
+        assert not detector.detect(np.full((360, 640, 3), level, dtype=np.uint8))
+
+
+def test_the_same_picture_gives_the_same_answer(detector, airliner) -> None:
+    picture, _ = airliner
+    assert detector.detect(picture) == EmbeddedDetector().detect(picture.copy())
+
+
+def test_the_surest_come_first_and_none_is_below_the_threshold(airliner) -> None:
+    picture, _ = airliner
+    confidences = [found.confidence for found in EmbeddedDetector(threshold=0.01).detect(picture)]
+    assert confidences == sorted(confidences, reverse=True)
+    assert all(0.01 <= confidence <= 1.0 for confidence in confidences)
+    assert len(EmbeddedDetector(threshold=0.5).detect(picture)) <= len(confidences)
+
+
+def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner) -> None:
+    picture, _ = airliner
+    assert EmbeddedDetector(copy(tmp_path)).detect(picture) == EmbeddedDetector().detect(picture)
+    assert not EmbeddedDetector(copy(tmp_path, threshold=1.0)).detect(picture)
+
+
+def test_a_picture_that_is_none_is_refused(detector) -> None:
+    with pytest.raises(VisionError, match=r"float64 \[4, 4\]; expected uint8"):
+        detector.detect(np.zeros((4, 4)))
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    copy(tmp_path)
+    with pytest.raises(VisionError, match=r"none\.onnx: no such file; expected a network of"):
+        EmbeddedDetector(tmp_path / "none.onnx")
+
+
+def test_a_file_that_is_no_network_is_named(tmp_path: Path) -> None:
+    path = copy(tmp_path)
+    path.write_bytes(b"pictures of cats")
+    with pytest.raises(VisionError, match=r"detector\.onnx: no ONNX model that can be run"):
+        EmbeddedDetector(path)
+
+
+def test_a_network_of_another_shape_is_named(tmp_path: Path) -> None:
+    path = copy(tmp_path)
+    shutil.copy(Path(ctc.__file__).parent / "model" / "ctc.onnx", path)
+    with pytest.raises(VisionError, match=r"detector\.onnx has .*; expected a network of tools/"):
+        EmbeddedDetector(path)
+
+
+def test_a_network_without_a_card_is_named(tmp_path: Path) -> None:
+    path = copy(tmp_path)
+    (tmp_path / "card.json").unlink()
+    with pytest.raises(VisionError, match=r"card\.json: cannot be read"):
+        EmbeddedDetector(path)
+
+
+@pytest.mark.parametrize(
+    ("card", "message"),
+    [
+        ({"classes": ["airplane", "submarine"]}, "classes/1"),
+        ({"classes": []}, "classes"),
+        ({"threshold": 2.0}, "threshold"),
+    ],
+)
+def test_a_card_that_is_wrong_is_named(
+    tmp_path: Path, card: dict[str, object], message: str
+) -> None:
+    with pytest.raises(VisionError, match=rf"card\.json: {message}"):
+        EmbeddedDetector(copy(tmp_path, **card))
+
+
+def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path, airliner) -> None:
+    picture, _ = airliner
+    # The shipped network's airliner is its class 0; without airplanes, trucks are.
+    only = EmbeddedDetector(copy(tmp_path, classes=["truck"]))
+    assert only.detect(picture)[0].label == "truck"
+
+
+@pytest.mark.parametrize("threshold", [-0.1, 1.1, float("nan")])
+def test_a_threshold_that_is_none_is_refused(threshold: float) -> None:
+    with pytest.raises(VisionError, match="expected 0 to 1"):
+        EmbeddedDetector(threshold=threshold)
+
+
+def test_the_file_is_small_and_its_card_says_how_it_was_made() -> None:
+    assert MODEL.stat().st_size < 10_000_000
+    card = json.loads(MODEL.with_name("card.json").read_text())
+    assert card["training"]["seed"] is not None
+    assert card["training"]["pictures"] > 5000

@@ -1,0 +1,129 @@
+"""The folders of `airhilt dataset export`, as training and judging of detectors read them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+CLASSES = ("airplane", "truck", "bird", "deer", "coyote")
+"""In the order of the network's maps."""
+SMALLEST_PX = 5.0
+"""Of the longest side of the box."""
+LEAST_VISIBLE = 0.25
+LEAST_TRANSMISSION = 0.03
+LEAST_CONTRAST = 6.0
+RING_PX = 3
+
+Picture = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Body:
+    """Something in a picture.
+
+    Attributes
+    ----------
+    label
+        Place of its class in `CLASSES`.
+    box
+        Left, top, right, bottom in pixels.
+    contrast
+        What nine tenths of its box differ less than from the colour around, in 8-bit levels.
+    """
+
+    label: int
+    box: tuple[float, float, float, float]
+    range_m: float
+    visible_fraction: float
+    transmission: float
+    contrast: float
+
+    @property
+    def size_px(self) -> float:
+        """Its longest side."""
+        left, top, right, bottom = self.box
+        return max(right - left, bottom - top)
+
+    @property
+    def counts(self) -> bool:
+        """Whether a detector may be asked to find it."""
+        return (
+            self.size_px >= SMALLEST_PX
+            and self.visible_fraction >= LEAST_VISIBLE
+            and self.transmission >= LEAST_TRANSMISSION
+            and self.contrast >= LEAST_CONTRAST
+        )
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture of a folder, and what is in it."""
+
+    path: Path
+    about: dict[str, Any]
+    bodies: tuple[Body, ...]
+
+    def picture(self) -> Picture:
+        """Return its pixels, shape (rows, columns, 3)."""
+        return read_picture(self.path)
+
+
+def read_picture(path: Path) -> Picture:
+    """Return the pixels of a file, shape (rows, columns, 3)."""
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+def read_folder(folder: Path) -> list[Shot]:
+    """Return the pictures of a folder; contrasts are measured in them."""
+    document = json.loads((folder / "annotations.json").read_text(encoding="utf-8"))
+    names = {category["id"]: category["name"] for category in document["categories"]}
+    found: dict[int, list[dict[str, Any]]] = {}
+    for annotation in document["annotations"]:
+        found.setdefault(annotation["image_id"], []).append(annotation)
+    shots = []
+    for about in document["images"]:
+        path = folder / about["file_name"]
+        given = found.get(about["id"], [])
+        pixels = read_picture(path) if given else None
+        bodies = []
+        for annotation in given:
+            left, top, width, height = annotation["bbox"]
+            box = left, top, left + width, top + height
+            assert pixels is not None
+            bodies.append(
+                Body(
+                    CLASSES.index(names[annotation["category_id"]]),
+                    box,
+                    annotation["range_m"],
+                    annotation["visible_fraction"],
+                    annotation["transmission"],
+                    contrast(pixels, box),
+                )
+            )
+        shots.append(Shot(path, about, tuple(bodies)))
+    return shots
+
+
+def contrast(picture: Picture, box: tuple[float, float, float, float]) -> float:
+    """Return what nine tenths of a box differ less than from the median colour around it."""
+    rows, columns = picture.shape[:2]
+    left, top = max(int(box[0]), 0), max(int(box[1]), 0)
+    right, bottom = min(int(np.ceil(box[2])), columns), min(int(np.ceil(box[3])), rows)
+    outer = picture[
+        max(top - RING_PX, 0) : bottom + RING_PX, max(left - RING_PX, 0) : right + RING_PX
+    ]
+    ring = np.ones(outer.shape[:2], dtype=bool)
+    above, aside = top - max(top - RING_PX, 0), left - max(left - RING_PX, 0)
+    ring[above : above + bottom - top, aside : aside + right - left] = False
+    inside = picture[top:bottom, left:right].reshape(-1, 3)
+    if not ring.any() or not len(inside):
+        return 255.0
+    away = np.abs(inside.astype(float) - np.median(outer[ring], axis=0)).max(axis=1)
+    return float(np.percentile(away, 90.0))
