@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from projected import Body, Camera
 
 from airhilt.messages import (
     Advisory,
@@ -16,6 +17,7 @@ from airhilt.messages import (
     RunwayBriefing,
     Severity,
     Transcript,
+    VisibleClass,
 )
 from airhilt.scenario.geometry import Site
 from airhilt.sim import Input
@@ -124,6 +126,16 @@ class Mover:
             self.icao24, self.callsign, self.nacp, 2, generator, self.category
         )
         self._heading_rad = ((self.heading_deg or 0.0) + self.axis.course_deg) * DEGREE
+
+    def body(self, label: VisibleClass, sizes: tuple[float, float, float]) -> Body:
+        """Return what is to be seen of it."""
+
+        def at(t_s: float) -> tuple[tuple[float, float, float], float]:
+            along, across, height = self.spot(t_s)
+            state = self.state(t_s)
+            return (*self.axis.local(along, across), height or 0.0), state.heading_rad
+
+        return Body(label, *sizes, at)
 
     def is_on_ground(self, t_s: float) -> bool:
         return self.spot(t_s)[2] is None
@@ -257,6 +269,7 @@ class Airfield:
     """When each call ends, and its words."""
     worker: DecisionWorker = field(default_factory=DecisionWorker)
     told: list[tuple[float, Advisory]] = field(default_factory=list)
+    cameras: list[Camera] = field(default_factory=list)
 
     def run(self, seconds: float) -> Airfield:
         station = Receiver("field", State(*FIELD.origin, 20.0), 1e6, ground_m=ELEVATION_M)
@@ -270,6 +283,13 @@ class Airfield:
                 for made in self._report(station, mover, t_ns, step)
             ]
             self._step(t_ns, inputs + self._transcripts(t_ns))
+            seen = [
+                item
+                for camera in self.cameras
+                for item in camera.inputs(t_ns, t_ns + HALF_SECOND_NS)
+            ]
+            for item in sorted(seen, key=lambda item: item.t_in_ns):
+                self._step(item.t_in_ns, [item])
         return self
 
     def _report(self, station: Receiver, mover: Mover, t_ns: int, step: int) -> list[Input]:

@@ -8,16 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from geographiclib.geodesic import Geodesic
+from projected import Body, Camera, Place
 
-from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript
+from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, VisibleClass
 from airhilt.scenario.geometry import Site
 from airhilt.sim import Input
+from airhilt.surface.frame import LocalFrame
 from airhilt.surveillance.adsb import Receiver, Transponder
 from airhilt.surveillance.kinematics import relative
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.workers.decision import DecisionWorker
 
 CENTRE = (38.9, -77.0)
+FRAME = LocalFrame((CENTRE[0] * DEGREE, CENTRE[1] * DEGREE))
+GROUND_M = 90.0
 HALF_SECOND_NS = SECOND_NS // 2
 CAPTURE_PER_S = 0.12
 """How an autopilot levels off: the rate for each foot that is still to go."""
@@ -48,6 +52,7 @@ class Flight:
     target_ft: float | None = None
     seed: int = 1
     waver_ft: float = 15.0
+    equipped: bool = True
 
     def __post_init__(self) -> None:
         self.transponder = Transponder(
@@ -94,6 +99,28 @@ class Flight:
             velocity_down_m_s=-rate,
         )
 
+    def place(self, time_s: float) -> tuple[Place, float]:
+        """Return where it is above the ground, and its track (rad)."""
+        state = self.state(time_s)
+        east, north = FRAME.to_local((state.latitude_rad, state.longitude_rad))
+        track = math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)
+        return (east, north, state.altitude_m - GROUND_M), track
+
+    def body(self, label: VisibleClass, sizes: tuple[float, float, float]) -> Body:
+        """Return what is to be seen of it."""
+        return Body(label, *sizes, self.place)
+
+    def nose(self, *bodies: Body, **how: float) -> Camera:
+        """Return a camera on its nose, while it rolls and pitches a little."""
+
+        def look(time_s: float) -> tuple[Place, tuple[float, float, float]]:
+            place, track = self.place(time_s)
+            pitch = (3.0 + math.sin(time_s)) * DEGREE
+            return place, (track, pitch, 3.0 * DEGREE * math.sin(0.7 * time_s))
+
+        wide = {"fov_deg": 25.0, "width_px": 1280, "height_px": 720} | how
+        return Camera(f"nose_{self.callsign}", FRAME, look, list(bodies), self.callsign, **wide)
+
 
 @dataclass
 class Encounter:
@@ -110,6 +137,7 @@ class Encounter:
     """From when on no report is received."""
     least: dict[tuple[str, str], float] = field(default_factory=dict)
     """Least distance of each pair in units of 5 NM and 1000 ft."""
+    cameras: list[Camera] = field(default_factory=list)
 
     def fly(self) -> Encounter:
         station = Receiver("all", State(CENTRE[0] * DEGREE, CENTRE[1] * DEGREE, 1e4), 1e6)
@@ -123,17 +151,28 @@ class Encounter:
             for flight in self.flights:
                 flight.advance(0.5)
             self._measure(t_ns)
-            result = self.worker.step(t_ns, inputs)
-            for output in result.outputs:
-                advisory = Advisory.model_validate_json(output.payload)
-                assert output.key == f"advisory/{advisory.recipient}"
-                self.told.append((t_ns / SECOND_NS, advisory))
-                self._follow(advisory)
+            self._step(t_ns, inputs)
+            seen = [
+                item
+                for camera in self.cameras
+                for item in camera.inputs(t_ns, t_ns + HALF_SECOND_NS)
+            ]
+            for item in sorted(seen, key=lambda item: item.t_in_ns):
+                self._step(item.t_in_ns, [item])
         return self
+
+    def _step(self, t_ns: int, inputs: list[Input]) -> None:
+        for output in self.worker.step(t_ns, inputs).outputs:
+            advisory = Advisory.model_validate_json(output.payload)
+            assert output.key == f"advisory/{advisory.recipient}"
+            self.told.append((t_ns / SECOND_NS, advisory))
+            self._follow(advisory)
 
     def _reports(self, station: Receiver, t_ns: int, step: int) -> list[Input]:
         inputs = []
         for flight in self.flights:
+            if not flight.equipped:
+                continue
             state, sender = flight.state(t_ns / SECOND_NS), flight.transponder
             if step <= 0:
                 station.decode(sender, sender.identification(), t_ns)

@@ -245,7 +245,8 @@ def test_what_is_told_depends_on_nothing_but_what_was_heard():
 
 def test_the_engine_declares_what_it_listens_to_and_never_truth():
     description = DecisionWorker().description
-    assert {wanted.key for wanted in description.inputs} == {"briefing", "adsb/*", "asr/*"}
+    heard = {wanted.key for wanted in description.inputs}
+    assert heard == {"briefing", "adsb/*", "asr/*", "vision/*"}
     assert description.modality == "decision"
 
 

@@ -1,4 +1,4 @@
-"""The reference decision worker: ADS-B and radio text in, advisories out."""
+"""The reference decision worker: ADS-B, radio text and what cameras show in, advisories out."""
 
 from airhilt.workers.decision.engine import DecisionConfig, DecisionWorker
 

@@ -17,6 +17,8 @@ from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 from airhilt.workers.decision.tracks import Track
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
     from shapely import LineString, Polygon
 
 ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
@@ -123,7 +125,7 @@ class Strip:
             max(min(SURELY_INSIDE * error_m, room_m), 0.0) for error_m in NACP_95_PERCENT_M
         ]
         self._cores = [area.buffer(-margin_m) for margin_m in self._margins_m]
-        for core in self._cores:
+        for core in (area, *self._cores):
             shapely.prepare(core)
 
     def core(self, nacp: int) -> Polygon:
@@ -142,6 +144,12 @@ class Strip:
         import shapely
 
         return bool(shapely.contains_xy(self._area, point.east, point.north))
+
+    def share_inside(self, points: npt.NDArray[np.float64]) -> float:
+        """Return the share of some points, shape (n, 2), that is in the protected area."""
+        import shapely
+
+        return float(shapely.contains_xy(self._area, points[:, 0], points[:, 1]).mean())
 
     def room_m(self, point: Vector, heading_rad: float) -> float:
         """Return how far it is straight on to the pavement: 0 on it, or if it is not ahead."""

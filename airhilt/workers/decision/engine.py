@@ -1,4 +1,4 @@
-"""The reference decision worker: what it hears goes to its watches, and what they tell goes out."""
+"""The reference decision worker: what it senses goes to its watches, what they tell goes out."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from airhilt.messages import (
     Advisory,
     Briefing,
     DeclaredLatency,
+    Detections,
     InputSpec,
     Status,
     Transcript,
@@ -18,6 +19,8 @@ from airhilt.messages import (
 )
 from airhilt.sim.worker import Input, Output
 from airhilt.workers.decision.fusion import FusionGate
+from airhilt.workers.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.workers.decision.lookout import Lookout
 from airhilt.workers.decision.runway import RunwayWatch
 from airhilt.workers.decision.separation import (
     COASTING_NS,
@@ -40,12 +43,17 @@ class DecisionConfig:
 
     separation: SeparationConfig = field(default_factory=SeparationConfig)
     runways: RunwayConfig = field(default_factory=RunwayConfig)
+    intruders: IntruderConfig = field(default_factory=IntruderConfig)
     is_gated: bool = False
     """The topology ``gated_fusion``: it tells nothing while a transcript is to come."""
 
 
 class DecisionWorker:
-    """Implements `airhilt.workers.Worker` for conflicts in the air and on runways."""
+    """Implements `airhilt.workers.Worker` for conflicts in the air and on runways.
+
+    What cameras show goes to the lookout. It keeps what no transponder explains, and both the
+    watch for intruders and the one for runways look at that.
+    """
 
     def __init__(self, config: DecisionConfig | None = None, name: str = "decision") -> None:
         config = config or DecisionConfig()
@@ -56,12 +64,17 @@ class DecisionWorker:
                 InputSpec(key="briefing", policy="batch"),
                 InputSpec(key="adsb/*", policy="batch"),
                 InputSpec(key="asr/*", policy="batch"),
+                InputSpec(key="vision/*", policy="batch"),
                 *(GATE_INPUTS if config.is_gated else ()),
             ),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
         )
+        self.lookout = Lookout()
         self.separation = SeparationWatch(config.separation, name)
-        self.runways = RunwayWatch(config.runways, name)
+        self.runways = RunwayWatch(config.runways, name, self.lookout)
+        self.intruders = IntruderWatch(
+            config.intruders, name, self.lookout, self.runways.runway_of_arrival
+        )
         self._gate = FusionGate()
         self._withheld: list[Advisory] = []
 
@@ -75,15 +88,16 @@ class DecisionWorker:
             self._withheld = advisories
             return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
-        advisories += self.separation.judge(t_ns, t_ready_ns)
-        advisories += self.runways.judge(t_ns, t_ready_ns)
-        is_alert = self.separation.is_alert or self.runways.is_alert
+        self.lookout.forget(t_ns)
+        watches = (self.separation, self.runways, self.intruders)
+        for watch in watches:
+            advisories += watch.judge(t_ns, t_ready_ns)
         return Step(
             tuple(
                 Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
                 for advisory in advisories
             ),
-            wake_ns=t_ns + COASTING_NS if is_alert else None,
+            wake_ns=t_ns + COASTING_NS if any(watch.is_alert for watch in watches) else None,
         )
 
     def _take(self, t_ns: int, item: Input) -> list[Advisory]:
@@ -92,11 +106,16 @@ class DecisionWorker:
             report = AdsbReport.model_validate_json(item.payload)
             self.separation.take_report(report)
             self.runways.take_report(report)
+            self.lookout.take_report(report)
+            return []
+        if item.key.startswith("vision/"):
+            self.lookout.take_detections(Detections.model_validate_json(item.payload))
             return []
         if item.key == "briefing":
             briefing = Briefing.model_validate_json(item.payload)
             self.separation.take_briefing(briefing)
             self.runways.take_briefing(briefing)
+            self.lookout.take_briefing(briefing)
             return []
         if item.key.startswith("radio/"):
             self._gate.take_transmission(Transmission.model_validate(item.attachment))

@@ -19,6 +19,7 @@ from airhilt.messages import (
 )
 from airhilt.workers.decision.aerodrome import Strip
 from airhilt.workers.decision.escalation import Escalation
+from airhilt.workers.decision.lookout import Lookout
 from airhilt.workers.decision.mobiles import Mobile, lined_up_on
 from airhilt.workers.decision.situation import Situation
 from airhilt.workers.decision.threats import Assessment, RunwayConfig, Threat
@@ -40,9 +41,10 @@ class _Alert:
 class RunwayWatch:
     """Watches the runways of the airport in the briefing; without one it has nothing to do."""
 
-    def __init__(self, config: RunwayConfig, name: str) -> None:
+    def __init__(self, config: RunwayConfig, name: str, lookout: Lookout) -> None:
         self.config = config
         self._name = name
+        self._lookout = lookout
         self._situation: Situation | None = None
         self._alerts: dict[tuple[str, ...], _Alert] = {}
         self._told = 0
@@ -51,6 +53,13 @@ class RunwayWatch:
     def is_alert(self) -> bool:
         """Whether there is a conflict to be judged again even without news."""
         return bool(self._alerts)
+
+    def runway_of_arrival(self, callsign: str) -> str | None:
+        """Return the runway that somebody is on final for, None if it is on none."""
+        situation = self._situation
+        mobile = None if situation is None else situation.mobile(callsign)
+        use = None if situation is None or mobile is None else situation.use(mobile)
+        return None if use is None or use.kind != "arrival" else use.direction.ident
 
     def take_briefing(self, briefing: Briefing) -> None:
         """Take in the airport, and who is expected there."""
@@ -73,6 +82,7 @@ class RunwayWatch:
         if situation is None:
             return []
         situation.forget(t_ns)
+        situation.look(self._lookout)
         threats: dict[tuple[str, ...], Threat] = {}
         for threat in Assessment(situation, self.config, t_ns).threats():
             known = threats.setdefault(threat.key, threat)
@@ -97,7 +107,7 @@ class RunwayWatch:
             self._told += 1
             alert = self._alerts[threat.key] = _Alert(f"{self._name}-runway-{self._told}", threat)
         alert.threat = threat
-        # What was said does not become surer by being heard again.
+        # What was said does not become surer by being heard again, and what is seen has lasted.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
         if not alert.escalation.rises(threat.severity, t_ns, persistence_s):
             return []

@@ -21,7 +21,6 @@ from airhilt.messages import (
     Recommendation,
     Severity,
     Transcript,
-    Turn,
 )
 from airhilt.radio.phraseology import Call, parse_call
 from airhilt.surveillance.kinematics import (
@@ -34,6 +33,7 @@ from airhilt.surveillance.kinematics import (
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.workers.decision.aerodrome import TrafficZone
 from airhilt.workers.decision.escalation import Escalation
+from airhilt.workers.decision.manoeuvres import in_words
 from airhilt.workers.decision.resolution import resolve
 from airhilt.workers.decision.tracks import Track
 
@@ -461,24 +461,12 @@ def _words(
     loss = prediction.time_to_loss_s or 0.0
     if recipient not in callsigns:
         advice = "; ".join(
-            f"{callsign} {_advice(recommendation)}"
+            f"{callsign} {in_words(recommendation)}"
             for callsign, recommendation in recommended.items()
             if recommendation is not None
         )
         text = f"{callsigns[0]} and {callsigns[1]} lose separation in {loss:.0f} s"
         return f"{text}; {advice}" if advice else text
     other = callsigns[1] if recipient == callsigns[0] else callsigns[0]
-    advice = _advice(recommended[recipient])
+    advice = in_words(recommended[recipient])
     return f"{recipient} traffic {other}, loss of separation in {loss:.0f} s, {advice}"
-
-
-def _advice(recommendation: Recommendation | None) -> str:
-    match recommendation:
-        case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate):
-            return f"{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
-        case MaintainLevel(altitude_ft=altitude):
-            return f"maintain {altitude:.0f} ft"
-        case Turn(degrees=degrees):
-            return f"turn {'right' if degrees >= 0 else 'left'} {abs(degrees):.0f} degrees"
-        case _:
-            return "maintain present level and track"

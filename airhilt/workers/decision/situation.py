@@ -1,7 +1,8 @@
-"""What is known of an airport's runways now: who uses them, who is on them, what was said."""
+"""What is known of an airport's runways now: who uses them, what is on them, what was said."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -10,7 +11,15 @@ from airhilt.radio.phraseology import Call, parse_call
 from airhilt.units import SECOND_NS
 from airhilt.workers.decision.aerodrome import Aerodrome, Strip, Way, way_through
 from airhilt.workers.decision.clearances import Clearances
+from airhilt.workers.decision.lookout import Lookout
 from airhilt.workers.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
+from airhilt.workers.decision.occupancy import (
+    SeenAloft,
+    SeenOnGround,
+    seen_aloft,
+    seen_on_ground,
+    velocity_of,
+)
 
 STALE_NS = 15 * SECOND_NS
 """Age at which somebody is forgotten."""
@@ -18,6 +27,27 @@ STALE_STANDING_NS = 30 * SECOND_NS
 """Likewise who stands, and squitters every five seconds."""
 WILDLIFE_NS = 120 * SECOND_NS
 """How long wildlife stays where it was reported."""
+LEAST_CHANCE = 0.2
+"""What is less probably in a protected area is beside it."""
+SURE_CHANCE = 0.8
+"""What is at least so probably in it is there."""
+ACCURATE_NACP = 11
+
+
+class Seen(NamedTuple):
+    """What only cameras show of an obstacle.
+
+    Attributes
+    ----------
+    weight
+        How sure it is that it is there, and in the protected area.
+    is_sure
+        Whether both are beyond doubt.
+    """
+
+    thing: SeenOnGround
+    weight: float
+    is_sure: bool
 
 
 class Obstacle(NamedTuple):
@@ -25,6 +55,8 @@ class Obstacle(NamedTuple):
 
     mobile: Mobile
     way: Way
+    seen: Seen | None = None
+    """None: it is known by ADS-B."""
 
     @property
     def is_inside(self) -> bool:
@@ -49,6 +81,13 @@ class Situation:
         """By runway and address."""
         self._wildlife_ns: dict[str, int] = {}
         """When it was last reported, by runway."""
+        self.aloft: tuple[SeenAloft, ...] = ()
+        self._seen: dict[str, list[Obstacle]] = {}
+        """By runway."""
+
+    def is_vehicle(self, callsign: str) -> bool:
+        """Return whether the roster has somebody as a vehicle."""
+        return self._roster.get(callsign, False)
 
     def mobile(self, callsign: str) -> Mobile | None:
         """Return who has a callsign, if it is seen."""
@@ -61,6 +100,46 @@ class Situation:
     def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
         """Yield who is on a runway, or has it straight ahead."""
         yield from self._obstacles[strip.name].values()
+        yield from self._seen.get(strip.name, ())
+
+    def look(self, lookout: Lookout) -> None:
+        """Take in what cameras show on the ground, and in the air."""
+        self.aloft = tuple(seen_aloft(lookout, self.aerodrome))
+        things = list(seen_on_ground(lookout, self.aerodrome, self.aloft))
+        self._seen = {
+            strip.name: [
+                obstacle
+                for thing in things
+                if (obstacle := self._seen_on(strip, thing)) is not None
+            ]
+            for strip in self.aerodrome.strips
+        }
+
+    def _seen_on(self, strip: Strip, thing: SeenOnGround) -> Obstacle | None:
+        """Return something that cameras show as an obstacle, None if it is not on a runway."""
+        chance = thing.spot.chance(strip.share_inside)
+        if chance < LEAST_CHANCE:
+            return None
+        # Nobody knows where an animal will go: it stands.
+        east, north = (0.0, 0.0) if thing.is_animal else velocity_of(thing, self.aerodrome)
+        speed, heading = math.hypot(east, north), math.atan2(east, north)
+        mobile = Mobile(
+            icao24="",
+            callsign=thing.label,
+            t_ns=thing.t_ns,
+            point=thing.spot.point,
+            altitude_m=None,
+            speed_m_s=speed,
+            heading_rad=heading,
+            vertical_rate_m_s=0.0,
+            nacp=ACCURATE_NACP,
+            is_vehicle=thing.label != "airplane",
+            slow_speed_m_s=speed,
+        )
+        ahead = way_through(strip.core(ACCURATE_NACP), thing.spot.point, heading)
+        way = Way(0.0, 0.0 if ahead is None else ahead.exit_m)
+        is_sure = thing.is_established and chance >= SURE_CHANCE
+        return Obstacle(mobile, way, Seen(thing, thing.belief * chance, is_sure))
 
     def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
         """Return whether wildlife was reported on a runway a short while ago."""

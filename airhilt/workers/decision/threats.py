@@ -1,29 +1,37 @@
-"""What is wrong on an airport's runways at this instant: the ladder's steps (a), (b) and (c)."""
+"""What is wrong on an airport's runways at this instant: the ladder's steps (a), (b) and (c).
+
+What cameras show counts as an obstacle without a transponder.
+"""
 
 from __future__ import annotations
 
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from airhilt.messages import Severity
 from airhilt.radio.phraseology import Action
 from airhilt.surveillance.adsb import NACP_95_PERCENT_M
 from airhilt.units import SECOND_NS
-from airhilt.workers.decision.aerodrome import Strip
+from airhilt.workers.decision.aerodrome import Strip, Vector
 from airhilt.workers.decision.clearances import Clearance, Discrepancy
+from airhilt.workers.decision.ladder import fused_severity
 from airhilt.workers.decision.mobiles import (
     BRAKING_M_S2,
+    FINAL_M,
     ROLLING_M_S,
     STANDING_M_S,
     TAKEOFF_M_S2,
+    TOUCHDOWN_M,
     Kind,
     Mobile,
     Use,
 )
-from airhilt.workers.decision.situation import Obstacle, Situation
+from airhilt.workers.decision.occupancy import SeenAloft
+from airhilt.workers.decision.sight import Fix
+from airhilt.workers.decision.situation import Obstacle, Seen, Situation
 
 PAPER_TIME_TO_GO_S = 8.0
 """The time to go in step (b) of the AIRHILT paper's ladder (arXiv 2511.18718)."""
@@ -46,7 +54,25 @@ ONE_SIDED = 0.67
 1.645 / 2.4477."""
 CROSSING_NS = 30 * SECOND_NS
 """Who was cleared to cross, and is not seen, is across after that."""
+FLIGHT_PATH_M = 60.0
+"""Birds that will be no farther beside the flight path are in it,"""
+FLIGHT_PATH_HEIGHT_M = 40.0
+"""or no farther above or below."""
+BIRDS_WANDER_M_S = 3.0
+"""By which they get elsewhere than straight on, for each second."""
+BIRDS_BESIDE_M = 300.0
+"""Birds in the air that are no farther beside the flight path may get into it."""
+BIRDS_ABOVE_M = 100.0
+BIRDS_FORESEEN_S = 25.0
+"""For so long birds are taken to fly straight on."""
+CLIMB_OUT_HEIGHT_M = 150.0
+"""Below it birds over a runway are in the way of a departure."""
+LEAST_CLOSING = 0.1
+"""Of an arrival's speed; who flies before it hardly slower is not met."""
+BIRDS_LIKELY = 0.3
+"""Part of the places at which birds of unknown distance may be."""
 WILDLIFE = "wildlife"
+UNIDENTIFIED = "unidentified"
 _DOING: dict[Kind, str] = {
     "arrival": "on final for",
     "departure": "takes off from",
@@ -97,6 +123,7 @@ class Threat:
     """For the second party, where it is another."""
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
+    """That on which it hinges first."""
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
 
 
@@ -117,6 +144,8 @@ class Assessment:
                 yield from self._in_way(use, obstacle)
             yield from self._unseen(use)
             yield from self._wildlife(use)
+            for thing in self._situation.aloft:
+                yield from self._aloft(use, thing)
         for first, second in itertools.combinations(uses, 2):
             if first.strip is second.strip:
                 yield from self._head_on(first, second)
@@ -141,10 +170,11 @@ class Assessment:
         severity = self._urgency(use, time_to_go_s)
         if severity is None:
             return
-        if self._leaves_before(obstacle, use, time_to_go_s):
-            allowed = self._is_allowed(other, use.strip) and time_to_go_s > self._config.late_s
-            if allowed or severity is Severity.CAUTION:
-                severity = Severity.INFO
+        if obstacle.seen is not None:
+            yield from self._seen_in_way(use, obstacle, obstacle.seen, severity, time_to_go_s)
+            return
+        if self._is_harmless(obstacle, use, severity, time_to_go_s):
+            severity = Severity.INFO
         if enters and severity is Severity.WARNING:
             severity = Severity.CAUTION
         verb = "is about to enter" if enters else "is on"
@@ -155,6 +185,57 @@ class Assessment:
             f"{other.callsign} {verb} runway {use.direction.ident}",
             time_to_go_s,
         )
+
+    def _seen_in_way(
+        self, use: Use, obstacle: Obstacle, seen: Seen, severity: Severity, time_to_go_s: float
+    ) -> Iterator[Threat]:
+        """Yield that cameras show something on a runway before its user.
+
+        While it is not sure yet, it is one hint among others.
+        """
+        runway, thing = use.direction.ident, seen.thing
+        callsign = self._sent_there(use.strip, thing.label == "truck")
+        if not thing.is_animal and callsign is not None:
+            obstacle = obstacle._replace(mobile=replace(obstacle.mobile, callsign=callsign))
+        if seen.is_sure and self._is_harmless(obstacle, use, severity, time_to_go_s):
+            severity = Severity.INFO
+        elif not seen.is_sure:
+            reported = self._situation.has_wildlife(use.strip, self._t_ns)
+            is_told = reported if thing.is_animal else callsign is not None
+            hinted = fused_severity(seen.weight, 1.0, float(is_told))
+            if hinted is None:
+                return
+            severity = min(severity, hinted, key=lambda each: each.rank)
+        sources: tuple[str, ...] = ("vision", "adsb") if seen.is_sure else ("adsb", "vision")
+        if thing.is_animal:
+            text, other = f"{thing.label} on runway {runway}", WILDLIFE
+        elif callsign is not None:
+            text, other = f"{callsign} is on runway {runway}, seen by camera", callsign
+            sources = (*sources, "radio")
+        else:
+            text, other = f"unidentified {thing.label} on runway {runway}", UNIDENTIFIED
+        yield self._between(use, other, severity, text, time_to_go_s, sources)
+
+    def _sent_there(self, strip: Strip, vehicle: bool) -> str | None:
+        """Return the one vehicle, or aircraft, without ADS-B that was cleared on to a runway."""
+        situation = self._situation
+        names = {
+            clearance.callsign
+            for clearance in self._cleared_on(strip)
+            if situation.mobile(clearance.callsign) is None
+            and situation.is_vehicle(clearance.callsign) == vehicle
+        }
+        return names.pop() if len(names) == 1 else None
+
+    def _is_harmless(
+        self, obstacle: Obstacle, use: Use, severity: Severity, time_to_go_s: float
+    ) -> bool:
+        """Return whether somebody leaves in time, and may do so as late."""
+        if not self._leaves_before(obstacle, use, time_to_go_s):
+            return False
+        is_allowed = self._is_allowed(obstacle.mobile, use.strip)
+        is_late = time_to_go_s <= self._config.late_s
+        return (is_allowed and not is_late) or severity is Severity.CAUTION
 
     def _time_to_go_s(self, use: Use, along_m: float) -> float:
         """Return the time until a runway's user is there; infinite if it stops before.
@@ -258,6 +339,78 @@ class Assessment:
             text = f"wildlife reported on runway {use.direction.ident}"
             yield self._between(use, WILDLIFE, severity, text, time_to_go_s, ("adsb", "radio"))
 
+    # --- birds in the air, and aircraft that only cameras show ------------------------------
+
+    def _aloft(self, use: Use, thing: SeenAloft) -> Iterator[Threat]:
+        """Yield that something is, or will be, where a runway's user flies."""
+        if use.kind == "rollout" or use.is_climbing:
+            return
+        times = (self._meets_s(use, thing, place) for place in thing.places)
+        met = [time_s for time_s in times if time_s is not None]
+        time_to_go_s = min(met, default=None)
+        is_in_path = len(met) >= max(BIRDS_LIKELY * len(thing.places), 1.0)
+        severity = None
+        if is_in_path and time_to_go_s is not None:
+            severity = self._urgency(use, time_to_go_s)
+            if severity is Severity.WARNING and not thing.is_located:
+                severity = Severity.CAUTION
+        elif thing.is_located:
+            time_to_go_s = self._time_abeam_s(use, thing.places[0])
+            if time_to_go_s is not None and self._are_beside(use, thing.places[0]):
+                severity = self._urgency(use, time_to_go_s) and Severity.CAUTION
+        if severity is not None:
+            where = "on final for" if use.kind == "arrival" else "over"
+            what, other = "unidentified aircraft", UNIDENTIFIED
+            if thing.are_birds:
+                what, other = "birds", WILDLIFE
+            text = f"{what} {where} runway {use.direction.ident}"
+            yield self._between(use, other, severity, text, time_to_go_s, ("vision", "adsb"))
+
+    def _meets_s(self, use: Use, thing: SeenAloft, place: Fix) -> float | None:
+        """Return when a runway's user meets what flies straight on; None if it does not."""
+        east, north, up = thing.velocity
+        ahead = use.direction.ahead
+        time_s = self._time_abeam_s(use, place, east * ahead.east + north * ahead.north)
+        if time_s is None:
+            return None
+        flown_s = min(time_s, BIRDS_FORESEEN_S)
+        point = Vector(place.point.east + east * flown_s, place.point.north + north * flown_s)
+        low_m, high_m = sorted((place.height_m, max(place.height_m + up * flown_s, 0.0)))
+        room_m = 2.0 * place.error_m + BIRDS_WANDER_M_S * flown_s * thing.is_located
+        if abs(use.direction.across_m(point)) > FLIGHT_PATH_M + room_m:
+            return None
+        room_m += FLIGHT_PATH_HEIGHT_M
+        path_m = self._height_m(use, use.direction.along_m(point))
+        if use.mobile.on_ground:  # Until then it may be anywhere below.
+            return time_s if low_m <= CLIMB_OUT_HEIGHT_M + room_m else None
+        return time_s if low_m - room_m <= path_m <= high_m + room_m else None
+
+    def _are_beside(self, use: Use, place: Fix) -> bool:
+        """Return whether birds in the air are near enough to get into the flight path."""
+        path_m = self._height_m(use, use.direction.along_m(place.point))
+        is_near = abs(use.direction.across_m(place.point)) <= BIRDS_BESIDE_M
+        return is_near and place.height_m <= path_m + BIRDS_ABOVE_M
+
+    def _time_abeam_s(self, use: Use, place: Fix, ahead_m_s: float = 0.0) -> float | None:
+        """Return when a runway's user draws level with a place that moves on; None if never."""
+        along_m = use.direction.along_m(place.point)
+        if not -FINAL_M <= along_m <= use.direction.length_m:
+            return None
+        time_s = use.time_to_s(along_m, self._t_ns)
+        if time_s is None or use.kind != "arrival":
+            return time_s
+        closing = 1.0 - ahead_m_s / max(use.mobile.speed_m_s, 1.0)
+        return time_s / closing if closing > LEAST_CLOSING else None
+
+    def _height_m(self, use: Use, along_m: float) -> float:
+        """Return how high above the ground an arrival will be."""
+        mobile = use.mobile
+        if mobile.altitude_m is None:
+            return 0.0
+        left_m = TOUCHDOWN_M - use.along_m
+        height_m = mobile.altitude_m - use.direction.elevation_m
+        return height_m * max(TOUCHDOWN_M - along_m, 0.0) / left_m if left_m > 0.0 else 0.0
+
     def _between(
         self,
         use: Use,
@@ -274,7 +427,7 @@ class Assessment:
             severity,
             use.strip,
             use.direction.ident,
-            (own,) if other == WILDLIFE else (own, other),
+            (own,) if other in (WILDLIFE, UNIDENTIFIED) else (own, other),
             (own, other),
             text,
             f"{own} {_DOING[use.kind]} runway {use.direction.ident}",
@@ -356,7 +509,7 @@ class Assessment:
     def _active(self, strip: Strip) -> Iterator[str]:
         """Yield who is on a runway, uses it or one that crosses it, or was cleared on to it."""
         for obstacle in self._situation.obstacles(strip):
-            if obstacle.is_inside:
+            if obstacle.is_inside and obstacle.seen is None:
                 yield obstacle.mobile.callsign
         for use in self._situation.uses.values():
             if use.strip is strip or self._situation.aerodrome.crossing(strip, use.strip):
