@@ -13,7 +13,12 @@ from rich.text import Text
 
 from airhilt.cosim import Observer, Snapshot
 from airhilt.messages import Advisory, Severity
-from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary
+from airhilt.metrics.summary import (
+    LatencyStatistics,
+    RadioStatistics,
+    Summary,
+    VisionStatistics,
+)
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0
@@ -157,6 +162,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("nuisance alerts", str(summary.nuisance_alerts)),
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
+        *_vision_rows(summary.vision),
         ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
     ]
     rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
@@ -214,6 +220,36 @@ def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
     if after_end.p95_s is not None:
         parts.append(f"p95 {_latency(after_end.p95_s)} after the end")
     return [("recognition", ", ".join(parts))]
+
+
+def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
+    """Return rows on what cameras took and what was seen in it, if anything was."""
+    if vision.taken is None:
+        return []
+    count = len(vision.cameras)
+    parts = [f"{count} camera{'' if count == 1 else 's'}", f"{vision.taken} pictures"]
+    if vision.looked_at is not None:
+        parts += [
+            f"{vision.looked_at} looked at",
+            f"{vision.dropped} dropped",
+            f"recall {_percent(vision.recall)} of {vision.sightings}",
+            f"{_rate(vision.false_confirmed_per_minute)} confirmed false",
+        ]
+    return [
+        ("vision", ", ".join(parts)),
+        *(
+            (
+                "first seen",
+                f"{first.actor} at {first.t_s:.1f} s by {first.camera}, {first.range_m:.0f} m off, "
+                f"{first.size_px:.0f} px long",
+            )
+            for first in vision.first_detections
+        ),
+    ]
+
+
+def _rate(per_minute: float | None) -> str:
+    return "-" if per_minute is None else f"{per_minute:.2f}/min"
 
 
 def _percent(share: float | None) -> str:

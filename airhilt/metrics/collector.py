@@ -8,9 +8,11 @@ from typing import Any
 
 from airhilt.messages import (
     CONTROLLER,
+    SPEAK_MIN_LEVEL,
     AdsbReport,
     Advisory,
     AdvisoryAudio,
+    Detections,
     Message,
     Modality,
     ModalityState,
@@ -22,6 +24,7 @@ from airhilt.metrics.calls import TEXT, RadioCalls
 from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.runways import IncursionCategory, RunwayMonitor
+from airhilt.metrics.sight import Sight
 from airhilt.metrics.summary import (
     ClosestApproach,
     LatencyStatistics,
@@ -35,8 +38,6 @@ from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import SECOND_NS
 
-SPEAK_MIN_LEVEL = Severity.CAUTION
-"""Least severity that is spoken, and so the least that counts as a warning."""
 JUSTIFIED_WITHIN_S = 300.0
 """An alert about other traffic is no nuisance if that traffic will really lose separation within
 this time."""
@@ -100,8 +101,9 @@ class Collector:
         }
         self._told: dict[str, _Told] = {}
         self._calls = RadioCalls()
+        self._sight = Sight()
         self._latencies_s: dict[str, list[float]] = {
-            stage: [] for stage in ("adsb", "asr", "asr_after_end", "decision", "tts")
+            stage: [] for stage in ("adsb", "asr", "asr_after_end", "vision", "decision", "tts")
         }
         self._unspoken: set[tuple[str, str, int]] = set()
         """Warnings of the conflict that wait for their voice, by id, recipient and revision."""
@@ -117,6 +119,8 @@ class Collector:
                 self._take_advisory(message)
             case AdvisoryAudio():
                 self._take_voice(message)
+            case Detections(t_frame_ns=begin, t_ns=end):
+                self._late("vision", begin, end)
             case Status(modality="voice", state="lost", t_ns=now_ns) if self._unspoken:
                 self._warned(now_ns)
             case Transcript(t_tx_ns=begin, t_end_ns=said, t_ns=end, engine=engine):
@@ -124,6 +128,7 @@ class Collector:
                     self._late("asr", begin, end)
                     self._late("asr_after_end", said, end)
         self._calls.take(message)
+        self._sight.take(message)
 
     def _late(self, stage: str, begin_ns: int, end_ns: int) -> None:
         self._latencies_s[stage].append((end_ns - begin_ns) / SECOND_NS)
@@ -282,6 +287,7 @@ class Collector:
                 roster_of(self._scenario),
                 is_recognised=self.modalities.get("speech") in ("on", "lost"),
             ),
+            vision=self._sight.statistics(run["inputs_dropped"]),
             latencies={
                 stage: LatencyStatistics.of(samples) for stage, samples in self._latencies_s.items()
             },

@@ -26,10 +26,12 @@ from airhilt.messages import (
     HearingTruth,
     Message,
     SpokenTruth,
+    Status,
     Transcript,
     Transmission,
 )
 from airhilt.metrics.calls import RadioCall, RadioCalls
+from airhilt.metrics.gallery import Gallery
 from airhilt.metrics.lanes import Approach, PhaseLane, RunwayLane, Spell, Spells
 from airhilt.metrics.sounds import Sounds
 from airhilt.metrics.summary import ClosestApproach, Summary
@@ -112,7 +114,8 @@ def _reduce(folder: RunFolder, page: Path) -> Json:
     """Return everything that the page shows."""
     info = folder.info()
     notes: list[str] = []
-    log = _read(folder, _points_a_track(info), notes)
+    gallery = Gallery(folder, page)
+    log = _read(folder, _points_a_track(info), gallery, notes)
     summary = _summary(folder, notes)
     _note_how_it_ended(info, log, notes)
     if log.events_left_out:
@@ -158,6 +161,7 @@ def _reduce(folder: RunFolder, page: Path) -> Json:
             for actor, lane in log.phases.items()
         ],
         "radio": _radio(log, Sounds(folder.audio_path, page), notes),
+        "cameras": _cameras(gallery, notes),
         "runways": [_runway(lane, log.end_ns, ground, tracks) for lane in log.runways.values()],
         "events": [_with_line(event, info) for event in log.events],
         "latencies": _latencies(folder, notes),
@@ -261,9 +265,9 @@ def _with_line(event: Json, info: RunInfo) -> Json:
     return event | {"speaker": declared["speaker"], "line": _cut(declared["text"])}
 
 
-def _read(folder: RunFolder, points_a_track: int, notes: list[str]) -> _Log:
-    """Return what the log says, up to where it breaks off."""
-    log = _Log(points_a_track)
+def _read(folder: RunFolder, points_a_track: int, gallery: Gallery, notes: list[str]) -> _Log:
+    """Return what the log says, up to where it breaks off; cameras are left to the gallery."""
+    log = _Log(points_a_track, gallery)
     try:
         for logged in read_log(folder.log_path):
             log.take(logged)
@@ -339,7 +343,7 @@ def _state(data: bytes) -> _State:
 class _Log:
     """Sorts out the messages of a log."""
 
-    def __init__(self, points_a_track: int) -> None:
+    def __init__(self, points_a_track: int, gallery: Gallery) -> None:
         self.tracks: dict[str, _Thinned] = {}
         self.phases: dict[str, PhaseLane] = {}
         self.runways: dict[str, RunwayLane] = {}
@@ -351,10 +355,16 @@ class _Log:
         self.ended = False
         """Whether the run said that it was over."""
         self._points_a_track = points_a_track
+        self._gallery = gallery
 
     def take(self, logged: Logged) -> None:
         """Take in one message."""
         self.end_ns = max(self.end_ns, logged.t_ns)
+        if self._gallery.takes(logged.key):
+            self._gallery.take(logged)
+            return
+        if logged.key == "status/vision":
+            self._gallery.status(Status.model_validate_json(logged.data))
         family, _, rest = logged.key.partition("/")
         if family == "adsb":
             return
@@ -724,6 +734,17 @@ def _radio(log: _Log, sounds: Sounds, notes: list[str]) -> Json:
             "or is not that of this run."
         )
     return radio
+
+
+def _cameras(gallery: Gallery, notes: list[str]) -> Json:
+    """Return what cameras have shown."""
+    cameras = gallery.as_json() | {"cause": _cut(gallery.cause)}
+    if gallery.linked:
+        notes.append(
+            f"There was no room in this file for {gallery.linked} pictures: they are links to the "
+            "pictures folder of the run."
+        )
+    return cameras
 
 
 def _radio_call(call: RadioCall, said: SpokenTruth, sounds: Sounds) -> Json:

@@ -18,6 +18,7 @@ class LatencyStatistics(BaseModel):
 
     model_config = ConfigDict(frozen=True)
     n: int
+    min_s: float | None = None
     p50_s: float | None
     p95_s: float | None
     max_s: float | None
@@ -28,7 +29,13 @@ class LatencyStatistics(BaseModel):
         if not samples_s:
             return cls(n=0, p50_s=None, p95_s=None, max_s=None)
         p50, p95 = np.percentile(samples_s, [50.0, 95.0])
-        return cls(n=len(samples_s), p50_s=float(p50), p95_s=float(p95), max_s=max(samples_s))
+        return cls(
+            n=len(samples_s),
+            min_s=min(samples_s),
+            p50_s=float(p50),
+            p95_s=float(p95),
+            max_s=max(samples_s),
+        )
 
 
 class ClosestApproach(BaseModel):
@@ -108,6 +115,67 @@ class RadioStatistics(RecognitionStatistics):
     )
 
 
+class SizeRecall(BaseModel):
+    """How much was found of what is of one size, by the longest side of its true box."""
+
+    model_config = ConfigDict(frozen=True)
+    from_px: float
+    to_px: float | None = Field(description="null: and larger")
+    sightings: int
+    recall: float | None
+
+
+class SightStatistics(BaseModel):
+    """What was seen, against what was true; null: not measured."""
+
+    model_config = ConfigDict(frozen=True)
+    taken: int | None = Field(description="pictures")
+    looked_at: int | None = Field(description="pictures of which detections came, empty ones too")
+    dropped: int | None = Field(description="pictures that were out of date before their turn")
+    latency: LatencyStatistics = Field(description="t_vision - t_frame")
+    detections: int | None
+    sightings: int | None = Field(
+        description="true ones that count, in the pictures looked at: at least 8 px long, half of "
+        "it seen, a tenth of its contrast left"
+    )
+    recall: float | None = Field(description="share of the sightings that was found")
+    by_size: list[SizeRecall]
+    labels_right: float | None = Field(description="share of what was found with its true class")
+    false_detections: int | None = Field(description="boxes that are about nothing")
+    false_per_minute: float | None = Field(description="and camera")
+    false_confirmed_per_minute: float | None = Field(
+        description="likewise, of boxes of something that was found three times or more"
+    )
+    false_tracks: int | None = Field(description="confirmed ones that never were about anything")
+
+
+class CameraStatistics(SightStatistics):
+    """Of one camera."""
+
+    camera: str
+
+
+class FirstDetection(BaseModel):
+    """When an actor was found first, by whichever camera."""
+
+    model_config = ConfigDict(frozen=True)
+    actor: str
+    t_s: float = Field(description="t_vision")
+    t_frame_s: float
+    camera: str
+    range_m: float
+    size_px: float = Field(description="longest side of its true box")
+
+
+class VisionStatistics(SightStatistics):
+    """Of all cameras."""
+
+    state: ModalityState
+    cause: str = Field(description="why it was lost or not evaluated")
+    cameras: list[CameraStatistics]
+    first_detections: list[FirstDetection]
+
+
 class Summary(BaseModel):
     """The object of ``summary.json``; null where a number does not apply."""
 
@@ -156,6 +224,7 @@ class Summary(BaseModel):
     )
     advisories: list[ToldAdvisory]
     radio: RadioStatistics
+    vision: VisionStatistics
     latencies: dict[Stage, LatencyStatistics]
     inputs_dropped: dict[str, int]
     modalities: dict[Modality, ModalityState]

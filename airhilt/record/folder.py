@@ -7,6 +7,7 @@ import importlib.metadata
 import json
 import os
 import platform
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -30,6 +31,16 @@ RECORDED_VERSIONS = (
     "mcap",
     "zstandard",
 )
+OF_EXTRAS = (
+    "open3d-cpu",
+    "open3d",
+    "moderngl",
+    "pillow",
+    "ultralytics",
+    "faster-whisper",
+    "coqui-tts",
+)
+"""Recorded where they are installed."""
 
 
 class RunOptions(BaseModel):
@@ -49,6 +60,8 @@ class RunOptions(BaseModel):
     topology: Topology | None = None
     asr: str = ""
     tts: str = ""
+    renderer: str = ""
+    detector: str = ""
 
 
 class RecordedWorker(BaseModel):
@@ -85,6 +98,9 @@ class RunInfo(BaseModel):
 def versions() -> dict[str, str]:
     """Return the versions of AIRHILT and of what decides its results."""
     found = {name: importlib.metadata.version(name) for name in RECORDED_VERSIONS}
+    for name in OF_EXTRAS:
+        with suppress(importlib.metadata.PackageNotFoundError):
+            found[name] = importlib.metadata.version(name)
     return {"airhilt": __version__, "python": platform.python_version(), **found}
 
 
@@ -115,6 +131,8 @@ class RunFolder:
         self.summary_path = path / "summary.json"
         self.report_path = path / "report.html"
         self.audio_path = path / "audio"
+        self.pictures_path = path / "pictures"
+        self.video_path = path / "video"
 
     def require_free(self, overwrite: bool = False) -> None:
         """Check that a run can be written here, without writing anything.
@@ -169,6 +187,9 @@ class RunFolder:
         """All that a run has written or will write."""
         return (
             *sorted(self.audio_path.glob("*.wav")),
+            *sorted(self.pictures_path.glob("*.png")),
+            *sorted(self.pictures_path.glob("*.jpg")),
+            *sorted(self.video_path.glob("*.mp4")),
             self.info_path,
             self.log_path,
             self.latency_path,

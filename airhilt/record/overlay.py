@@ -1,0 +1,130 @@
+"""What is put on the pictures of a video: boxes, the clock, the advisory that stands."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING
+
+from airhilt.messages import Advisory, Detection, Detections, Severity, VisibleClass
+from airhilt.record.pictures import Picture
+from airhilt.units import SECOND_NS
+
+if TYPE_CHECKING:
+    from PIL import Image, ImageDraw
+
+Colour = tuple[int, int, int]
+
+COLOURS: dict[VisibleClass, Colour] = {
+    "airplane": (255, 221, 51),
+    "truck": (92, 225, 255),
+    "bird": (255, 140, 230),
+    "deer": (140, 255, 120),
+    "coyote": (190, 255, 90),
+}
+SEVERITY_COLOURS: dict[Severity, Colour] = {
+    Severity.INFO: (235, 235, 235),
+    Severity.ADVISORY: (120, 200, 255),
+    Severity.CAUTION: (255, 190, 60),
+    Severity.WARNING: (255, 95, 85),
+}
+WHITE: Colour = (255, 255, 255)
+BLACK: Colour = (0, 0, 0)
+PALE = 0.65
+"""Of its colour, that a box of an earlier picture keeps."""
+ROWS_OF_TEXT = 24
+"""Into the height of a picture."""
+LEAST_TEXT_PX = 12
+AROUND_PX = 3
+"""Between an object and its box, so that the box does not hide what is small."""
+MOST_LINES = 2
+"""Of an advisory."""
+
+
+def clock(t_ns: int) -> str:
+    """Return a time as ``mm:ss.d``."""
+    tenths = t_ns * 10 // SECOND_NS
+    return f"{tenths // 600:02d}:{tenths // 10 % 60:02d}.{tenths % 10}"
+
+
+class Overlay:
+    """Draws on pictures of one size, with a bar above for the clock and one below for advisories.
+
+    Boxes are those of the picture itself, in full colour: two pixels wide once confirmed, one
+    before. A picture that nobody looked at has those of the last one before it that somebody
+    did, paler, and says of when they are. Nothing that is only true is drawn.
+
+    Attributes
+    ----------
+    size
+        Width and height of what is returned, both even.
+    """
+
+    def __init__(self, width_px: int, height_px: int) -> None:
+        from PIL import ImageFont
+
+        self._picture_size = width_px, height_px
+        self._text_px = max(height_px // ROWS_OF_TEXT, LEAST_TEXT_PX)
+        self._row_px = round(self._text_px * 1.35)
+        self._font = ImageFont.load_default(size=self._text_px)
+        of_one = self._font.getlength("abcdefghijklmnopqrstuvwxyz") / 26
+        self._columns = max(int((width_px - 12) / of_one * 0.95), 8)
+        height = height_px + (1 + MOST_LINES) * self._row_px
+        self.size = width_px + width_px % 2, height + height % 2
+
+    def image(
+        self,
+        picture: Picture,
+        seen: Detections | None,
+        advisory: Advisory | None,
+    ) -> Image.Image:
+        """Return a picture with all that belongs on it.
+
+        Parameters
+        ----------
+        seen
+            What was seen in it, or in the last picture before it that was looked at.
+        advisory
+            What stands at its time.
+        """
+        from PIL import Image, ImageDraw
+
+        header = picture.header
+        inner = Image.frombytes("RGB", self._picture_size, picture.pixels)
+        title = f"{header.camera}   t = {clock(header.t_frame_ns)}"
+        if seen is not None:
+            is_own = seen.seq == header.seq
+            pen = ImageDraw.Draw(inner)
+            for detection in reversed(seen.detections):
+                self._draw_box(pen, detection, 1.0 if is_own else PALE)
+            if seen.detections and not is_own:
+                title += f"   boxes of {clock(seen.t_frame_ns)}"
+        image = Image.new("RGB", self.size)
+        image.paste(inner, (0, self._row_px))
+        pen = ImageDraw.Draw(image)
+        self._write(pen, 0, [title], WHITE)
+        if advisory is not None:
+            text = f"{advisory.severity} to {advisory.recipient}: {advisory.message}"
+            lines = textwrap.wrap(text, self._columns, max_lines=MOST_LINES, placeholder="…")
+            below = self._row_px + self._picture_size[1]
+            self._write(pen, below, lines, SEVERITY_COLOURS[advisory.severity])
+        return image
+
+    def _draw_box(self, pen: ImageDraw.ImageDraw, detection: Detection, strength: float) -> None:
+        red, green, blue = COLOURS[detection.label]
+        colour = round(red * strength), round(green * strength), round(blue * strength)
+        left, top, right, bottom = detection.box
+        outer = (left - AROUND_PX, top - AROUND_PX, right + AROUND_PX - 1, bottom + AROUND_PX - 1)
+        pen.rectangle(outer, outline=colour, width=2 if detection.is_confirmed else 1)
+        track = "" if detection.track_id is None else f" #{detection.track_id}"
+        text = f"{detection.label} {detection.confidence:.2f}{track}"
+        width, height = self._picture_size
+        most = max(width - self._font.getlength(text) - 2.0, 2.0)
+        above = outer[1] - self._row_px
+        row = above if above >= 0.0 else min(outer[3] + 1.0, height - self._row_px)
+        place = min(max(outer[0], 2.0), most), row
+        pen.text(place, text, fill=colour, font=self._font, stroke_width=1, stroke_fill=BLACK)
+
+    def _write(self, pen: ImageDraw.ImageDraw, top: int, lines: list[str], colour: Colour) -> None:
+        for number, line in enumerate(lines):
+            row = top + number * self._row_px + (self._row_px - self._text_px) // 2
+            pen.text((6, row), line, fill=colour, font=self._font)

@@ -1,0 +1,266 @@
+"""``pictures/``: the few pictures of a run that a person will ask for.
+
+One of each camera at the start, small, and one of the first detection, of the first warning, and
+of the closest approach. A file is named after its occasion, camera and picture; what was seen
+in it, and what was true of it, is in the log.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Collection
+from contextlib import suppress
+from pathlib import Path
+from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
+
+from airhilt.boxes import size_px
+from airhilt.errors import RendererError, disk_failed
+from airhilt.matching import matches
+from airhilt.messages import (
+    SPEAK_MIN_LEVEL,
+    Advisory,
+    CameraFrame,
+    CameraTruth,
+    Detections,
+    Message,
+    SightingTruth,
+    Status,
+)
+from airhilt.units import SECOND_NS
+
+Occasion = Literal["start", "first_detection", "first_warning", "closest_approach"]
+OCCASIONS: tuple[Occasion, ...] = get_args(Occasion)
+START_WIDTH_PX = 320
+"""Pictures of the start are made as small as this."""
+MOST_WAITING_BYTES = 64_000_000
+"""Pictures that wait for their detections, of all cameras together."""
+NAME = re.compile(rf"({'|'.join(OCCASIONS)})-(.+)-([0-9]+)\.(?:png|jpg)")
+
+
+class PictureName(NamedTuple):
+    """What a file of ``pictures/`` is of."""
+
+    occasion: Occasion
+    camera: str
+    seq: int
+
+    @classmethod
+    def of(cls, path: Path) -> PictureName | None:
+        """Return what a file is of, None if it is none of these."""
+        found = NAME.fullmatch(path.name)
+        if found is None:
+            return None
+        occasion = next(known for known in OCCASIONS if known == found[1])
+        return cls(occasion, found[2], int(found[3]))
+
+    def path(self, folder: Path) -> Path:
+        """Return where the file lies."""
+        suffix = "jpg" if self.occasion == "start" else "png"
+        return folder / f"{self.occasion}-{self.camera}-{self.seq}.{suffix}"
+
+
+class Picture(NamedTuple):
+    """One picture, and who is really in it."""
+
+    header: CameraFrame
+    pixels: bytes
+    sightings: tuple[SightingTruth, ...]
+
+
+class _HasHeader(Protocol):
+    @property
+    def header(self) -> CameraFrame: ...
+
+    @property
+    def pixels(self) -> bytes: ...
+
+
+T = TypeVar("T", bound=_HasHeader)
+
+
+class Waiting(Generic[T]):
+    """Pictures that wait for their detections, the oldest first."""
+
+    def __init__(self) -> None:
+        self._pictures: deque[T] = deque()
+        self._bytes = 0
+
+    def add(self, picture: T) -> list[T]:
+        """Let a picture wait, and return those that have no room any more."""
+        self._pictures.append(picture)
+        self._bytes += len(picture.pixels)
+        crowded_out = []
+        while self._bytes > MOST_WAITING_BYTES and len(self._pictures) > 1:
+            crowded_out.append(self._pop())
+        return crowded_out
+
+    def up_to(self, camera: str, seq: int) -> list[T]:
+        """Take out a camera's pictures up to one: those before it will never be looked at."""
+        taken: list[T] = []
+        for picture in self.everything():
+            header = picture.header
+            if header.camera == camera and header.seq <= seq:
+                taken.append(picture)
+            else:
+                self.add(picture)
+        return taken
+
+    def everything(self) -> list[T]:
+        """Take out all pictures."""
+        return [self._pop() for _ in range(len(self._pictures))]
+
+    def _pop(self) -> T:
+        picture = self._pictures.popleft()
+        self._bytes -= len(picture.pixels)
+        return picture
+
+
+class KeyPictures:
+    """Writes the pictures of a run that matter, as soon as it is known that they do.
+
+    The first detection is the first that is about one of the `actors`, as `matches` tells. The
+    first warning is the first advisory of CAUTION or above; its picture is the newest that had been
+    looked at, of the camera that shows one of the actors largest. The closest approach is over
+    when the run is: until then the picture nearest to it in time is kept, of each camera
+    that has one of them in view.
+
+    Parameters
+    ----------
+    folder
+        Where to write; made with the first picture.
+    actors
+        The pair of the conflict, or everybody.
+    closest_ns
+        Returns when the pair was nearest up to now; None if there is no pair.
+    """
+
+    def __init__(
+        self, folder: Path, actors: Collection[str], closest_ns: Callable[[], int | None]
+    ) -> None:
+        self._folder = folder
+        self._actors = frozenset(actors)
+        self._closest_ns = closest_ns
+        self._sightings: dict[str, tuple[SightingTruth, ...]] = {}
+        self._waiting: Waiting[Picture] = Waiting()
+        self._is_watched = False
+        self._newest: dict[str, Picture] = {}
+        self._looked_at: dict[str, Picture] = {}
+        self._nearest: dict[str, Picture] = {}
+        self._written: set[Occasion] = set()
+        self._is_full = False
+
+    def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
+        """Take in a published message, truth too.
+
+        Raises
+        ------
+        RunFolderError
+            The disk takes no more.
+        """
+        match message:
+            case CameraTruth(camera=name):
+                self._sightings[name] = message.sightings
+            case CameraFrame(camera=name):
+                self._take_picture(Picture(message, payload, self._sightings.get(name, ())))
+            case Detections():
+                self._look(message)
+            case Status(modality="vision", state=state):
+                self._is_watched = state == "on"
+                if not self._is_watched:
+                    self._waiting.everything()
+            case Advisory(active=True) if message.severity.rank >= SPEAK_MIN_LEVEL.rank:
+                self._warned()
+
+    def close(self) -> None:
+        """Write the picture of the closest approach.
+
+        Raises
+        ------
+        RunFolderError
+            The disk takes no more.
+        """
+        closest_ns = self._closest_ns()
+        if closest_ns is None or not self._nearest or self._is_full:
+            return
+
+        def worth(picture: Picture) -> tuple[int, float]:
+            late_ns = abs(picture.header.t_frame_ns - closest_ns)
+            return -round(late_ns / SECOND_NS), self._size_px(picture)
+
+        self._write("closest_approach", max(self._nearest.values(), key=worth))
+        self._nearest.clear()
+
+    def _take_picture(self, picture: Picture) -> None:
+        name = picture.header.camera
+        if name not in self._newest:
+            self._write("start", picture)
+        if self._is_watched:
+            self._waiting.add(picture)
+        self._newest[name] = picture
+        if self._is_nearer(picture, self._nearest.get(name)):
+            self._nearest[name] = picture
+
+    def _is_nearer(self, picture: Picture, kept: Picture | None) -> bool:
+        closest_ns = self._closest_ns()
+        if closest_ns is None or not self._size_px(picture):
+            return False
+        return kept is None or abs(picture.header.t_frame_ns - closest_ns) <= abs(
+            kept.header.t_frame_ns - closest_ns
+        )
+
+    def _look(self, seen: Detections) -> None:
+        pictures = self._waiting.up_to(seen.camera, seen.seq)
+        if not pictures or pictures[-1].header.seq != seen.seq:
+            return
+        self._looked_at[seen.camera] = picture = pictures[-1]
+        if "first_detection" not in self._written:
+            found = matches(picture.sightings, seen.detections)
+            if any(one is not None and one.actor in self._actors for one in found):
+                self._write("first_detection", picture)
+
+    def _warned(self) -> None:
+        able = {**self._newest, **self._looked_at}
+        if able and "first_warning" not in self._written:
+            self._write("first_warning", max(able.values(), key=self._size_px))
+
+    def _size_px(self, picture: Picture) -> float:
+        """Return how large the largest of the actors is in a picture; 0 if none is seen."""
+        seen = (one for one in picture.sightings if one.actor in self._actors and one.pixels > 0.0)
+        return max((size_px(one.box) for one in seen), default=0.0)
+
+    def _write(self, occasion: Occasion, picture: Picture) -> None:
+        from PIL import Image
+
+        self._written.add(occasion)
+        header = picture.header
+        size = header.view.width_px, header.view.height_px
+        image = Image.frombuffer("RGB", size, picture.pixels)
+        if occasion == "start" and size[0] > START_WIDTH_PX:
+            image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
+        path = PictureName(occasion, header.camera, header.seq).path(self._folder)
+        try:
+            self._folder.mkdir(exist_ok=True)
+            image.save(path)
+        except OSError as error:
+            self._is_full = True
+            with suppress(OSError):
+                path.unlink()
+            raise disk_failed(str(path), error) from None
+
+
+def require_pillow() -> None:
+    """Check that Pillow is there, without which no picture can be written.
+
+    Raises
+    ------
+    RendererError
+        It is not.
+    """
+    try:
+        import PIL  # noqa: F401
+    except ImportError:
+        raise RendererError(
+            "pictures of cameras need Pillow, which is not installed: pip install "
+            "'airhilt[vision]', or leave cameras out with --no-cameras"
+        ) from None
