@@ -13,8 +13,10 @@ import click
 from click.core import ParameterSource
 
 from airhilt._version import __version__
+from airhilt.cameras import RENDERER, RENDERERS
 from airhilt.cli_airport import airport
 from airhilt.cli_cameras import render
+from airhilt.cli_dataset import dataset
 from airhilt.errors import AirhiltError, ScenarioError
 
 
@@ -127,6 +129,24 @@ Examples:
     help="Wall time after which an attached worker that does not answer is lost.",
 )
 @click.option("--no-cameras", is_flag=True, help="Leave cameras and vision out.")
+@click.option(
+    "--renderer",
+    type=click.Choice(RENDERERS),
+    default=RENDERER,
+    show_default=True,
+    help="What draws the pictures of cameras.",
+)
+@click.option(
+    "--detector",
+    default="embedded",
+    show_default=True,
+    metavar="ENGINE",
+    help="What looks at pictures: embedded, embedded:FILE.onnx, yolo:FILE, the address of a "
+    "service, or none.",
+)
+@click.option(
+    "--video", is_flag=True, help="Write what each camera saw as MP4, with boxes and advisories."
+)
 @click.option("--no-speech", is_flag=True, help="Radio calls as text, not as sound.")
 @click.option(
     "--snr",
@@ -174,6 +194,8 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
     from airhilt.progress import ProgressLine, print_summary
     from airhilt.scenario import load
 
+    if given["no_cameras"]:
+        _refuse_given("--no-cameras leaves pictures out", "renderer", "detector", "video")
     if given["no_speech"]:
         _refuse_given("--no-speech leaves sound out", "asr", "tts", "radio_profile")
     options = Options(
@@ -194,6 +216,9 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
         radio_profile=given["radio_profile"],
         asr=given["asr"],
         tts=given["tts"],
+        renderer=given["renderer"],
+        detector=given["detector"],
+        video=given["video"],
         topology=given["topology"],
     )
     with ProgressLine(scenario) as progress:
@@ -408,10 +433,11 @@ def doctor(as_json: bool) -> None:
 Examples:
   airhilt worker decision --connect tcp/127.0.0.1:7447
   airhilt worker asr --engine whisper:models/base.en --connect tcp/127.0.0.1:7447
+  airhilt worker vision --engine yolo:models/yolov10n.pt --connect tcp/127.0.0.1:7447
 """
 )
-@click.argument("kind", type=click.Choice(["decision", "asr", "tts"]))
-@click.option("--engine", metavar="ENGINE", help="Of asr or tts, as for `airhilt cosim`.")
+@click.argument("kind", type=click.Choice(["decision", "asr", "tts", "vision"]))
+@click.option("--engine", metavar="ENGINE", help="Of all but decision, as for `airhilt cosim`.")
 @click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."
@@ -441,6 +467,7 @@ def worker(
 
 
 cli.add_command(airport)
+cli.add_command(dataset)
 cli.add_command(render)
 
 

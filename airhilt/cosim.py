@@ -9,12 +9,12 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import closing, suppress
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
@@ -25,8 +25,9 @@ from airhilt.briefing import briefing_of
 from airhilt.bus.attach import attach
 from airhilt.bus.exchange import FOREIGN, Exchange
 from airhilt.bus.session import Bus
+from airhilt.cameras import RENDERER, RendererName
 from airhilt.commands import Command
-from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
+from airhilt.errors import AirhiltError, RendererError, RunStopped, WorkerError, first_problem
 from airhilt.flight import Aircraft
 from airhilt.messages import (
     ActorCommand,
@@ -58,6 +59,8 @@ from airhilt.radio.stations import Stations
 from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
 from airhilt.record.audio import AudioRecorder
 from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
+from airhilt.record.pictures import KeyPictures, require_pillow
+from airhilt.record.video import VideoRecorder, require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import HappeningLine, as_it_happens
 from airhilt.scenario.geometry import Setting
@@ -88,7 +91,18 @@ from airhilt.truth import minima_of, truth_of, zone_of
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import LocalWorker
 from airhilt.workers.pool import Participant, WorkerPool, parse_output
-from airhilt.workers.reference import ASR, TTS, AssistantName, reference_workers
+from airhilt.workers.reference import (
+    ASR,
+    DETECTOR,
+    TTS,
+    AssistantName,
+    Engines,
+    reference_workers,
+)
+
+if TYPE_CHECKING:
+    from airhilt.cameras.remote import RemoteStudio
+    from airhilt.cameras.rig import CameraRig
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -99,6 +113,7 @@ RUNWAY_PERIOD_NS = SECOND_NS // 5
 """How often runways are."""
 END_PERIOD_NS = SECOND_NS // 2
 """How often the conditions that end the run are."""
+NO_DETECTOR = "none"
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 
 
@@ -132,6 +147,11 @@ class Options:
     """Engine, as in the command line."""
     tts: str = TTS
     """Engine, as in the command line."""
+    renderer: RendererName = RENDERER
+    detector: str = DETECTOR
+    """Engine, as in the command line."""
+    video: bool = False
+    """Whether to write what each camera saw as a video."""
 
 
 @dataclass(frozen=True)
@@ -158,6 +178,12 @@ class Recorded:
     """Names of those that took no grants."""
     losses: Mapping[str, Loss] = field(default_factory=dict)
     foreign: tuple[Foreign, ...] = ()
+    blindness: str = ""
+    """Why no pictures could be drawn from the start."""
+    cameras_lost: tuple[int, str] | None = None
+    """When there were no more pictures (ns), and why."""
+    has_pictures: bool = False
+    """Whether there were any, which nobody of this run may look at."""
 
 
 @dataclass(frozen=True)
@@ -215,6 +241,13 @@ def run(
     name = options.run_name or f"{scenario.name}-{options.seed}"
     folder = RunFolder(options.out or _default_folder(name))
     folder.require_free(options.overwrite)
+    if options.video:
+        require_video()
+        if not (options.cameras and realised.cameras):
+            raise AirhiltError(
+                f"--video: there are no cameras in this run of {realised.name!r}; expected a "
+                "scenario with cameras, and no --no-cameras"
+            )
     setting = Setting.of(realised)
     cast = build_cast(realised, setting, options.seed, TICK_S)
     tts = options.tts if options.speech else None
@@ -223,11 +256,22 @@ def run(
     # For the summary alone; a record knows what was said, but not what was planned and was not.
     planned = sound if recorded.sound is None else Text(realised.radio.words_per_minute)
     ends_ns = planned_ends_ns(lines, planned)
-    with closing(Bus(name, options.listen)) as bus:
+    with ExitStack() as stack:
+        bus = stack.enter_context(closing(Bus(name, options.listen)))
         _tell_clock(bus, 0, "waiting", pace)
         team = _team(options, realised, bus, observer, recorded)
         if team.programs and options.pace is None and not recorded.programs:
             pace = RealTime()
+        studio, blindness = None, recorded.blindness
+        has_viewers = _has_viewers(realised, options, team) or recorded.has_pictures
+        if not blindness and has_viewers:
+            try:
+                studio = stack.enter_context(_open_studio(realised, options.renderer))
+            except RendererError as error:
+                if recorded.latency is not None:
+                    raise RendererError(f"cannot be replayed here: {error}") from None
+                blindness = str(error)
+                _tell_blindness(blindness, options, observer)
         folder.create(options.overwrite)
         info = _info(name, scenario, realised, draws, options, pace, latency, team, bus)
         folder.write_info(info)
@@ -239,6 +283,8 @@ def run(
             folder,
             cast,
             sound,
+            studio,
+            blindness,
             lines,
             ends_ns,
             team,
@@ -256,6 +302,29 @@ def run(
                 raise
             write_report(folder.path)
             return result
+
+
+def _has_viewers(scenario: Scenario, options: Options, team: Team) -> bool:
+    """Return whether there are cameras, and somebody might look at their pictures."""
+    is_watched = team.does("vision") or bool(team.programs) or options.listen is not None
+    return options.cameras and bool(scenario.cameras) and (is_watched or options.video)
+
+
+def _open_studio(scenario: Scenario, renderer: RendererName) -> RemoteStudio:
+    # Not at the top: a run without cameras starts without the libraries behind them.
+    from airhilt.cameras.remote import RemoteStudio
+
+    require_pillow()  # A run with pictures keeps some.
+    return RemoteStudio(scenario, renderer=renderer)
+
+
+def _tell_blindness(cause: str, options: Options, observer: Observer) -> None:
+    text = f"vision is not evaluated: {cause}"
+    if options.strict:
+        raise RunStopped(
+            f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+        )
+    observer.notice(text)
 
 
 def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
@@ -331,10 +400,21 @@ def _team(
     taken = {participant.description.modality for participant in participants}
     may_decide = "decision" in taken or bool(programs)
     assistant = options.assistant or ("external" if may_decide else "reference")
-    engines = (options.asr, options.tts) if options.speech else (None, None)
-    for worker in reference_workers(assistant, scenario.radio, taken, *engines):
+    engines = Engines(
+        asr=options.asr if options.speech else None,
+        tts=options.tts if options.speech else None,
+        detector=_detector(options, scenario),
+    )
+    for worker in reference_workers(assistant, scenario.radio, taken, engines):
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
     return Team(assistant, tuple(participants), tuple(programs))
+
+
+def _detector(options: Options, scenario: Scenario) -> str | None:
+    """Return the engine that looks at pictures, None if there are none or nobody is to look."""
+    if not options.cameras or not scenario.cameras or options.detector == NO_DETECTOR:
+        return None
+    return options.detector
 
 
 def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
@@ -369,6 +449,8 @@ def _info(
             topology=options.topology,
             asr=options.asr,
             tts=options.tts,
+            renderer=options.renderer,
+            detector=options.detector,
         ),
         scenario=scenario.model_dump(mode="json"),
         realised=realised.model_dump(mode="json"),
@@ -400,6 +482,8 @@ class Simulation:
         folder: RunFolder,
         cast: dict[str, Performer],
         sound: Sound,
+        studio: RemoteStudio | None,
+        blindness: str,
         lines: Sequence[HappeningLine],
         ends_ns: Mapping[str, int],
         team: Team,
@@ -483,6 +567,11 @@ class Simulation:
         )
         self._exchange.listen(AudioRecorder(folder.audio_path).take)
         self._exchange.observe(self._collector.take)
+        self._pictures = None if studio is None else self._keep_pictures()
+        self._video = None
+        if studio is not None and options.video:
+            self._video = VideoRecorder(folder.video_path, observer.notice)
+            self._exchange.listen(self._video.take)
         self._exchange.listen(self._pool.offer)
         self._advised = Advised(self._director, cast, self._event, is_voiced=team.does("voice"))
         self._exchange.listen(self._radio.take)
@@ -498,6 +587,8 @@ class Simulation:
             publish=self._publish_report,
             done=self._latency_log.step,
         )
+        self._blindness = blindness
+        self._rig = None if studio is None else self._mount_cameras(studio)
         self._schedule_world()
         self._schedule_occurrences()
         self._serve_bus()
@@ -511,6 +602,8 @@ class Simulation:
         try:
             self._set_modalities()
             self._brief()
+            if self._rig is not None:
+                self._rig.start()
             self._director.run()
         except BaseException as error:
             failure = error
@@ -537,7 +630,10 @@ class Simulation:
         phase: Literal["finished", "stopped"] = "stopped" if cause else "finished"
         self._event(phase, "run", cause or "came to its end")
         self._publish_clock()
-        with closing(self._latency_log), closing(self._log):
+        with closing(self._latency_log), closing(self._log), ExitStack() as stack:
+            for recorder in (self._pictures, self._video):
+                if recorder is not None:
+                    stack.callback(recorder.close)
             self._radio.close()
             for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
                 self._latency_log.step(step)
@@ -714,6 +810,36 @@ class Simulation:
 
     # --- sensors ----------------------------------------------------------------------------
 
+    def _mount_cameras(self, studio: RemoteStudio) -> CameraRig:
+        from airhilt.cameras.rig import CameraRig
+
+        return CameraRig(
+            self._director,
+            studio,
+            self._scenario.cameras,
+            self._setting,
+            self._cast,
+            state_at_ns=lambda: self._ticked_ns,
+            publish=self._exchange.publish,
+            lost=self._lose_cameras,
+        )
+
+    def _keep_pictures(self) -> KeyPictures:
+        pair = self._pair
+        pictures = KeyPictures(
+            self._folder.pictures_path, pair or tuple(self._cast), self._closest_approach_ns
+        )
+        self._exchange.observe(pictures.take)
+        return pictures
+
+    def _closest_approach_ns(self) -> int | None:
+        """Return when the annotated pair was nearest up to now."""
+        truth = None if self._pair is None else self._monitor.pairs.get(self._pair)
+        return None if truth is None or truth.closest is None else truth.closest.t_ns
+
+    def _lose_cameras(self, cause: str) -> None:
+        self._go_on_without("vision", "cameras_lost", "cameras", cause)
+
     def _publish_report(self, report: AdsbReport) -> None:
         self._exchange.publish(f"adsb/{report.icao24}", report)
 
@@ -787,7 +913,7 @@ class Simulation:
                 self._director.post(partial(self._gone, name))
 
         self._bus.watch_workers(changed)
-        for pattern in ("advisory/*", "asr/*", "command/*"):
+        for pattern in ("advisory/*", "asr/*", "vision/*", "command/*"):
             self._bus.hear(
                 pattern,
                 lambda key, data: self._director.post(lambda: self._hear_unregistered(key, data)),
@@ -812,6 +938,9 @@ class Simulation:
                 partial(self._foreign, message.key, message.data),
                 Priority.SCRIPT,
             )
+        if recorded.cameras_lost is not None and self._rig is not None:
+            t_ns, cause = recorded.cameras_lost
+            self._director.at(t_ns, partial(self._rig.lose, cause), Priority.SENSOR)
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
@@ -855,7 +984,7 @@ class Simulation:
         self._bus.keep("briefing", briefing.model_dump_json().encode())
 
     def _set_modalities(self) -> None:
-        scenario, options = self._scenario, self._options
+        scenario = self._scenario
         equipped = any(
             not isinstance(actor, WildlifeActor) and actor.transponder.equipped
             for actor in scenario.actors
@@ -864,8 +993,11 @@ class Simulation:
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
         self._set_modality("speech", "on" if self._team.does("speech") else "off")
         self._set_modality("voice", "on" if self._team.does("voice") else "off")
-        has_vision = options.cameras and bool(scenario.cameras)
-        self._set_modality("vision", "not evaluated" if has_vision else "off")
+        if self._blindness:
+            self._set_modality("vision", "not evaluated", self._blindness)
+        else:
+            is_seen = self._rig is not None and self._team.does("vision")
+            self._set_modality("vision", "on" if is_seen else "off")
         self._set_modality("decision", "on" if self._has_decision else "off")
 
     def _set_modality(self, modality: Modality, state: ModalityState, cause: str = "") -> None:

@@ -66,6 +66,10 @@ class RendererError(AirhiltError):
     """Pictures cannot be drawn: something is not installed, or the renderer has died."""
 
 
+class VideoError(AirhiltError):
+    """A video cannot be written: something is not installed, or FFmpeg refuses."""
+
+
 class VisionError(AirhiltError):
     """A detector, its model or its service does not do what it must."""
 

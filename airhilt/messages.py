@@ -10,7 +10,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, field_validator
 
 from airhilt.commands import Command
 
@@ -41,6 +41,10 @@ class Severity(StrEnum):
 
 
 _SEVERITY_ORDER = tuple(Severity)
+
+SPEAK_MIN_LEVEL = Severity.CAUTION
+"""Least severity that is spoken, and so the least that counts as a warning; what is below it is
+shown (AIRHILT, arXiv 2511.18718)."""
 
 
 # --- the run itself -------------------------------------------------------------------------
@@ -179,8 +183,10 @@ Box = tuple[float, float, float, float]
 class CameraView(BaseModel):
     """Where a camera looked from, as its owner knows it, and how it maps the world to pixels.
 
-    A pinhole camera with square pixels and the principal point in the middle. Turned first to the
-    heading, then up by the pitch, then clockwise about its axis by the roll.
+    A pinhole camera without distortion, with square pixels, and with its axis through the middle
+    of the picture, (width_px / 2, height_px / 2). Turned first to the heading, from true north,
+    then up by the pitch, then clockwise about its axis by the roll. All of it is exact: navigation
+    has no errors here.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -228,6 +234,10 @@ class CameraFrame(Message):
 # --- what workers give ----------------------------------------------------------------------
 
 
+CONFIRMED_HITS = 3
+"""Pictures in which something must have been found before it is believed."""
+
+
 class Detection(BaseModel):
     """Something that was recognised in a picture."""
 
@@ -236,9 +246,24 @@ class Detection(BaseModel):
     confidence: Confidence
     box: Box
     track_id: int | None = Field(
-        default=None, description="the same for the same thing, from picture to picture"
+        default=None, ge=0, description="the same for the same thing, from picture to picture"
     )
     hits: int = Field(default=1, ge=1, description="pictures in which it was found so far")
+
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether it was found often enough to be believed."""
+        return self.hits >= CONFIRMED_HITS
+
+    @field_validator("box")
+    @classmethod
+    def _has_room(cls, box: Box) -> Box:
+        left, top, right, bottom = box
+        if not (left < right and top < bottom):
+            raise ValueError(
+                f"box {box} has no room; expected left, top, right, bottom, no width and height"
+            )
+        return box
 
 
 class Detections(Message):
@@ -527,6 +552,7 @@ EventKind = Literal[
     "pilot_reacts",
     "worker_lost",
     "radio_lost",
+    "cameras_lost",
     "unregistered",
     "refused",
     "finished",

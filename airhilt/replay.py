@@ -14,27 +14,30 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from airhilt.bus.exchange import FOREIGN
+from airhilt.cameras import RENDERER, RENDERERS, RendererName
 from airhilt.cosim import Foreign, Observer, Options, Recorded, run
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.messages import (
-    HEADERS,
     WORKER_OUTPUTS,
+    AdvisoryAudio,
     Event,
     SpokenTruth,
+    Status,
     Transmission,
     WorkerDescription,
 )
 from airhilt.radio.bus import OnAir
-from airhilt.radio.service import is_service
 from airhilt.radio.speech import Reception
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.folder import RunOptions, sha256, versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
+from airhilt.service import is_service
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
+from airhilt.workers.reference import DETECTOR
 
 if TYPE_CHECKING:
     from airhilt.radio.channel import Background
@@ -101,6 +104,8 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             topology=info.options.topology,
             asr=info.options.asr,
             tts=info.options.tts,
+            renderer=_renderer(info.options.renderer),
+            detector=info.options.detector or DETECTOR,
             run_name=info.run,
         )
         recorded = _recorded(folder, info, latencies, recorded_log)
@@ -138,6 +143,9 @@ def _recorded(
             breaks_off=breaks_off,
         ),
         end_ns=log[-1].t_ns if breaks_off and log else None,
+        blindness=_blindness(log),
+        cameras_lost=_cameras_lost(log),
+        has_pictures=any(logged.key.startswith("camera/") for logged in log),
         sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
         workers=tuple(workers),
         programs=programs,
@@ -152,12 +160,37 @@ def _recorded(
 
 def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
     """Return the workers whose results cannot be had again by computing them here."""
-    engines = {"speech": info.options.asr, "voice": info.options.tts}
+    options = info.options
+    engines = {"speech": options.asr, "voice": options.tts, "vision": options.detector}
     return [
         worker.description
         for worker in info.workers
         if worker.where == "attached" or is_service(engines.get(worker.description.modality, ""))
     ]
+
+
+def _renderer(name: str) -> RendererName:
+    """Return the renderer of a run; one from before there were any has none."""
+    return next((known for known in RENDERERS if known == name), RENDERER)
+
+
+def _blindness(log: Sequence[Logged]) -> str:
+    """Return why no pictures could be drawn from the start; empty if they could."""
+    for logged in log:
+        if logged.key == "status/vision":
+            status = Status.model_validate_json(logged.data)
+            return status.cause if status.state == "not evaluated" else ""
+    return ""
+
+
+def _cameras_lost(log: Sequence[Logged]) -> tuple[int, str] | None:
+    """Return when there were no more pictures, and why; None if there were to the end."""
+    for logged in log:
+        if logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            if event.kind == "cameras_lost":
+                return event.t_ns, event.text
+    return None
 
 
 def _is_spoken_elsewhere(options: RunOptions) -> bool:
@@ -192,7 +225,7 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> RecordedSound:
 def _given(folder: RunFolder, logged: Logged) -> Output:
     """Return what a worker gave: the message, or the raw bytes that it is the header of."""
     model = WORKER_OUTPUTS[logged.key.split("/")[0]]
-    if not issubclass(model, HEADERS):
+    if not issubclass(model, AdvisoryAudio):
         return Output(logged.key, logged.data, logged.t_ns)
     header = model.model_validate_json(logged.data)
     pcm = recorded_pcm(folder.audio_path, header)

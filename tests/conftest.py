@@ -18,11 +18,11 @@ Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture(scope="session")
 def encounter() -> Scenario:
-    """Half a minute of a head-on encounter that begins with a warning after two seconds."""
+    """Half a minute of a head-on encounter, without cameras, and with a warning after 2 s."""
     document = load("s02a_headon").model_dump(mode="json")
     for actor in document["actors"]:
         actor["initial"]["position"]["distance_nm"] = 13.0
-    document |= {"name": "encounter", "duration_s": 30.0}
+    document |= {"name": "encounter", "duration_s": 30.0, "cameras": []}
     return parse(json.dumps(document), "encounter")
 
 

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import click
 import pytest
+from pydantic import TypeAdapter
 
 from airhilt.cli import cli
 from airhilt.messages import json_schemas
 from airhilt.scenario import Scenario, parse
-from airhilt.scenario.models import Perturbation, RadioLine
+from airhilt.scenario.models import Camera, Perturbation, RadioLine
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -24,10 +25,11 @@ def json_blocks(page: str) -> list[str]:
 
 
 def test_the_examples_of_the_scenario_guide_are_valid() -> None:
-    scenario, line, perturbation = json_blocks("scenarios.md")
+    scenario, line, perturbation, cameras = json_blocks("scenarios.md")
     assert parse(scenario, "guide").name == "crossing"
     RadioLine.model_validate_json(line)
     Perturbation.model_validate_json(perturbation)
+    assert len(TypeAdapter(tuple[Camera, ...]).validate_json(cameras)) == 2
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

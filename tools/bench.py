@@ -8,6 +8,8 @@
     python tools/bench.py phraseology       calls that are read in a second on one core
     python tools/bench.py speech            what sound costs a call, and how late words come
     python tools/bench.py render            CPU time of a picture, with both renderers
+    python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
+    python tools/bench.py sight             whole runs with cameras against real time
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
     python tools/bench.py headon --json
@@ -27,12 +29,15 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from airhilt.cameras import RendererName
+    from airhilt.cameras.bodies import BodyState
+    from airhilt.cameras.studio import Studio
     from airhilt.metrics.summary import Summary
     from airhilt.scenario import Scenario
 
@@ -73,7 +78,7 @@ def headon() -> dict[str, float]:
     factors, whole, bare = [], [], []
     for _ in range(ROUNDS):
         with tempfile.TemporaryDirectory() as scratch:
-            summary = run(scenario, out=Path(scratch) / "run").summary
+            summary = run(scenario, out=Path(scratch) / "run", cameras=False).summary
         factors.append(summary.real_time_factor)
         whole.append(summary.cpu_s / summary.duration_s)
         realised, _ = realise(scenario, 0)
@@ -224,7 +229,8 @@ def _repeated(scenario: Scenario, rounds: int = ROUNDS) -> dict[str, float]:
     factors = []
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as scratch:
-            factors.append(run(scenario, out=Path(scratch) / "run").summary.real_time_factor)
+            summary = run(scenario, out=Path(scratch) / "run", cameras=False).summary
+        factors.append(summary.real_time_factor)
     return {
         "real_time_factor_best": max(factors),
         "real_time_factor_median": statistics.median(factors),
@@ -347,66 +353,177 @@ def speech() -> dict[str, float]:
 def render() -> dict[str, float]:
     """Take pictures of 640 by 360 pixels with three bodies in them, turn by turn.
 
+    A camera is fixed, or on the nose of a 737 on final, flying straight (moving) or turning by
+    more than a pixel a picture, so that all is drawn anew (turning); or nothing moves before it
+    (idle). Each number is the CPU time of a picture, the mean of a second, in the best second.
     ``numpy_exp_ms``, 1.4 million exponentials, tells how fast the machine is just now.
     """
     import numpy as np
 
-    from airhilt import load
-    from airhilt.cameras.bodies import BodyState, Model, aircraft_model, vehicle_model
-    from airhilt.cameras.mounts import Camera, Mount, cameras_of, frame_of
-    from airhilt.cameras.renderers import RENDERERS
-    from airhilt.cameras.stage import light_of, world_of
-    from airhilt.cameras.studio import Studio
-    from airhilt.cameras.view import Intrinsics, Pose
-    from airhilt.positions import RunwayPosition
-    from airhilt.scenario.geometry import Setting
+    from airhilt.cameras import RENDERERS
+    from airhilt.cameras.bodies import BodyState
 
-    scenario = load("s01b_nominal")
-    setting = Setting.of(scenario)
-    light = light_of(scenario, setting)
-    world = world_of(scenario, setting, light)
-    models: dict[str, Model] = {
-        "737": aircraft_model("737"),
-        "B747": aircraft_model("B747"),
-        "fire_truck": vehicle_model("fire_truck"),
-    }
-    nose = Mount("737", Pose.of((0.0, 17.5, 1.0), 0.0, -0.03), sees_own_aircraft=False)
-    cameras = [
-        cameras_of(scenario, setting, models)["runway_01"],
-        Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
-    ]
-    assert setting.layout is not None
-    course = setting.layout.runway("01").course_rad
-
-    def body(actor: str, along_m: float, up_m: float, turned: float, shape: str) -> BodyState:
-        place = RunwayPosition(type="runway", runway="01", along_m=along_m)
-        east, north = frame_of(setting).to_local(setting.place(place))
-        return BodyState(actor, east, north, up_m, course + turned, 0.0, 0.0, shape, True)
-
-    bodies = [
-        body("737", -700.0, 45.0, 0.0, "gear"),
-        body("B747", 900.0, 4.1, 1.2, "gear"),
-        body("fire_truck", 500.0, 0.0, 1.5, "driving"),
-    ]
+    stage = Stage()
     numbers = np.random.default_rng(0).random((640 * 360, 6), dtype=np.float32)
-
-    def measure(action: Callable[[], object]) -> float:
-        begun = time.process_time()
-        action()
-        return 1000.0 * (time.process_time() - begun)
-
-    studios = {name: Studio(world, light, models, cameras, name) for name in RENDERERS}
+    studios = {name: stage.studio(name) for name in RENDERERS}
     measured: dict[str, list[float]] = {}
-    for turn in range(25):
-        there = [one._replace(north_m=one.north_m + turn) for one in bodies]
-        measured.setdefault("numpy_exp_ms", []).append(measure(partial(np.exp, numbers)))
+    scenes = [
+        ("fixed", "runway_01", stage.scene()),
+        ("idle", "runway_01", [list[BodyState]()] * 16),
+        ("moving", "nose", stage.scene()),
+        ("turning", "nose", stage.scene(turn_rad=0.002)),
+    ]
+
+    def measure(name: str, shots: Sequence[Callable[[], object]]) -> None:
+        begun = time.process_time()
+        for shoot in shots:
+            shoot()
+        spent = 1000.0 * (time.process_time() - begun) / len(shots)
+        measured.setdefault(name, []).append(spent)
+
+    for _ in range(2 * ROUNDS):
+        measure("numpy_exp_ms", [partial(np.exp, numbers)] * 16)
         for name, studio in studios.items():
-            for what, camera in (("fixed", "runway_01"), ("moving", "nose")):
-                spent = measure(partial(studio.shoot, [camera], there, 0))
-                measured.setdefault(f"{name}_{what}_ms", []).append(spent)
+            for what, camera, scene in scenes:
+                shots = [partial(studio.shoot, [camera], bodies, 0) for bodies in scene]
+                measure(f"{name}_{what}_ms", shots)
     for studio in studios.values():
         studio.close()
     return {name: min(times) for name, times in measured.items()}
+
+
+class Stage:
+    """Washington: a 737 on final to runway 01, a 747 and a fire truck on it, and two cameras."""
+
+    def __init__(self) -> None:
+        from airhilt import load
+        from airhilt.cameras.bodies import Model, aircraft_model, vehicle_model
+        from airhilt.cameras.mounts import Camera, Mount, cameras_of
+        from airhilt.cameras.stage import light_of, world_of
+        from airhilt.cameras.view import Intrinsics, Pose
+        from airhilt.scenario.geometry import Setting
+
+        scenario = load("s01b_nominal")
+        self._setting = Setting.of(scenario)
+        self._light = light_of(scenario, self._setting)
+        self._world = world_of(scenario, self._setting, self._light)
+        self._models: dict[str, Model] = {
+            "737": aircraft_model("737"),
+            "B747": aircraft_model("B747"),
+            "fire_truck": vehicle_model("fire_truck"),
+        }
+        nose = Mount("737", Pose.of((0.0, 17.5, 1.0), 0.0, -0.03), sees_own_aircraft=False)
+        self._cameras = [
+            cameras_of(scenario, self._setting, self._models)["runway_01"],
+            Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
+        ]
+
+    def studio(self, renderer: RendererName) -> Studio:
+        """Return a studio with both cameras."""
+        from airhilt.cameras.studio import Studio
+
+        return Studio(self._world, self._light, self._models, self._cameras, renderer)
+
+    def scene(self, turn_rad: float = 0.0) -> list[list[BodyState]]:
+        """Return where all are in the pictures of a second, 70 m/s down a path of 3 degrees."""
+        return [
+            [
+                self._body("737", 4.4 * k - 700.0, 45.0 - 0.23 * k, turn_rad * k, "gear"),
+                self._body("B747", 900.0 + k, 4.1, 1.2, "gear"),
+                self._body("fire_truck", 500.0 + k, 0.0, 1.5, "driving"),
+            ]
+            for k in range(16)
+        ]
+
+    def _body(
+        self, actor: str, along_m: float, up_m: float, turned: float, shape: str
+    ) -> BodyState:
+        from airhilt.cameras.bodies import BodyState
+        from airhilt.cameras.mounts import frame_of
+        from airhilt.positions import RunwayPosition
+
+        assert self._setting.layout is not None
+        course = self._setting.layout.runway("01").course_rad
+        place = RunwayPosition(type="runway", runway="01", along_m=along_m)
+        east, north = frame_of(self._setting).to_local(self._setting.place(place))
+        return BodyState(actor, east, north, up_m, course + turned, 0.0, 0.0, shape, True)
+
+
+def frames() -> dict[str, float]:
+    """Take 10,000 pictures in the process of its own, and ask for its memory on the way."""
+    from airhilt import load
+    from airhilt.cameras.remote import RemoteStudio
+
+    scenario = load("s01b_nominal")
+    scene = [[bodies[0]._replace(actor="AAL123")] for bodies in Stage().scene()]
+    found: dict[str, float] = {}
+    for renderer in ("open3d", "moderngl"):
+        with RemoteStudio(scenario, ["runway_01"], renderer) as studio:
+            for taken in range(10_001):
+                studio.shoot(["runway_01"], scene[taken % len(scene)], 0)
+                if taken in (1_000, 10_000):
+                    held = memory_mb(studio.process_id, "VmRSS")
+                    found[f"{renderer}_mb_after_{taken}"] = held
+            found[f"{renderer}_mb_at_most"] = memory_mb(studio.process_id, "VmHWM")
+    return found
+
+
+def watched_landing() -> Scenario:
+    """Return a minute of a landing before a tower, a runway, a nose and a tail camera."""
+    from airhilt import load
+    from airhilt.scenario import Scenario
+    from airhilt.surface.airport import load_airport
+    from airhilt.units import DEGREE, FOOT
+
+    document = load("s01b_nominal").model_dump(mode="json")
+    document |= {"name": "watched", "duration_s": 60.0, "end_when": [], "cameras": []}
+    for camera in load_airport("KDCA").cameras:
+        if camera.name in ("tower_south", "runway_01"):
+            latitude, longitude = (angle / DEGREE for angle in camera.place)
+            place = {"type": "geodetic", "lat_deg": latitude, "lon_deg": longitude}
+            mount = {
+                "type": "fixed",
+                "position": place,
+                "height_ft": camera.height_m / FOOT,
+                "azimuth_deg": camera.azimuth_deg,
+                "elevation_deg": camera.elevation_deg,
+            }
+            fov_deg = camera.horizontal_fov_deg
+            document["cameras"].append(
+                {"name": camera.name, "mount": mount, "horizontal_fov_deg": fov_deg}
+            )
+    document["cameras"] += [
+        {"name": station, "mount": {"type": "actor", "actor": "AAL123", "station": station}}
+        for station in ("nose", "tail")
+    ]
+    return Scenario.model_validate(document)
+
+
+def sight() -> dict[str, float]:
+    """Run s02a_headon as it comes, and a landing before four cameras, with detection."""
+    from airhilt import load, run
+
+    measured: dict[str, float] = {}
+    for name, scenario, renderer in (
+        ("headon_open3d", load("s02a_headon"), "open3d"),
+        ("four_cameras_moderngl", watched_landing(), "moderngl"),
+    ):
+        factors = []
+        for _ in range(2):
+            with tempfile.TemporaryDirectory() as scratch:
+                out = Path(scratch) / "run"
+                summary = run(scenario, out=out, renderer=renderer).summary
+            factors.append(summary.real_time_factor)
+        measured[f"{name}_real_time_factor_best"] = max(factors)
+        measured[f"{name}_pictures_dropped"] = float(sum(summary.inputs_dropped.values()))
+    return measured
+
+
+def memory_mb(process_id: int, what: str) -> float:
+    """Return a number of a process's memory, as Linux tells it."""
+    told = Path(f"/proc/{process_id}/status").read_text(encoding="utf-8")
+    found = re.search(rf"^{what}:\s+(\d+) kB", told, re.MULTILINE)
+    return int(found[1]) / 1024.0 if found else math.nan
 
 
 def startup() -> dict[str, float]:
@@ -468,6 +585,8 @@ BENCHMARKS = {
     "phraseology": phraseology,
     "speech": speech,
     "render": render,
+    "frames": frames,
+    "sight": sight,
     "startup": startup,
 }
 

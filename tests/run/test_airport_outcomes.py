@@ -12,10 +12,25 @@ from airhilt.metrics.summary import Summary
 SCENARIOS = [name for name in library.names("scenarios") if not name.startswith("s02a")]
 NOMINAL = [name for name in SCENARIOS if name.endswith("_nominal")]
 CONFLICTS = [name for name in SCENARIOS if name not in NOMINAL]
+WITH_AND_WITHOUT_SOUND = pytest.mark.parametrize(
+    "speech", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["as text", "spoken"]
+)
 
 
-def alone(name: str, out: Path, seed: int = 0) -> Summary:
-    return run(load(name), out=out, latency="fixed", assistant="none", seed=seed).summary
+def alone(name: str, out: Path, seed: int = 0, speech: bool = False) -> Summary:
+    return run(
+        load(name),
+        out=out,
+        latency="fixed",
+        cameras=False,
+        speech=speech,
+        assistant="none",
+        seed=seed,
+    ).summary
+
+
+def assisted(name: str, out: Path, speech: bool = False) -> Summary:
+    return run(load(name), out=out, latency="fixed", cameras=False, speech=speech).summary
 
 
 def happened(summary: Summary, outcome: str) -> bool:
@@ -30,13 +45,14 @@ def happened(summary: Summary, outcome: str) -> bool:
             return summary.loss_of_separation
 
 
+@WITH_AND_WITHOUT_SOUND
 @pytest.mark.parametrize("name", CONFLICTS)
 def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
-    name: str, tmp_path: Path
+    name: str, speech: bool, tmp_path: Path
 ) -> None:
     conflict = load(name).conflict
     assert conflict is not None
-    summary = alone(name, tmp_path / "run")
+    summary = alone(name, tmp_path / "run", speech=speech)
     assert summary.t_conflict_s is not None
     assert happened(summary, conflict.unassisted)
     assert summary.avoided is False
@@ -55,9 +71,21 @@ REPORTED = ("s01c_deer_delayed_warning", "s02b_engine_out_driftdown")
 SEEN = [name for name in CONFLICTS if name.startswith(("s01a", "s01b")) and name not in UNSEEN]
 
 
+@WITH_AND_WITHOUT_SOUND
 @pytest.mark.parametrize("name", [*SEEN, *REPORTED])
-def test_the_assistant_prevents_what_its_senses_show(name: str, tmp_path: Path) -> None:
-    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+def test_the_assistant_prevents_what_its_senses_show(
+    name: str, speech: bool, tmp_path: Path
+) -> None:
+    prevented(name, tmp_path / "run", speech)
+
+
+@pytest.mark.parametrize("name", ["s01a_bad_readback", "s01b_delayed_hold"])
+def test_the_assistant_prevents_what_it_was_told_aloud(name: str, tmp_path: Path) -> None:
+    prevented(name, tmp_path / "run", speech=True)
+
+
+def prevented(name: str, out: Path, speech: bool) -> None:
+    summary = assisted(name, out, speech)
     assert summary.avoided is True
     assert not summary.collision
     assert summary.t_first_warning_s is not None
@@ -69,16 +97,17 @@ def test_the_assistant_prevents_what_its_senses_show(name: str, tmp_path: Path) 
 )
 def test_of_what_nobody_senses_it_says_nothing(name: str, tmp_path: Path) -> None:
     """Without a transponder, a report or a camera there is nothing to go by."""
-    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+    summary = assisted(name, tmp_path / "run")
     assert summary.advisories == []
     assert summary.avoided is False
 
 
+@WITH_AND_WITHOUT_SOUND
 @pytest.mark.parametrize("name", NOMINAL)
 def test_a_nominal_twin_ends_without_incident_and_the_assistant_keeps_quiet(
-    name: str, tmp_path: Path
+    name: str, speech: bool, tmp_path: Path
 ) -> None:
-    summary = run(load(name), out=tmp_path / "run", latency="fixed").summary
+    summary = assisted(name, tmp_path / "run", speech)
     assert summary.nuisance_alerts == 0
     assert not summary.collision
     assert not summary.nmac
