@@ -15,6 +15,7 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     Climb,
+    Detection,
     Event,
     MaintainLevel,
     Recommendation,
@@ -27,7 +28,34 @@ from airhilt.messages import (
 
 MODELS = {**BUS_MESSAGES, **WORKER_MESSAGES}
 
+VIEW = {
+    "latitude_deg": 38.8, "longitude_deg": -77.0, "height_m": 57.0, "heading_deg": 25.0,
+    "pitch_deg": -4.0, "roll_deg": 0.0, "horizontal_fov_deg": 70.0, "width_px": 640,
+    "height_px": 360, "carrier": None,
+}  # fmt: skip
+BOX = [10.0, 20.0, 45.5, 31.0]
+
 EXAMPLES = {
+    "CameraInfo": {
+        "camera": "tower", "rate_hz": 16.0, "width_px": 640, "height_px": 360,
+        "horizontal_fov_deg": 70.0, "own_aircraft": [100, 20, 230280],
+    },
+    "CameraFrame": {
+        "camera": "tower", "seq": 3, "t_frame_ns": 7, "view": VIEW, "sha256": "ab",
+    },
+    "Detections": {
+        "camera": "tower", "seq": 3, "t_frame_ns": 7, "view": VIEW, "engine": "embedded",
+        "detections": [
+            {"label": "airplane", "confidence": 0.7, "box": BOX, "track_id": 4, "hits": 2},
+        ],
+    },
+    "CameraTruth": {
+        "camera": "tower", "seq": 3, "t_frame_ns": 7,
+        "sightings": [{
+            "actor": "AAL1", "label": "airplane", "box": BOX, "pixels": 120.5,
+            "visible_fraction": 0.5, "truncation": 0.0, "range_m": 900.0, "transmission": 0.7,
+        }],
+    },
     "Clock": {"run": "r1", "phase": "running", "pace": "virtual"},
     "Briefing": {
         "controller": "Centre", "horizontal_separation_nm": 5.0, "vertical_separation_ft": 1000.0,
@@ -217,3 +245,11 @@ def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth():
 def test_any_words_survive_json(text, confidence):
     message = made(Transcript, text=text, confidence=confidence)
     assert Transcript.model_validate_json(message.model_dump_json()) == message
+
+
+@pytest.mark.parametrize(
+    "box", [(5.0, 5.0, 5.0, 5.0), (30.0, 10.0, 8.0, 6.0), (1.0, 9.0, 8.0, 2.0)]
+)
+def test_a_detection_whose_box_has_no_room_is_refused(box):
+    with pytest.raises(ValidationError, match="no width and height"):
+        Detection(label="airplane", confidence=0.5, box=box)

@@ -40,7 +40,7 @@ def test_json_prints_the_summary_alone(airhilt_command: Any, encounter_file: Pat
     assert set(summary) >= SUMMARY_FIELDS
     folder = encounter_file.parent / "run"
     assert json.loads((folder / "summary.json").read_text()) == summary
-    assert set(summary["latencies"]["adsb"]) == {"n", "p50_s", "p95_s", "max_s"}
+    assert set(summary["latencies"]["adsb"]) == {"n", "min_s", "p50_s", "p95_s", "max_s"}
     assert sorted(path.name for path in folder.iterdir()) == [
         "audio", "latency.jsonl", "log.mcap", "report.html", "run.json", "summary.json",
     ]  # fmt: skip
