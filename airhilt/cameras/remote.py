@@ -182,6 +182,8 @@ class RemoteStudio:
             stdin=subprocess.DEVNULL,
             stdout=self._said,
             stderr=self._said,
+            # Ctrl-C is for the run, which then ends this process itself.
+            start_new_session=True,
             pass_fds=(questions, answer, shared),
             env=_environment(),
         )
