@@ -53,7 +53,7 @@ def run(
     observer
         Is told how the run is doing.
     options
-        Fields of `airhilt.cosim.Options`: ``seed``, ``assistant``, ``latency``, ``pace`` and so on.
+        Fields of `airhilt.options.Options`: ``seed``, ``assistant``, ``latency``, ``pace`` ...
 
     Raises
     ------
@@ -62,8 +62,8 @@ def run(
     TypeError
         There is no such option.
     """
-    from airhilt.cosim import Options
     from airhilt.cosim import run as run_scenario
+    from airhilt.options import Options
 
     if isinstance(scenario, str | Path):
         scenario = load(scenario)

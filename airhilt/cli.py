@@ -190,7 +190,8 @@ Examples:
 )
 def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -> None:
     """Run a scenario and leave a run folder."""
-    from airhilt.cosim import Options, run
+    from airhilt.cosim import run
+    from airhilt.options import Options
     from airhilt.progress import ProgressLine, print_summary
     from airhilt.scenario import load
 
@@ -368,7 +369,7 @@ Examples:
 def validate(file: str) -> None:
     """Check a scenario file, and put all its actors where they begin."""
     from airhilt.actors import build_cast
-    from airhilt.cosim import TICK_S
+    from airhilt.preparation import TICK_S
     from airhilt.scenario import load
     from airhilt.scenario.geometry import Setting
     from airhilt.scenario.loading import draw

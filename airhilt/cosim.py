@@ -1,33 +1,30 @@
 """One run, from scenario to run folder. The main path of AIRHILT begins at `run`.
 
-`Simulation` builds everything that a run needs and hangs it on one `Director`; each part gets
-what it needs as arguments. Data flows one way: aircraft, sensors, workers, advisories, crews.
+`prepare` settles what the run is, `gather` who takes part in it, `open_vision` how it sees;
+`Simulation` hangs it all on one `Director`, and each part gets what it needs as arguments. Data
+flows one way: aircraft, sensors, workers, advisories, crews.
 """
 
 from __future__ import annotations
 
-import os
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from contextlib import ExitStack, closing, suppress
-from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from pydantic import ValidationError
 
-from airhilt.actors import Performer, Unable, build_cast
+from airhilt.actors import Performer, Unable
 from airhilt.actors.advised import Advised
 from airhilt.actors.cues import Cues
 from airhilt.briefing import briefing_of
-from airhilt.bus.attach import attach
 from airhilt.bus.exchange import FOREIGN, Exchange
 from airhilt.bus.session import Bus
-from airhilt.cameras import RENDERER, RendererName
 from airhilt.commands import Command
-from airhilt.errors import AirhiltError, RendererError, RunStopped, WorkerError, first_problem
+from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
 from airhilt.flight import Aircraft
 from airhilt.messages import (
     ActorCommand,
@@ -51,61 +48,25 @@ from airhilt.metrics.plans import Plans
 from airhilt.metrics.report import write_report
 from airhilt.metrics.runways import Incursion, RunwayMonitor
 from airhilt.metrics.summary import Summary
+from airhilt.options import Options, Recorded
+from airhilt.preparation import TICK_S, Prepared, prepare
 from airhilt.radio.loop import RadioLoop
-from airhilt.radio.script import planned_ends_ns
-from airhilt.radio.sounds import models_of, sound_of
-from airhilt.radio.speech import Fragile, Sound, Text
+from airhilt.radio.speech import Fragile
 from airhilt.radio.stations import Stations
-from airhilt.record import LatencyLog, LogWriter, Loss, RunFolder, RunInfo, read_latencies
+from airhilt.record import LatencyLog, LogWriter, RunInfo
 from airhilt.record.audio import AudioRecorder
-from airhilt.record.folder import RecordedWorker, RunOptions, machine, sha256, versions
-from airhilt.record.pictures import KeyPictures, require_pillow
-from airhilt.record.video import VideoRecorder, require_video
+from airhilt.record.folder import sha256
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import HappeningLine, as_it_happens
-from airhilt.scenario.geometry import Setting
-from airhilt.scenario.loading import draw
-from airhilt.scenario.models import (
-    AircraftActor,
-    Condition,
-    EngineFailure,
-    Radio,
-    Topology,
-    WildlifeActor,
-)
-from airhilt.scenario.perturbation import Draw
-from airhilt.sim import (
-    Director,
-    LatencySpec,
-    Pace,
-    Priority,
-    RealTime,
-    StepRecord,
-    Virtual,
-    interruptible,
-    parse_latency,
-    parse_pace,
-)
+from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.models import AircraftActor, Condition, EngineFailure, WildlifeActor
+from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
 from airhilt.surveillance.sensor import AdsbSensor
+from airhilt.team import Team, gather
 from airhilt.truth import minima_of, truth_of, zone_of
 from airhilt.units import SECOND_NS, seconds_to_ns
-from airhilt.workers import LocalWorker
-from airhilt.workers.pool import Participant, WorkerPool, parse_output
-from airhilt.workers.reference import (
-    ASR,
-    DETECTOR,
-    TTS,
-    AssistantName,
-    Engines,
-    reference_workers,
-)
+from airhilt.vision import Vision, open_vision
+from airhilt.workers.pool import WorkerPool, parse_output
 
-if TYPE_CHECKING:
-    from airhilt.cameras.remote import RemoteStudio
-    from airhilt.cameras.rig import CameraRig
-
-TICK_S = 0.05
-"""Control tick of the aircraft; the flight dynamics take six steps in it."""
 TRUTH_PERIOD_NS = SECOND_NS // 5
 CONDITION_PERIOD_NS = SECOND_NS // 10
 """How often the conflict window is looked at."""
@@ -113,77 +74,7 @@ RUNWAY_PERIOD_NS = SECOND_NS // 5
 """How often runways are."""
 END_PERIOD_NS = SECOND_NS // 2
 """How often the conditions that end the run are."""
-NO_DETECTOR = "none"
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
-
-
-@dataclass(frozen=True)
-class Options:
-    """How a scenario is run. The defaults are those of the command line."""
-
-    seed: int = 0
-    out: Path | None = None
-    overwrite: bool = False
-    assistant: AssistantName | None = None
-    """None: ``reference``, or ``external`` where one of the attached programs may decide."""
-    pace: str | None = None
-    """None: ``virtual``, or ``realtime`` where an attached program takes no grants."""
-    latency: str = "measured"
-    cameras: bool = True
-    speech: bool = True
-    strict: bool = False
-    listen: str | None = None
-    attach: tuple[str, ...] = ()
-    attach_timeout_s: float = 60.0
-    step_timeout_s: float = 5.0
-    run_name: str | None = None
-    snr_db: float | None = None
-    """None: that of the scenario."""
-    radio_profile: str | None = None
-    """None: that of the scenario."""
-    topology: Topology | None = None
-    """None: that of the scenario."""
-    asr: str = ASR
-    """Engine, as in the command line."""
-    tts: str = TTS
-    """Engine, as in the command line."""
-    renderer: RendererName = RENDERER
-    detector: str = DETECTOR
-    """Engine, as in the command line."""
-    video: bool = False
-    """Whether to write what each camera saw as a video."""
-
-
-@dataclass(frozen=True)
-class Foreign:
-    """A message that an unregistered program published in an earlier run."""
-
-    key: str
-    t_ns: int
-    data: bytes
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """What a replay puts in the place of other processes."""
-
-    latency: LatencySpec | None = None
-    """Instead of that of the options."""
-    end_ns: int | None = None
-    """Where the earlier run broke off."""
-    sound: Sound | None = None
-    """Instead of voices and channel; None where those of the options speak again."""
-    workers: tuple[Participant, ...] = ()
-    programs: tuple[str, ...] = ()
-    """Names of those that took no grants."""
-    losses: Mapping[str, Loss] = field(default_factory=dict)
-    foreign: tuple[Foreign, ...] = ()
-    blindness: str = ""
-    """Why no pictures could be drawn from the start."""
-    cameras_lost: tuple[int, str] | None = None
-    """When there were no more pictures (ns), and why."""
-    has_pictures: bool = False
-    """Whether there were any, which nobody of this run may look at."""
 
 
 @dataclass(frozen=True)
@@ -231,190 +122,29 @@ def run(
     KeyboardInterrupt
         Likewise.
     """
-    options = options or Options()
     observer = observer or Observer()
-    recorded = recorded or Recorded()
-    realised, draws = draw(scenario, options.seed)
-    realised = _with_radio_of(options, realised)
-    latency = recorded.latency or _latency(options.latency, scenario, options.seed)
-    pace = parse_pace(options.pace or "virtual")
-    name = options.run_name or f"{scenario.name}-{options.seed}"
-    folder = RunFolder(options.out or _default_folder(name))
-    folder.require_free(options.overwrite)
-    if options.video:
-        require_video()
-        if not (options.cameras and realised.cameras):
-            raise AirhiltError(
-                f"--video: there are no cameras in this run of {realised.name!r}; expected a "
-                "scenario with cameras, and no --no-cameras"
-            )
-    setting = Setting.of(realised)
-    cast = build_cast(realised, setting, options.seed, TICK_S)
-    tts = options.tts if options.speech else None
-    sound = recorded.sound or sound_of(realised.radio, options.seed, tts)
-    lines = as_it_happens(realised)
-    # For the summary alone; a record knows what was said, but not what was planned and was not.
-    planned = sound if recorded.sound is None else Text(realised.radio.words_per_minute)
-    ends_ns = planned_ends_ns(lines, planned)
+    prepared = prepare(scenario, options or Options(), recorded or Recorded())
+    options, pace = prepared.options, prepared.pace
     with ExitStack() as stack:
-        bus = stack.enter_context(closing(Bus(name, options.listen)))
+        bus = stack.enter_context(closing(Bus(prepared.name, options.listen)))
         _tell_clock(bus, 0, "waiting", pace)
-        team = _team(options, realised, bus, observer, recorded)
-        if team.programs and options.pace is None and not recorded.programs:
+        team = gather(options, prepared.scenario, prepared.recorded, bus, observer.notice)
+        if team.programs and options.pace is None and not prepared.recorded.programs:
             pace = RealTime()
-        studio, blindness = None, recorded.blindness
-        has_viewers = _has_viewers(realised, options, team) or recorded.has_pictures
-        if not blindness and has_viewers:
-            try:
-                studio = stack.enter_context(_open_studio(realised, options.renderer))
-            except RendererError as error:
-                if recorded.latency is not None:
-                    raise RendererError(f"cannot be replayed here: {error}") from None
-                blindness = str(error)
-                _tell_blindness(blindness, options, observer)
-        folder.create(options.overwrite)
-        info = _info(name, scenario, realised, draws, options, pace, latency, team, bus)
-        folder.write_info(info)
-        simulation = Simulation(
-            realised,
-            setting,
-            options,
-            bus,
-            folder,
-            cast,
-            sound,
-            studio,
-            blindness,
-            lines,
-            ends_ns,
-            team,
-            latency,
-            pace,
-            observer,
-        )
-        simulation.schedule(recorded)
+        vision = stack.enter_context(open_vision(prepared, team, observer.notice))
+        prepared.folder.create(options.overwrite)
+        info = prepared.info(team, pace, bus.endpoint)
+        prepared.folder.write_info(info)
+        simulation = Simulation(prepared, team, pace, vision, bus, observer)
         with interruptible(simulation.interrupt):
             try:
                 result = simulation.run(info)
             except BaseException:
                 with suppress(AirhiltError):  # What stopped the run is the news, not its report.
-                    write_report(folder.path)
+                    write_report(prepared.folder.path)
                 raise
-            write_report(folder.path)
+            write_report(prepared.folder.path)
             return result
-
-
-def _has_viewers(scenario: Scenario, options: Options, team: Team) -> bool:
-    """Return whether there are cameras, and somebody might look at their pictures."""
-    is_watched = team.does("vision") or bool(team.programs) or options.listen is not None
-    return options.cameras and bool(scenario.cameras) and (is_watched or options.video)
-
-
-def _open_studio(scenario: Scenario, renderer: RendererName) -> RemoteStudio:
-    # Not at the top: a run without cameras starts without the libraries behind them.
-    from airhilt.cameras.remote import RemoteStudio
-
-    require_pillow()  # A run with pictures keeps some.
-    return RemoteStudio(scenario, renderer=renderer)
-
-
-def _tell_blindness(cause: str, options: Options, observer: Observer) -> None:
-    text = f"vision is not evaluated: {cause}"
-    if options.strict:
-        raise RunStopped(
-            f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
-        )
-    observer.notice(text)
-
-
-def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
-    spec = parse_latency(text)
-    if spec.replay_of is None:
-        return spec
-    earlier = RunFolder.open(Path(spec.replay_of))
-    info = earlier.info()
-    if info.scenario != scenario.model_dump(mode="json") or info.options.seed != seed:
-        raise AirhiltError(
-            f"latency {text}: that run is of {info.scenario.get('name')!r} with seed "
-            f"{info.options.seed}; expected the same scenario and seed as this one, "
-            f"{scenario.name!r} with {seed}"
-        )
-    recorded = read_latencies(earlier.latency_path)
-    return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
-
-
-def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
-    """Return a scenario with those settings of its radio that the options give."""
-    given = {
-        "snr_db": options.snr_db,
-        "profile": options.radio_profile,
-        "topology": options.topology,
-    }
-    changes = {name: value for name, value in given.items() if value is not None}
-    if not changes:
-        return scenario
-    try:
-        radio = Radio.model_validate(scenario.radio.model_dump() | changes)
-    except ValidationError as error:
-        raise AirhiltError(f"radio: {first_problem(error)}") from None
-    return scenario.model_copy(update={"radio": radio})
-
-
-def _default_folder(name: str) -> Path:
-    stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
-    path, count = Path("runs") / f"{name}-{stamp}", 1
-    while path.exists():
-        count += 1
-        path = Path("runs") / f"{name}-{stamp}-{count}"
-    return path
-
-
-@dataclass(frozen=True)
-class Team:
-    """Who takes part in a run besides the actors."""
-
-    assistant: AssistantName
-    participants: tuple[Participant, ...]
-    """The workers that take grants."""
-    programs: tuple[str, ...]
-    """Names of attached programs that take none."""
-
-    def does(self, modality: Modality) -> bool:
-        """Return whether a worker is there for something."""
-        return any(one.description.modality == modality for one in self.participants)
-
-
-def _team(
-    options: Options, scenario: Scenario, bus: Bus, observer: Observer, recorded: Recorded
-) -> Team:
-    participants = list(recorded.workers)
-    names = [name for name in options.attach if not recorded.workers]
-    attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, observer.notice)
-    participants += [
-        Participant(description, worker, attached=True)
-        for worker, description in attached
-        if description is not None
-    ]
-    programs = [worker.name for worker, description in attached if description is None]
-    programs = programs or list(recorded.programs)
-    taken = {participant.description.modality for participant in participants}
-    may_decide = "decision" in taken or bool(programs)
-    assistant = options.assistant or ("external" if may_decide else "reference")
-    engines = Engines(
-        asr=options.asr if options.speech else None,
-        tts=options.tts if options.speech else None,
-        detector=_detector(options, scenario),
-    )
-    for worker in reference_workers(assistant, scenario.radio, taken, engines):
-        participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
-    return Team(assistant, tuple(participants), tuple(programs))
-
-
-def _detector(options: Options, scenario: Scenario) -> str | None:
-    """Return the engine that looks at pictures, None if there are none or nobody is to look."""
-    if not options.cameras or not scenario.cameras or options.detector == NO_DETECTOR:
-        return None
-    return options.detector
 
 
 def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
@@ -422,75 +152,20 @@ def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
     bus.keep("clock", clock.model_dump_json().encode())
 
 
-def _info(
-    name: str,
-    scenario: Scenario,
-    realised: Scenario,
-    draws: Sequence[Draw],
-    options: Options,
-    pace: Pace,
-    latency: LatencySpec,
-    team: Team,
-    bus: Bus,
-) -> RunInfo:
-    return RunInfo(
-        run=name,
-        options=RunOptions(
-            seed=options.seed,
-            assistant=team.assistant,
-            pace=pace.name,
-            latency=latency.text,
-            attached=options.attach,
-            cameras=options.cameras,
-            speech=options.speech,
-            strict=options.strict,
-            snr_db=options.snr_db,
-            radio_profile=options.radio_profile,
-            topology=options.topology,
-            asr=options.asr,
-            tts=options.tts,
-            renderer=options.renderer,
-            detector=options.detector,
-        ),
-        scenario=scenario.model_dump(mode="json"),
-        realised=realised.model_dump(mode="json"),
-        draws=[draw.model_dump() for draw in draws],
-        workers=[
-            RecordedWorker(
-                description=participant.description,
-                where="attached" if participant.attached else "in process",
-            )
-            for participant in team.participants
-        ],
-        endpoint=bus.endpoint,
-        started_at=datetime.now(UTC).isoformat(timespec="seconds"),
-        versions=versions(),
-        platform=machine(),
-        models=models_of(realised.radio) if options.speech else {},
-    )
-
-
 class Simulation:
     """Everything that one run needs, hung on its Director."""
 
     def __init__(
         self,
-        scenario: Scenario,
-        setting: Setting,
-        options: Options,
-        bus: Bus,
-        folder: RunFolder,
-        cast: dict[str, Performer],
-        sound: Sound,
-        studio: RemoteStudio | None,
-        blindness: str,
-        lines: Sequence[HappeningLine],
-        ends_ns: Mapping[str, int],
+        prepared: Prepared,
         team: Team,
-        latency: LatencySpec,
         pace: Pace,
+        vision: Vision,
+        bus: Bus,
         observer: Observer,
     ) -> None:
+        scenario, setting, options = prepared.scenario, prepared.setting, prepared.options
+        cast, folder, lines = prepared.cast, prepared.folder, prepared.lines
         self._scenario = scenario
         self._setting = setting
         self._options = options
@@ -538,7 +213,7 @@ class Simulation:
         compiled = self._conditions.compile
         self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
         self._ends = [compiled(condition) for condition in scenario.end_when]
-        self._sound = Fragile(sound, scenario.radio.words_per_minute, self._lose_radio)
+        self._sound = Fragile(prepared.sound, scenario.radio.words_per_minute, self._lose_radio)
         self._radio = RadioLoop(
             self._director,
             scenario,
@@ -554,12 +229,12 @@ class Simulation:
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
         )
-        plans = Plans(lines, ends_ns)
+        plans = Plans(lines, prepared.ends_ns)
         self._collector = Collector(scenario, setting.ground_m, self._monitor, self._runways, plans)
         self._pool = WorkerPool(
             self._director,
             team.participants,
-            latency,
+            prepared.latency,
             options.seed,
             publish=self._exchange.publish,
             done=self._worker_done,
@@ -567,11 +242,6 @@ class Simulation:
         )
         self._exchange.listen(AudioRecorder(folder.audio_path).take)
         self._exchange.observe(self._collector.take)
-        self._pictures = None if studio is None else self._keep_pictures()
-        self._video = None
-        if studio is not None and options.video:
-            self._video = VideoRecorder(folder.video_path, observer.notice)
-            self._exchange.listen(self._video.take)
         self._exchange.listen(self._pool.offer)
         self._advised = Advised(self._director, cast, self._event, is_voiced=team.does("voice"))
         self._exchange.listen(self._radio.take)
@@ -581,16 +251,23 @@ class Simulation:
             scenario,
             setting,
             cast,
-            latency,
+            prepared.latency,
             options.seed,
             state_at_ns=lambda: self._ticked_ns,
             publish=self._publish_report,
             done=self._latency_log.step,
         )
-        self._blindness = blindness
-        self._rig = None if studio is None else self._mount_cameras(studio)
+        self._vision = vision
+        vision.mount(
+            self._director,
+            self._exchange,
+            state_at_ns=lambda: self._ticked_ns,
+            closest_ns=self._closest_approach_ns,
+            lost=partial(self._go_on_without, "vision", "cameras_lost", "cameras"),
+        )
         self._schedule_world()
         self._schedule_occurrences()
+        self._schedule_recorded(prepared.recorded)
         self._serve_bus()
 
     # --- the run ----------------------------------------------------------------------------
@@ -602,8 +279,7 @@ class Simulation:
         try:
             self._set_modalities()
             self._brief()
-            if self._rig is not None:
-                self._rig.start()
+            self._vision.start()
             self._director.run()
         except BaseException as error:
             failure = error
@@ -631,9 +307,7 @@ class Simulation:
         self._event(phase, "run", cause or "came to its end")
         self._publish_clock()
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
-            for recorder in (self._pictures, self._video):
-                if recorder is not None:
-                    stack.callback(recorder.close)
+            stack.callback(self._vision.finish)
             self._radio.close()
             for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
                 self._latency_log.step(step)
@@ -679,6 +353,19 @@ class Simulation:
         every(SECOND_NS, self._log.flush, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
         director.at(seconds_to_ns(self._scenario.duration_s), director.stop, Priority.OBSERVE)
+
+    def _schedule_recorded(self, recorded: Recorded) -> None:
+        """Let what came from other processes in an earlier run come at its time."""
+        if recorded.end_ns is not None:
+            self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
+        for message in recorded.foreign:
+            self._director.at(
+                message.t_ns,
+                partial(self._foreign, message.key, message.data),
+                Priority.SCRIPT,
+            )
+        for name, loss in recorded.losses.items():
+            self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
     def _end_if_due(self) -> None:
         now_ns = self._director.now_ns
@@ -810,35 +497,10 @@ class Simulation:
 
     # --- sensors ----------------------------------------------------------------------------
 
-    def _mount_cameras(self, studio: RemoteStudio) -> CameraRig:
-        from airhilt.cameras.rig import CameraRig
-
-        return CameraRig(
-            self._director,
-            studio,
-            self._scenario.cameras,
-            self._setting,
-            self._cast,
-            state_at_ns=lambda: self._ticked_ns,
-            publish=self._exchange.publish,
-            lost=self._lose_cameras,
-        )
-
-    def _keep_pictures(self) -> KeyPictures:
-        pair = self._pair
-        pictures = KeyPictures(
-            self._folder.pictures_path, pair or tuple(self._cast), self._closest_approach_ns
-        )
-        self._exchange.observe(pictures.take)
-        return pictures
-
     def _closest_approach_ns(self) -> int | None:
         """Return when the annotated pair was nearest up to now."""
         truth = None if self._pair is None else self._monitor.pairs.get(self._pair)
         return None if truth is None or truth.closest is None else truth.closest.t_ns
-
-    def _lose_cameras(self, cause: str) -> None:
-        self._go_on_without("vision", "cameras_lost", "cameras", cause)
 
     def _publish_report(self, report: AdsbReport) -> None:
         self._exchange.publish(f"adsb/{report.icao24}", report)
@@ -928,22 +590,6 @@ class Simulation:
         else:
             self._pool.servers[name].lose(cause)
 
-    def schedule(self, recorded: Recorded) -> None:
-        """Let what came from other processes in an earlier run come at its time."""
-        if recorded.end_ns is not None:
-            self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
-        for message in recorded.foreign:
-            self._director.at(
-                message.t_ns,
-                partial(self._foreign, message.key, message.data),
-                Priority.SCRIPT,
-            )
-        if recorded.cameras_lost is not None and self._rig is not None:
-            t_ns, cause = recorded.cameras_lost
-            self._director.at(t_ns, partial(self._rig.lose, cause), Priority.SENSOR)
-        for name, loss in recorded.losses.items():
-            self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
-
     def _hear_unregistered(self, key: str, data: bytes) -> None:
         """Take in a message that no grant asked for; such a program needs real time."""
         if isinstance(self._director.pace, Virtual):
@@ -993,11 +639,7 @@ class Simulation:
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
         self._set_modality("speech", "on" if self._team.does("speech") else "off")
         self._set_modality("voice", "on" if self._team.does("voice") else "off")
-        if self._blindness:
-            self._set_modality("vision", "not evaluated", self._blindness)
-        else:
-            is_seen = self._rig is not None and self._team.does("vision")
-            self._set_modality("vision", "on" if is_seen else "off")
+        self._set_modality("vision", *self._vision.state)
         self._set_modality("decision", "on" if self._has_decision else "off")
 
     def _set_modality(self, modality: Modality, state: ModalityState, cause: str = "") -> None:

@@ -187,12 +187,16 @@ class CameraView(BaseModel):
     of the picture, (width_px / 2, height_px / 2). Turned first to the heading, from true north,
     then up by the pitch, then clockwise about its axis by the roll. All of it is exact: navigation
     has no errors here.
+
+    The ground of a run is level: `height_m` is the altitude above mean sea level less that of the
+    ground, which is the airport's elevation, or the `terrain_elevation_ft` of a scene en route. It
+    is neither an ellipsoidal height nor one above the charted end of a runway.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     latitude_deg: float = Field(ge=-90.0, le=90.0)
     longitude_deg: float = Field(ge=-180.0, le=180.0)
-    height_m: float = Field(description="above the ground of the scene")
+    height_m: float = Field(description="above the level ground of the run")
     heading_deg: float = Field(ge=0.0, lt=360.0)
     pitch_deg: float = Field(ge=-90.0, le=90.0)
     roll_deg: float = Field(ge=-180.0, le=180.0)

@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from airhilt.bus.exchange import FOREIGN
 from airhilt.cameras import RENDERER, RENDERERS, RendererName
-from airhilt.cosim import Foreign, Observer, Options, Recorded, run
+from airhilt.cosim import Observer, run
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.messages import (
     WORKER_OUTPUTS,
@@ -26,6 +26,7 @@ from airhilt.messages import (
     Transmission,
     WorkerDescription,
 )
+from airhilt.options import Foreign, Options, Recorded
 from airhilt.radio.bus import OnAir
 from airhilt.radio.speech import Reception
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.cosim import Options, run
+from airhilt.cosim import run
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.messages import (
     ActorTruth,
@@ -29,6 +29,7 @@ from airhilt.messages import (
 from airhilt.metrics import report
 from airhilt.metrics.lanes import Spells
 from airhilt.metrics.report import write_report
+from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS

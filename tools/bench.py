@@ -70,7 +70,7 @@ def headon() -> dict[str, float]:
     """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
     from airhilt import load, run
     from airhilt.actors import build_cast
-    from airhilt.cosim import TICK_S
+    from airhilt.preparation import TICK_S
     from airhilt.scenario import realise
     from airhilt.scenario.geometry import Setting
 
@@ -298,7 +298,8 @@ def phraseology() -> dict[str, float]:
 FIRST_SECOND = """
 import sys, time
 from pathlib import Path
-from airhilt.cosim import Observer, Options, run
+from airhilt.cosim import Observer, run
+from airhilt.options import Options
 from airhilt.scenario import load
 class First(Observer):
     def snapshot(self, snapshot):

@@ -163,7 +163,7 @@ def state_of(
         Since the control tick that its state is of: it has moved straight on since, and has the
         attitude that it had then.
 
-    The scene is flat: heights are those above the ground's ellipsoid, wherever that is. Between
+    The scene is flat: heights are altitudes less that of the ground, wherever that is. Between
     two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
     """
     state = carried_on(performer.body.state, elapsed_s)

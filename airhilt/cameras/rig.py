@@ -115,7 +115,6 @@ class CameraRig:
         }
         self._taken = dict.fromkeys(self._cameras, 0)
         self._sha256: dict[str, str] = {}
-        self._is_lost = False
 
     def start(self) -> None:
         """Tell what never changes about each camera, and schedule the first exposures."""
@@ -136,12 +135,6 @@ class CameraRig:
             )
         self._schedule()
 
-    def lose(self, cause: str) -> None:
-        """Give the cameras up: no more pictures are taken."""
-        if not self._is_lost:
-            self._is_lost = True
-            self._lost(cause)
-
     def _schedule(self) -> None:
         due_ns = min(self._due_ns(name) for name in self._cameras)
         self._director.at(due_ns, self._expose, Priority.SENSOR)
@@ -152,14 +145,12 @@ class CameraRig:
     def _expose(self) -> None:
         """Take the pictures of all cameras that are due now."""
         now_ns = self._director.now_ns
-        if self._is_lost:
-            return
         due = [name for name in self._cameras if self._due_ns(name) == now_ns]
         able = [name for name in due if not self._has_ended(self._cameras[name])]
         try:
             frames = self._photographer.shoot(able, self._bodies(), now_ns) if able else []
         except (CameraError, RendererError) as error:
-            self.lose(str(error))
+            self._lost(str(error))
             return
         for frame in frames:
             self._give_out(frame, self._taken[frame.camera])

@@ -16,12 +16,11 @@ import numpy.typing as npt
 
 from airhilt.cameras.mesh import Floats
 from airhilt.errors import CameraError
+from airhilt.lenses import GREATEST_SIDE_PX, NARROWEST_DEG, SMALLEST_SIDE_PX, WIDEST_DEG
 
 Matrix = npt.NDArray[np.float64]
 NEAR_M = 0.3
 """Nothing nearer is drawn."""
-GREATEST_SIDE_PX = 4096
-SMALLEST_SIDE_PX = 16
 LARGEST_MB = 8 * GREATEST_SIDE_PX**2 // 10**6
 """Colour, instance and distance of the largest picture."""
 
@@ -47,10 +46,11 @@ class Intrinsics:
                     f"{name} is {side}; expected {SMALLEST_SIDE_PX} to {GREATEST_SIDE_PX} pixels "
                     f"(a picture of the largest takes {LARGEST_MB} MB)"
                 )
-        if not math.radians(0.1) <= self.horizontal_fov_rad <= math.radians(170.0):
+        fov_rad = self.horizontal_fov_rad
+        if not math.radians(NARROWEST_DEG) <= fov_rad <= math.radians(WIDEST_DEG):
             raise CameraError(
-                f"the horizontal field of view is {math.degrees(self.horizontal_fov_rad):g} "
-                "degrees; expected 0.1 to 170"
+                f"the horizontal field of view is {math.degrees(fov_rad):g} degrees; expected "
+                f"{NARROWEST_DEG:g} to {WIDEST_DEG:g}"
             )
 
     @property

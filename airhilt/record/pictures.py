@@ -133,11 +133,17 @@ class KeyPictures:
         The pair of the conflict, or everybody.
     closest_ns
         Returns when the pair was nearest up to now; None if there is no pair.
+
+    Raises
+    ------
+    RendererError
+        As `require_pillow`.
     """
 
     def __init__(
-        self, folder: Path, actors: Collection[str], closest_ns: Callable[[], int | None]
+        self, folder: Path, *, actors: Collection[str], closest_ns: Callable[[], int | None]
     ) -> None:
+        require_pillow()
         self._folder = folder
         self._actors = frozenset(actors)
         self._closest_ns = closest_ns

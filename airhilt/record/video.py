@@ -93,6 +93,8 @@ class VideoRecorder:
 
     Parameters
     ----------
+    folder
+        Where to write; made with the first picture.
     notice
         Called with what a user is to know: of which camera there is no more video, and why.
 
@@ -102,7 +104,7 @@ class VideoRecorder:
         As `require_video`.
     """
 
-    def __init__(self, folder: Path, notice: Callable[[str], None]) -> None:
+    def __init__(self, folder: Path, *, notice: Callable[[str], None]) -> None:
         require_video()
         self._folder = folder
         self._notice = notice
@@ -115,7 +117,7 @@ class VideoRecorder:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
-        """Take in a published message.
+        """Take in a published message; truth is left aside.
 
         Raises
         ------

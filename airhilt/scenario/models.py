@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from airhilt.commands import AircraftCommand, Command, VehicleCommand, WildlifeCommand
+from airhilt.lenses import FieldOfView, SidePx
 from airhilt.positions import (
     Bearing,
     GeodeticPosition,
@@ -314,9 +315,9 @@ class Camera(_Model):
 
     name: CameraName
     mount: Annotated[FixedMount | ActorMount, Field(discriminator="type")]
-    horizontal_fov_deg: float = Field(default=60.0, ge=0.1, le=170.0)
-    width_px: int = Field(default=640, ge=16, le=4096)
-    height_px: int = Field(default=360, ge=16, le=4096)
+    horizontal_fov_deg: FieldOfView = 60.0
+    width_px: SidePx = 640
+    height_px: SidePx = 360
     rate_hz: float = Field(default=16.0, ge=1.0, le=30.0)
     phase_s: float = Field(
         default=0.0, ge=0.0, lt=1.0, description="end of its first exposure after the start"

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.lenses import FieldOfView
 from airhilt.positions import Bearing, Latitude, Longitude, RunwayIdent, TaxiwayName
 from airhilt.surface.runway import Place
 from airhilt.units import DEGREE
@@ -170,7 +171,7 @@ class Camera(_Located):
     height_m: float = Field(gt=0.0, description="above the ground")
     azimuth_deg: Bearing
     elevation_deg: float = Field(ge=-90.0, le=90.0, description="negative looks down")
-    horizontal_fov_deg: float = Field(gt=0.0, lt=180.0)
+    horizontal_fov_deg: FieldOfView
 
 
 class Airport(_Section):

@@ -17,9 +17,9 @@ from devtools import BROWSERS, Page, browser_page
 
 from airhilt import cosim
 from airhilt.cameras import RendererName
-from airhilt.cosim import Options
 from airhilt.errors import RendererError
 from airhilt.metrics.report import write_report
+from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
 

@@ -14,8 +14,9 @@ from pydantic import TypeAdapter
 
 from airhilt import load
 from airhilt.commands import Command
-from airhilt.cosim import Options, run
+from airhilt.cosim import run
 from airhilt.metrics.report import write_report
+from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
 

@@ -12,6 +12,7 @@ from airhilt.cameras.view import Intrinsics
 from airhilt.errors import ScenarioError
 from airhilt.scenario import Scenario, parse
 from airhilt.scenario.models import Camera
+from airhilt.surface.airport import Camera as AirportCamera
 
 
 def with_cameras(*changes: dict[str, object]) -> Scenario:
@@ -28,6 +29,12 @@ def test_whatever_lens_a_scenario_may_declare_can_be_drawn(field: str, end: str)
     (camera,) = with_cameras({field: limit}).cameras
     fov_rad = math.radians(camera.horizontal_fov_deg)
     assert Intrinsics(camera.width_px, camera.height_px, fov_rad)
+
+
+@pytest.mark.parametrize("end", ["minimum", "maximum"])
+def test_an_airport_may_declare_the_same_lenses_as_a_scenario(end: str) -> None:
+    declared = [model.model_json_schema()["properties"] for model in (Camera, AirportCamera)]
+    assert len({each["horizontal_fov_deg"][end] for each in declared}) == 1
 
 
 @pytest.mark.parametrize("fov_deg", [0.01, 179.9])

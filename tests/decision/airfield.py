@@ -270,10 +270,11 @@ class Airfield:
     worker: DecisionWorker = field(default_factory=DecisionWorker)
     told: list[tuple[float, Advisory]] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
+    briefing: Briefing = BRIEFING
 
     def run(self, seconds: float) -> Airfield:
         station = Receiver("field", State(*FIELD.origin, 20.0), 1e6, ground_m=ELEVATION_M)
-        self._step(0, [Input("briefing", 0, BRIEFING.model_dump_json().encode())])
+        self._step(0, [Input("briefing", 0, self.briefing.model_dump_json().encode())])
         for step in range(round(2 * seconds)):
             t_ns = step * HALF_SECOND_NS
             inputs = [

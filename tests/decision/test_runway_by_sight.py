@@ -3,7 +3,18 @@
 from dataclasses import replace
 
 import pytest
-from airfield import FIELD, NORTH, SOUTH, Airfield, Mover, drives, lands, stands, takes_off
+from airfield import (
+    BRIEFING,
+    FIELD,
+    NORTH,
+    SOUTH,
+    Airfield,
+    Mover,
+    drives,
+    lands,
+    stands,
+    takes_off,
+)
 from projected import AIRLINER, DEER, FLOCK, TRUCK, Body, Camera, standing, still
 
 from airhilt.messages import Severity
@@ -281,6 +292,17 @@ def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped):
 )
 def test_one_that_does_not_is_left_alone(bird):
     assert look_at(arrival(), cameras=approach_cameras(bird)).told == []
+
+
+def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway():
+    """By the runway's elevation the arrival would be 127 m higher than it is."""
+    airport = BRIEFING.airport
+    lower = [each.model_copy(update={"elevation_ft": -400.0}) for each in airport.runways]
+    field = Airfield([arrival()], cameras=approach_cameras(flock(lambda _: 0.0, lambda _: 230.0)))
+    field.briefing = BRIEFING.model_copy(
+        update={"airport": airport.model_copy(update={"runways": tuple(lower)})}
+    )
+    assert field.run(LANDS_S - 5.0).told == []
 
 
 def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_caution():

@@ -30,7 +30,9 @@ class Run:
         self.closest: int | None = None
         """Number of the picture at which the pair was nearest up to now."""
         self.pictures = KeyPictures(
-            self.folder, actors, lambda: None if self.closest is None else time_ns(self.closest)
+            self.folder,
+            actors=actors,
+            closest_ns=lambda: None if self.closest is None else time_ns(self.closest),
         )
         self.take(vision("on"))
 

@@ -35,7 +35,7 @@ class Film:
         self.folder = folder / "video"
         self.size = size
         self.told: list[str] = []
-        self.recorder = VideoRecorder(self.folder, self.told.append)
+        self.recorder = VideoRecorder(self.folder, notice=self.told.append)
         self.take(vision("on"))
         for camera in cameras or ("tower",):
             self.take(info(camera, size))

@@ -12,7 +12,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 from oracle import BlankStudio, Oracle
 
-from airhilt import cosim, load
+from airhilt import cosim, load, team, vision
+from airhilt.options import Options
 from airhilt.scenario import Scenario
 
 
@@ -32,7 +33,7 @@ def camera_run(
 ) -> cosim.Result:
     """Run it with an oracle that looks; what it finds is true, with errors."""
     oracle = Oracle(None, 0, 8.0)
-    reference = cosim.reference_workers
+    reference = team.reference_workers
 
     def open_studio(realised: Scenario, renderer: str) -> BlankStudio:
         oracle._studio = BlankStudio(realised)
@@ -42,7 +43,7 @@ def camera_run(
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, oracle] if assistant != "none" else others
 
-    patch.setattr(cosim, "_open_studio", open_studio)
-    patch.setattr(cosim, "reference_workers", workers)
-    given = cosim.Options(**{"latency": "fixed", "speech": False, "out": out} | options)
+    patch.setattr(vision, "_open_studio", open_studio)
+    patch.setattr(team, "reference_workers", workers)
+    given = Options(**{"latency": "fixed", "speech": False, "out": out} | options)
     return cosim.run(scenario or passing(), given)

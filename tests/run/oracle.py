@@ -14,7 +14,7 @@ from types import TracebackType
 import numpy as np
 import pytest
 
-from airhilt import cosim, load
+from airhilt import cosim, load, team, vision
 from airhilt.cameras.bodies import BodyState, model_of
 from airhilt.cameras.masks import Mask
 from airhilt.cameras.mounts import Mount, cameras_of
@@ -29,6 +29,7 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.metrics.summary import Summary
+from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
 from airhilt.sim.worker import Input, Output
@@ -161,14 +162,14 @@ def watched(
         made[0]._studio = studio
         return studio
 
-    reference = cosim.reference_workers
+    reference = team.reference_workers
 
     def workers(assistant, radio, taken, engines):
         made.append(Oracle(None, seed, smallest_px))
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 
-    patch.setattr(cosim, "_open_studio", open_studio)
-    patch.setattr(cosim, "reference_workers", workers)
-    options = cosim.Options(seed=seed, out=out, latency="fixed")
+    patch.setattr(vision, "_open_studio", open_studio)
+    patch.setattr(team, "reference_workers", workers)
+    options = Options(seed=seed, out=out, latency="fixed")
     return cosim.run(scenario or load(name), options).summary, made[0]

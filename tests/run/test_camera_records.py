@@ -6,18 +6,22 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from camera_run import camera_run, passing
+from oracle import BlankStudio
 
-from airhilt import cosim
-from airhilt.cosim import Observer, Options, Result, Snapshot, run
-from airhilt.errors import AirhiltError, RunFolderError, VideoError
+from airhilt.cameras.studio import Frame
+from airhilt.cosim import Result, run
+from airhilt.errors import AirhiltError, RendererError, RunFolderError, VideoError
+from airhilt.options import Options
 from airhilt.progress import print_summary
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName
 from airhilt.replay import replay
 from airhilt.scenario import Scenario
+from airhilt.units import SECOND_NS
 
 pytest.importorskip("PIL")
 FULL = Path("/dev/full")
@@ -190,21 +194,34 @@ def full(*_: object, **__: object) -> None:
 def test_vision_that_is_lost_leaves_the_numbers_of_before(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    class Breaks(Observer):
-        def snapshot(self, snapshot: Snapshot) -> None:
-            if snapshot.t_s >= 5.0:
-                simulations[0]._rig.lose("the renderer has died")
-
-    simulations: list[cosim.Simulation] = []
-    make = cosim.Simulation.__init__
-
-    def making(self: cosim.Simulation, *given: object) -> None:
-        make(self, *given)
-        simulations.append(self)
-
-    monkeypatch.setattr(cosim.Simulation, "__init__", making)
-    monkeypatch.setattr(cosim, "run", lambda scenario, options: run(scenario, options, Breaks()))
+    dying(monkeypatch, 5.0)
     vision = camera_run(tmp_path / "run", monkeypatch).summary.vision
     assert (vision.state, vision.cause) == ("lost", "the renderer has died")
-    assert 36 <= vision.taken <= 44
+    assert vision.taken == 2 * 20
     assert vision.recall is not None
+
+
+def test_cameras_are_lost_in_a_replay_at_the_very_moment_at_which_they_were(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("av")
+    cameras = [camera.model_copy(update={"rate_hz": 8.0}) for camera in passing().cameras]
+    short = passing().model_copy(update={"duration_s": 2.0, "cameras": tuple(cameras)})
+    with monkeypatch.context() as patch:
+        dying(patch, 1.0)  # There is much else in the log of that instant, before and after.
+        result = camera_run(tmp_path / "run", monkeypatch, short, video=True, assistant="none")
+    assert result.summary.vision.state == "lost"
+    verdict = replay(result.folder)
+    assert verdict.identical, verdict.difference
+
+
+def dying(patch: pytest.MonkeyPatch, at_s: float) -> None:
+    """Let the renderer die at a time."""
+    shoot = BlankStudio.shoot
+
+    def shooting(self: BlankStudio, names: Any, bodies: Any, t_ns: int) -> list[Frame]:
+        if t_ns >= at_s * SECOND_NS:
+            raise RendererError("the renderer has died")
+        return shoot(self, names, bodies, t_ns)
+
+    patch.setattr(BlankStudio, "shoot", shooting)

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import cosim, load
+from airhilt import load, vision
 from airhilt.cameras import RendererName
-from airhilt.cosim import Observer, Options, Snapshot, run
+from airhilt.cosim import Observer, Snapshot, run
 from airhilt.errors import AirhiltError, RendererError, RunStopped
 from airhilt.messages import CameraFrame, Detections, Status
+from airhilt.options import Options
 from airhilt.record import Logged, read_log
 from airhilt.replay import replay
 from airhilt.scenario import Scenario
@@ -99,7 +100,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = []
-    open_studio = cosim._open_studio
+    open_studio = vision._open_studio
 
     def opening(scenario: Scenario, renderer: RendererName) -> object:
         opened.append(open_studio(scenario, renderer))
@@ -111,7 +112,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
                 os.kill(opened[0].process_id, signal.SIGKILL)
                 opened[0]._process.wait()
 
-    monkeypatch.setattr(cosim, "_open_studio", opening)
+    monkeypatch.setattr(vision, "_open_studio", opening)
     result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), Killer())
     monkeypatch.undo()
     assert result.summary.outcome == "finished"
@@ -125,7 +126,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
 def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cosim, "_open_studio", missing)
+    monkeypatch.setattr(vision, "_open_studio", missing)
     notices = Notices()
     result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), notices)
     log = list(read_log(tmp_path / "run" / "log.mcap"))
@@ -155,7 +156,7 @@ def missing(*_: object) -> None:
 def test_without_a_renderer_a_strict_run_does_not_begin(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cosim, "_open_studio", missing)
+    monkeypatch.setattr(vision, "_open_studio", missing)
     options = dataclasses.replace(SEEN, strict=True, out=tmp_path / "run")
     with pytest.raises(RunStopped, match="--no-cameras"):
         run(short, options)
@@ -166,7 +167,7 @@ def test_without_a_renderer_a_strict_run_does_not_begin(
 def test_no_picture_is_drawn_that_nobody_looks_at(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict[str, object]
 ) -> None:
-    monkeypatch.setattr(cosim, "_open_studio", missing)
+    monkeypatch.setattr(vision, "_open_studio", missing)
     log = log_of(short, tmp_path / "run", **changes)
     assert states_of_vision(log) == [("off", "")]
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from airhilt import load
-from airhilt.cosim import Observer, Options, Snapshot, run
+from airhilt.cosim import Observer, Snapshot, run
 from airhilt.messages import HearingTruth, SpokenTruth, Status, Transcript, Transmission
+from airhilt.options import Options
 from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
 from airhilt.radio.voices.wav import read_wav
 from airhilt.record import RunFolder, read_log

@@ -181,9 +181,16 @@ def way_through(core: Polygon, point: Vector, heading_rad: float) -> Way | None:
 
 
 class Aerodrome:
-    """The runways of an airport in a local frame."""
+    """The runways of an airport in a local frame.
+
+    Attributes
+    ----------
+    ground_m
+        Altitude of the ground above which cameras give heights.
+    """
 
     def __init__(self, airport: AirportBriefing) -> None:
+        self.ground_m = airport.elevation_ft * FOOT
         self._frame = LocalFrame(_centre(airport))
         self.strips = tuple(self._strips(airport))
         self._by_ident = {

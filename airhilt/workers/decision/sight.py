@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.cameras.view import attitude
+from airhilt.boxes import centre
 from airhilt.messages import Box, CameraView
+from airhilt.pinhole import Pinhole
 from airhilt.units import DEGREE
 from airhilt.workers.decision.aerodrome import Vector
 
@@ -77,37 +78,30 @@ class Eye:
 
     def __init__(self, view: CameraView) -> None:
         self.view = view
-        self.focal_px = view.width_px / 2.0 / math.tan(view.horizontal_fov_deg * DEGREE / 2.0)
+        self._lens = Pinhole(view)
+        self.focal_px = self._lens.focal_px
         self.error_rad = BOX_ERROR_PX / self.focal_px
 
     @cached_property
     def _axes(self) -> tuple[Ray, Ray, Ray]:
-        """Its right, ahead and up in the world."""
-        view = self.view
-        turned = attitude(
-            view.heading_deg * DEGREE, view.pitch_deg * DEGREE, view.roll_deg * DEGREE
-        )
-        right, ahead, up = (Ray(*(float(part) for part in axis)) for axis in turned.T)
-        return right, ahead, up
+        """Its right, down and ahead in the world."""
+        right, down, ahead = (Ray(*axis) for axis in self._lens.axes.T.tolist())
+        return right, down, ahead
 
     def ray(self, x_px: float, y_px: float) -> Ray:
         """Return the direction towards a place in the picture."""
-        x = (x_px - self.view.width_px / 2.0) / self.focal_px
-        y = (y_px - self.view.height_px / 2.0) / self.focal_px
-        right, ahead, up = self._axes
-        return Ray.towards(*(a + x * r - y * u for r, a, u in zip(right, ahead, up, strict=True)))
+        x, y, _ = self._lens.direction(x_px, y_px)
+        right, down, ahead = self._axes
+        return Ray.towards(*(a + x * r + y * d for r, d, a in zip(right, down, ahead, strict=True)))
 
     def pixel(self, ray: Ray) -> tuple[float, float] | None:
         """Return where a direction is in the picture, or beyond its edges; None if behind."""
-        x, ahead, y = (sum(a * b for a, b in zip(axis, ray, strict=True)) for axis in self._axes)
-        if ahead <= 1e-3:
-            return None
-        scale = self.focal_px / ahead
-        return self.view.width_px / 2.0 + x * scale, self.view.height_px / 2.0 - y * scale
+        x, y, z = (sum(a * b for a, b in zip(axis, ray, strict=True)) for axis in self._axes)
+        return self._lens.pixel(x, y, z)
 
     def middle(self, box: Box) -> Ray:
         """Return the direction towards the middle of a box."""
-        return self.ray((box[0] + box[2]) / 2.0, (box[1] + box[3]) / 2.0)
+        return self.ray(*centre(box))
 
     def foot(self, box: Box) -> Ray:
         """Return the direction towards the middle of the lower side of a box."""
@@ -121,8 +115,7 @@ class Eye:
 
     def angular_size(self, box: Box) -> tuple[float, float]:
         """Return how wide and how high a box is, in radians."""
-        x = (box[0] + box[2] - self.view.width_px) / 2.0 / self.focal_px
-        y = (box[1] + box[3] - self.view.height_px) / 2.0 / self.focal_px
+        x, y, _ = self._lens.direction(*centre(box))
         shrunk = 1.0 / (1.0 + x * x + y * y) / self.focal_px
         return (box[2] - box[0]) * shrunk, (box[3] - box[1]) * shrunk
 

@@ -34,34 +34,41 @@ SURE_CHANCE = 0.8
 ACCURATE_NACP = 11
 
 
-class Seen(NamedTuple):
-    """What only cameras show of an obstacle.
-
-    Attributes
-    ----------
-    weight
-        How sure it is that it is there, and in the protected area.
-    is_sure
-        Whether both are beyond doubt.
-    """
-
-    thing: SeenOnGround
-    weight: float
-    is_sure: bool
-
-
 class Obstacle(NamedTuple):
-    """Somebody on the ground whose way straight on leads through a protected area."""
+    """Somebody on the ground, by ADS-B, whose way straight on leads through a protected area."""
 
     mobile: Mobile
     way: Way
-    seen: Seen | None = None
-    """None: it is known by ADS-B."""
 
     @property
     def is_inside(self) -> bool:
         """Whether it is in the area now."""
         return self.way.entry_m <= 0.0
+
+
+class SeenObstacle(NamedTuple):
+    """Something in a protected area that only cameras show.
+
+    Attributes
+    ----------
+    exit_m
+        How far it is, straight on, to where it leaves the area.
+    weight
+        How sure it is that it is there, and in the area.
+    is_sure
+        Whether both are beyond doubt.
+    """
+
+    thing: SeenOnGround
+    speed_m_s: float
+    exit_m: float
+    weight: float
+    is_sure: bool
+
+    @property
+    def clear_s(self) -> float | None:
+        """When it will have left the area; None if it stands."""
+        return self.exit_m / self.speed_m_s if self.speed_m_s >= STANDING_M_S else None
 
 
 class Situation:
@@ -82,7 +89,7 @@ class Situation:
         self._wildlife_ns: dict[str, int] = {}
         """When it was last reported, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
-        self._seen: dict[str, list[Obstacle]] = {}
+        self._seen: dict[str, list[SeenObstacle]] = {}
         """By runway."""
 
     def is_vehicle(self, callsign: str) -> bool:
@@ -100,6 +107,9 @@ class Situation:
     def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
         """Yield who is on a runway, or has it straight ahead."""
         yield from self._obstacles[strip.name].values()
+
+    def seen(self, strip: Strip) -> Iterator[SeenObstacle]:
+        """Yield what only cameras show on a runway."""
         yield from self._seen.get(strip.name, ())
 
     def look(self, lookout: Lookout) -> None:
@@ -115,31 +125,23 @@ class Situation:
             for strip in self.aerodrome.strips
         }
 
-    def _seen_on(self, strip: Strip, thing: SeenOnGround) -> Obstacle | None:
+    def _seen_on(self, strip: Strip, thing: SeenOnGround) -> SeenObstacle | None:
         """Return something that cameras show as an obstacle, None if it is not on a runway."""
         chance = thing.spot.chance(strip.share_inside)
         if chance < LEAST_CHANCE:
             return None
         # Nobody knows where an animal will go: it stands.
         east, north = (0.0, 0.0) if thing.is_animal else velocity_of(thing, self.aerodrome)
-        speed, heading = math.hypot(east, north), math.atan2(east, north)
-        mobile = Mobile(
-            icao24="",
-            callsign=thing.label,
-            t_ns=thing.t_ns,
-            point=thing.spot.point,
-            altitude_m=None,
-            speed_m_s=speed,
-            heading_rad=heading,
-            vertical_rate_m_s=0.0,
-            nacp=ACCURATE_NACP,
-            is_vehicle=thing.label != "airplane",
-            slow_speed_m_s=speed,
+        ahead = way_through(
+            strip.core(ACCURATE_NACP), thing.spot.point, heading_rad=math.atan2(east, north)
         )
-        ahead = way_through(strip.core(ACCURATE_NACP), thing.spot.point, heading)
-        way = Way(0.0, 0.0 if ahead is None else ahead.exit_m)
-        is_sure = thing.is_established and chance >= SURE_CHANCE
-        return Obstacle(mobile, way, Seen(thing, thing.belief * chance, is_sure))
+        return SeenObstacle(
+            thing,
+            speed_m_s=math.hypot(east, north),
+            exit_m=0.0 if ahead is None else ahead.exit_m,
+            weight=thing.belief * chance,
+            is_sure=thing.is_established and chance >= SURE_CHANCE,
+        )
 
     def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
         """Return whether wildlife was reported on a runway a short while ago."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from airhilt.messages import Severity
@@ -31,7 +31,7 @@ from airhilt.workers.decision.mobiles import (
 )
 from airhilt.workers.decision.occupancy import SeenAloft
 from airhilt.workers.decision.sight import Fix
-from airhilt.workers.decision.situation import Obstacle, Seen, Situation
+from airhilt.workers.decision.situation import Obstacle, SeenObstacle, Situation
 
 PAPER_TIME_TO_GO_S = 8.0
 """The time to go in step (b) of the AIRHILT paper's ladder (arXiv 2511.18718)."""
@@ -142,6 +142,8 @@ class Assessment:
         for use in uses:
             for obstacle in self._situation.obstacles(use.strip):
                 yield from self._in_way(use, obstacle)
+            for seen in self._situation.seen(use.strip):
+                yield from self._seen_in_way(use, seen)
             yield from self._unseen(use)
             yield from self._wildlife(use)
             for thing in self._situation.aloft:
@@ -160,20 +162,13 @@ class Assessment:
     def _in_way(self, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
         """Yield that somebody is on a runway before its user, or about to enter it."""
         other = obstacle.mobile
-        along_m = use.direction.along_m(other.point)
-        if other is use.mobile or use.is_climbing or along_m < use.along_m - BEHIND_M:
-            return
         enters = not obstacle.is_inside
-        if enters and not self._enters(obstacle, use.strip):
+        coming = None if other is use.mobile else self._coming(use, other.point)
+        if coming is None or (enters and not self._enters(obstacle, use.strip)):
             return
-        time_to_go_s = self._time_to_go_s(use, along_m)
-        severity = self._urgency(use, time_to_go_s)
-        if severity is None:
-            return
-        if obstacle.seen is not None:
-            yield from self._seen_in_way(use, obstacle, obstacle.seen, severity, time_to_go_s)
-            return
-        if self._is_harmless(obstacle, use, severity, time_to_go_s):
+        severity, time_to_go_s = coming
+        clear_s, is_allowed = self._clear_s(obstacle, use), self._is_allowed(other, use.strip)
+        if self._is_harmless(clear_s, is_allowed, severity, time_to_go_s):
             severity = Severity.INFO
         if enters and severity is Severity.WARNING:
             severity = Severity.CAUTION
@@ -186,18 +181,24 @@ class Assessment:
             time_to_go_s,
         )
 
-    def _seen_in_way(
-        self, use: Use, obstacle: Obstacle, seen: Seen, severity: Severity, time_to_go_s: float
-    ) -> Iterator[Threat]:
+    def _seen_in_way(self, use: Use, seen: SeenObstacle) -> Iterator[Threat]:
         """Yield that cameras show something on a runway before its user.
 
         While it is not sure yet, it is one hint among others.
         """
         runway, thing = use.direction.ident, seen.thing
-        callsign = self._sent_there(use.strip, thing.label == "truck")
-        if not thing.is_animal and callsign is not None:
-            obstacle = obstacle._replace(mobile=replace(obstacle.mobile, callsign=callsign))
-        if seen.is_sure and self._is_harmless(obstacle, use, severity, time_to_go_s):
+        coming = self._coming(use, thing.spot.point)
+        if coming is None:
+            return
+        severity, time_to_go_s = coming
+        callsign = None
+        if not thing.is_animal:
+            callsign = self._sent_there(use.strip, thing.label == "truck")
+        cleared_to = self._cleared_to(callsign, use.strip)
+        clear_s = None if "proceed" in cleared_to else seen.clear_s
+        if seen.is_sure and self._is_harmless(
+            clear_s, "cross" in cleared_to, severity, time_to_go_s
+        ):
             severity = Severity.INFO
         elif not seen.is_sure:
             reported = self._situation.has_wildlife(use.strip, self._t_ns)
@@ -227,13 +228,24 @@ class Assessment:
         }
         return names.pop() if len(names) == 1 else None
 
+    def _coming(self, use: Use, point: Vector) -> tuple[Severity, float] | None:
+        """Return how severe it is that a runway's user comes to a place, and its time to go.
+
+        None if it does not, or not soon.
+        """
+        along_m = use.direction.along_m(point)
+        if use.is_climbing or along_m < use.along_m - BEHIND_M:
+            return None
+        time_to_go_s = self._time_to_go_s(use, along_m)
+        severity = self._urgency(use, time_to_go_s)
+        return None if severity is None else (severity, time_to_go_s)
+
     def _is_harmless(
-        self, obstacle: Obstacle, use: Use, severity: Severity, time_to_go_s: float
+        self, clear_s: float | None, is_allowed: bool, severity: Severity, time_to_go_s: float
     ) -> bool:
-        """Return whether somebody leaves in time, and may do so as late."""
-        if not self._leaves_before(obstacle, use, time_to_go_s):
+        """Return whether what is on a runway leaves it in time, and may do so as late."""
+        if clear_s is None or clear_s + self._config.leaving_margin_s > time_to_go_s:
             return False
-        is_allowed = self._is_allowed(obstacle.mobile, use.strip)
         is_late = time_to_go_s <= self._config.late_s
         return (is_allowed and not is_late) or severity is Severity.CAUTION
 
@@ -273,19 +285,14 @@ class Assessment:
         braking_m = mobile.speed_m_s**2 / (2.0 * HARD_BRAKING_M_S2)
         return mobile.speed_m_s > LEAST_ENTRY_M_S and to_line_m + error_m <= braking_m
 
-    def _leaves_before(self, obstacle: Obstacle, use: Use, time_to_go_s: float) -> bool:
-        """Return whether somebody is off the runway, or in the air, before its user comes."""
-        clear_s = self._clear_s(obstacle, use)
-        return clear_s is not None and clear_s + self._config.leaving_margin_s <= time_to_go_s
-
     def _clear_s(self, obstacle: Obstacle, use: Use) -> float | None:
-        """Return when somebody will have left the runway, None if it does not look like it."""
+        """Return when somebody will be off the runway, or in the air; None if it will not."""
         mobile, speed = obstacle.mobile, obstacle.mobile.speed_m_s
         own = self._situation.use(mobile)
         if own is not None and own.kind == "departure" and own.strip is use.strip:
             follows = own.direction is use.direction
             return max(LIFT_OFF_M_S - speed, 0.0) / TAKEOFF_M_S2 if follows else None
-        if speed < STANDING_M_S or "proceed" in self._cleared_to(mobile, use.strip):
+        if speed < STANDING_M_S or "proceed" in self._cleared_to(mobile.callsign, use.strip):
             return None
         straight_s = obstacle.way.exit_m / speed
         if not mobile.landed:
@@ -297,11 +304,11 @@ class Assessment:
         return (
             mobile.landed
             or self._situation.use(mobile) is not None
-            or "cross" in self._cleared_to(mobile, strip)
+            or "cross" in self._cleared_to(mobile.callsign, strip)
         )
 
-    def _cleared_to(self, mobile: Mobile, strip: Strip) -> set[Action]:
-        return {c.action for c in self._cleared_on(strip) if c.callsign == mobile.callsign}
+    def _cleared_to(self, callsign: str | None, strip: Strip) -> set[Action]:
+        return {c.action for c in self._cleared_on(strip) if c.callsign == callsign}
 
     def _cleared_on(self, strip: Strip) -> Iterator[Clearance]:
         for clearance in self._in_force:
@@ -403,12 +410,12 @@ class Assessment:
         return time_s / closing if closing > LEAST_CLOSING else None
 
     def _height_m(self, use: Use, along_m: float) -> float:
-        """Return how high above the ground an arrival will be."""
+        """Return how high above the ground, as cameras give heights, an arrival will be."""
         mobile = use.mobile
         if mobile.altitude_m is None:
             return 0.0
         left_m = TOUCHDOWN_M - use.along_m
-        height_m = mobile.altitude_m - use.direction.elevation_m
+        height_m = mobile.altitude_m - self._situation.aerodrome.ground_m
         return height_m * max(TOUCHDOWN_M - along_m, 0.0) / left_m if left_m > 0.0 else 0.0
 
     def _between(
@@ -509,7 +516,7 @@ class Assessment:
     def _active(self, strip: Strip) -> Iterator[str]:
         """Yield who is on a runway, uses it or one that crosses it, or was cleared on to it."""
         for obstacle in self._situation.obstacles(strip):
-            if obstacle.is_inside and obstacle.seen is None:
+            if obstacle.is_inside:
                 yield obstacle.mobile.callsign
         for use in self._situation.uses.values():
             if use.strip is strip or self._situation.aerodrome.crossing(strip, use.strip):

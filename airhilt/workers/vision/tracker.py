@@ -18,9 +18,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import linear_sum_assignment
 
-from airhilt.cameras.view import attitude
 from airhilt.messages import CONFIRMED_HITS, CameraView, VisibleClass
-from airhilt.units import DEGREE, SECOND_NS
+from airhilt.pinhole import Pinhole
+from airhilt.units import SECOND_NS
 from airhilt.workers.vision.detector import Found
 
 Array = npt.NDArray[np.float64]
@@ -209,7 +209,7 @@ class Tracker:
             for track in self._tracks:
                 track.predict(dt_s)
             if last_view != view:
-                turning = _axes(view).T @ _axes(last_view)
+                turning = Pinhole(view).axes.T @ Pinhole(last_view).axes
                 self._tracks = [track for track in self._tracks if track.turn(turning, view)]
         self._last = (t_ns, view)
 
@@ -247,16 +247,8 @@ def _measurement_variance(side: float) -> Array:
     return np.square((place, place, size, size))
 
 
-def _axes(view: CameraView) -> Array:
-    """Return the camera's axes (right, down, ahead) in east, north and up, as columns."""
-    angles = (view.heading_deg, view.pitch_deg, view.roll_deg)
-    right, ahead, up = attitude(*(angle * DEGREE for angle in angles)).T
-    return np.column_stack((right, -up, ahead))
-
-
 def _turned(place: Array, turning: Array, view: CameraView) -> Array | None:
     """Return where something far away is after a turn of the camera; None if behind it."""
-    focal = view.width_px / 2.0 / math.tan(view.horizontal_fov_deg * DEGREE / 2.0)
-    middle = np.array((view.width_px / 2.0, view.height_px / 2.0))
-    x, y, z = turning @ np.array((*(place - middle) / focal, 1.0))
-    return middle + focal * np.array((x, y)) / z if z > 0.0 else None
+    lens = Pinhole(view)
+    pixel = lens.pixel(*(turning @ lens.direction(*place)))
+    return None if pixel is None else np.array(pixel)
