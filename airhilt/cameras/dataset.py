@@ -56,6 +56,7 @@ class Picture:
     sun_elevation_deg: float
     rain_mm_h: float
     station: str
+    carrier: str | None
 
 
 def random_pictures(
@@ -114,6 +115,7 @@ def _shots(
                     sitting.light.sun_elevation_rad / DEGREE,
                     sitting.weather.rain_mm_h,
                     sitting.stations[camera],
+                    sitting.cameras[camera].carrier,
                 )
         finally:
             studio.close()
@@ -162,6 +164,10 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -
         camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
         for camera in realised.cameras
     }
+    carriers = {
+        camera.name: camera.mount.actor if camera.mount.type == "actor" else None
+        for camera in realised.cameras
+    }
     names = list(stations)
     instants = -(-count // len(names))
     ticks = round(realised.duration_s / TICK_S)
@@ -188,6 +194,7 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -
                     light.sun_elevation_rad / DEGREE,
                     realised.weather.rain_mm_h,
                     stations[taken.camera],
+                    carriers[taken.camera],
                 )
     finally:
         studio.close()
@@ -195,6 +202,8 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -
 
 def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) -> dict[str, int]:
     """Write pictures and the truth about them, and return how many bodies of each class there are.
+
+    What there is when it breaks off is complete: the truth about those pictures is written too.
 
     Parameters
     ----------
@@ -216,26 +225,28 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
         if folder.exists() and any(folder.iterdir()):
             raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
         (folder / "images").mkdir(parents=True, exist_ok=True)
-        for number, picture in enumerate(pictures, start=1):
-            name = f"images/{number:06}.jpg"
-            buffer = io.BytesIO()
-            Image.fromarray(picture.frame.colour).save(
-                buffer, format="JPEG", quality=QUALITY, subsampling=0
-            )
-            (folder / name).write_bytes(buffer.getvalue())
-            images.append(_image(number, name, picture))
-            for sighting in picture.frame.sightings:
-                if sighting.pixels >= FAINTEST_PX:
-                    identity = len(annotations) + 1
-                    annotations.append(_annotation(identity, number, picture, sighting))
-        document = {
-            "info": {"description": "AIRHILT", "version": __version__, **about},
-            "images": images,
-            "annotations": annotations,
-            "categories": [{"id": _category(name), "name": name} for name in CLASSES],
-        }
-        data = json.dumps(document, separators=(",", ":")).encode()
-        replace_file(folder / "annotations.json", data)
+        try:
+            for number, picture in enumerate(pictures, start=1):
+                name = f"images/{number:06}.jpg"
+                buffer = io.BytesIO()
+                Image.fromarray(picture.frame.colour).save(
+                    buffer, format="JPEG", quality=QUALITY, subsampling=0
+                )
+                (folder / name).write_bytes(buffer.getvalue())
+                images.append(_image(number, name, picture))
+                for sighting in picture.frame.sightings:
+                    if sighting.pixels >= FAINTEST_PX:
+                        identity = len(annotations) + 1
+                        annotations.append(_annotation(identity, number, picture, sighting))
+        finally:
+            document = {
+                "info": {"description": "AIRHILT", "version": __version__, **about},
+                "images": images,
+                "annotations": annotations,
+                "categories": [{"id": _category(name), "name": name} for name in CLASSES],
+            }
+            data = json.dumps(document, separators=(",", ":")).encode()
+            replace_file(folder / "annotations.json", data)
     except OSError as error:
         raise AirhiltError(f"{folder}: cannot be written: {error.strerror}") from None
     found = [CLASSES[annotation["category_id"] - 1] for annotation in annotations]
@@ -248,6 +259,10 @@ def _category(label: VisibleClass) -> int:
 
 def _image(number: int, name: str, picture: Picture) -> dict[str, Any]:
     lens = picture.frame.view.intrinsics
+    own = {}
+    if picture.carrier is not None:
+        number_of_own = picture.actors.index(picture.carrier) + 1
+        own = {"own_aircraft": run_lengths(picture.frame.instance == number_of_own)}
     return {
         "id": number,
         "file_name": name,
@@ -261,6 +276,7 @@ def _image(number: int, name: str, picture: Picture) -> dict[str, Any]:
         "rain_mm_h": round(picture.rain_mm_h, 2),
         "solar_time_h": round(picture.solar_time_h, 3),
         "sun_elevation_deg": round(picture.sun_elevation_deg, 2),
+        **own,
     }
 
 

@@ -36,9 +36,9 @@ FAINTEST = 0.03
 FARTHEST_M = 20_000.0
 TRIES = 15
 """To place a body within a picture; some pictures have no room for one."""
-FIXED_CAMERAS = 7
-SHOTS_OF_A_FIXED_CAMERA = 9
-SHOTS_OF_A_MOUNTED_CAMERA = 12
+FIXED_CAMERAS = 6
+SHOTS_OF_A_CAMERA = 4
+"""Few of each, so that there are many skies and grounds."""
 FLIGHT_LATITUDES = (30.0, 55.0)
 """In degrees, of open country."""
 DAYS_OF_A_YEAR = 365
@@ -145,12 +145,7 @@ class Casting:
                 name = f"fixed-{index}"
                 cameras[name] = self._fixed(name, layout, world, draws)
                 stations[name] = "fixed"
-        order = [
-            name
-            for name, camera in cameras.items()
-            for _ in range(SHOTS_OF_A_FIXED_CAMERA if camera.is_fixed
-                           else SHOTS_OF_A_MOUNTED_CAMERA)
-        ]  # fmt: skip
+        order = [name for name in cameras for _ in range(SHOTS_OF_A_CAMERA)]
         order = [order[index] for index in draws.permutation(len(order))]
         return Sitting(
             place, weather, daylight, light, world, layout, height, models, cameras, stations, order

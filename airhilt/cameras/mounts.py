@@ -48,6 +48,11 @@ class Camera:
         """Whether it never moves."""
         return isinstance(self.at, Pose)
 
+    @property
+    def carrier(self) -> str | None:
+        """The actor that carries it; None if it stands."""
+        return self.at.actor if isinstance(self.at, Mount) else None
+
     def view(self, bodies: Mapping[str, BodyState]) -> View:
         """Return what it looks at while bodies are where they are.
 

@@ -127,6 +127,40 @@ def test_nothing_is_said_about_the_aircraft_that_carries_the_camera(folder: Path
     )
 
 
+def test_where_the_own_aircraft_is_stands_beside_pictures_from_aircraft(folder: Path) -> None:
+    pictures = list(country(24))
+    for image, picture in zip(read(folder)["images"], pictures, strict=True):
+        assert picture.carrier is not None
+        number = picture.actors.index(picture.carrier) + 1
+        assert np.array_equal(mask(image["own_aircraft"]), picture.frame.instance == number)
+    shares = {
+        station: [
+            mask(image["own_aircraft"]).mean()
+            for image in read(folder)["images"]
+            if image["camera_kind"] == station
+        ]
+        for station in ("nose", "tail")
+    }
+    assert max(shares["nose"]) == 0.0
+    assert min(shares["tail"]) > 0.0
+
+
+def test_what_is_there_when_it_breaks_off_is_complete(tmp_path: Path) -> None:
+    def breaking_off() -> Iterator[Picture]:
+        yield from country(3)
+        raise RuntimeError("the lamp went out")
+
+    with pytest.raises(RuntimeError, match="the lamp went out"):
+        export(breaking_off(), tmp_path / "part", {})
+    written = sorted(path.name for path in (tmp_path / "part" / "images").iterdir())
+    told = [image["file_name"] for image in read(tmp_path / "part")["images"]]
+    assert (
+        told
+        == [f"images/{name}" for name in written]
+        == [f"images/{number:06}.jpg" for number in (1, 2, 3)]
+    )
+
+
 def test_the_same_seed_gives_the_same_bytes_and_another_does_not(
     folder: Path, empty_folder: Path, tmp_path: Path
 ) -> None:
