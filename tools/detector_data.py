@@ -16,11 +16,14 @@ CLASSES = ("airplane", "truck", "bird", "deer", "coyote")
 SMALLEST_PX = 5.0
 """Of the longest side of the box."""
 LEAST_VISIBLE = 0.25
-LEAST_TRANSMISSION = 0.03
-LEAST_CONTRAST = 6.0
+LEAST_TRANSMISSION = 0.05
+LEAST_CONTRAST = 0.05 * 255.0
+"""One twentieth is what an observer needs: WMO-No. 8, the definition of meteorological optical
+range."""
 RING_PX = 3
 
 Picture = npt.NDArray[np.uint8]
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,8 @@ class Body:
     box
         Left, top, right, bottom in pixels.
     contrast
-        What nine tenths of its box differ less than from the colour around, in 8-bit levels.
+        What half of its pixels differ more than from the colour around, in 8-bit levels. So
+        lamps alone do not make a body visible.
     """
 
     label: int
@@ -68,6 +72,11 @@ class Shot:
     path: Path
     about: dict[str, Any]
     bodies: tuple[Body, ...]
+
+    def own_aircraft(self) -> Mask:
+        """Return where the aircraft that carries the camera is, shape (rows, columns)."""
+        rows, columns = self.about["height"], self.about["width"]
+        return mask_of(self.about.get("own_aircraft", {"size": [rows, columns], "counts": []}))
 
     def picture(self) -> Picture:
         """Return its pixels, shape (rows, columns, 3)."""
@@ -104,26 +113,35 @@ def read_folder(folder: Path) -> list[Shot]:
                     annotation["range_m"],
                     annotation["visible_fraction"],
                     annotation["transmission"],
-                    contrast(pixels, box),
+                    contrast(pixels, box, mask_of(annotation["segmentation"])),
                 )
             )
         shots.append(Shot(path, about, tuple(bodies)))
     return shots
 
 
-def contrast(picture: Picture, box: tuple[float, float, float, float]) -> float:
-    """Return what nine tenths of a box differ less than from the median colour around it."""
+def mask_of(segmentation: dict[str, list[int]]) -> Mask:
+    """Return the mask of COCO's uncompressed run lengths, shape (rows, columns)."""
+    rows, columns = segmentation["size"]
+    counts = segmentation["counts"] or [rows * columns]
+    return np.repeat(np.arange(len(counts)) % 2 == 1, counts).reshape(columns, rows).T
+
+
+def contrast(picture: Picture, box: tuple[float, float, float, float], mask: Mask) -> float:
+    """Return what half of a body's pixels differ more than from the median colour around it."""
     rows, columns = picture.shape[:2]
     left, top = max(int(box[0]), 0), max(int(box[1]), 0)
     right, bottom = min(int(np.ceil(box[2])), columns), min(int(np.ceil(box[3])), rows)
-    outer = picture[
+    around = np.s_[
         max(top - RING_PX, 0) : bottom + RING_PX, max(left - RING_PX, 0) : right + RING_PX
     ]
-    ring = np.ones(outer.shape[:2], dtype=bool)
+    ring = np.ones(picture[around].shape[:2], dtype=bool)
     above, aside = top - max(top - RING_PX, 0), left - max(left - RING_PX, 0)
     ring[above : above + bottom - top, aside : aside + right - left] = False
-    inside = picture[top:bottom, left:right].reshape(-1, 3)
-    if not ring.any() or not len(inside):
+    inside = picture[top:bottom, left:right][mask[top:bottom, left:right]]
+    if not len(inside):
+        return 0.0
+    if not ring.any():
         return 255.0
-    away = np.abs(inside.astype(float) - np.median(outer[ring], axis=0)).max(axis=1)
-    return float(np.percentile(away, 90.0))
+    away = np.abs(inside.astype(float) - np.median(picture[around][ring], axis=0)).max(axis=1)
+    return float(np.median(away))

@@ -6,11 +6,12 @@
     python tools/eval_detector.py data/test data/empty --engine yolo:yolov10n.pt --json
     python tools/eval_detector.py --approaches
 
-A body counts as found if a box of its class overlaps its own by half (intersection over union);
-in the column `loose`, by three tenths. Bodies under 12 pixels are found by an overlap of a
-quarter, or where the centres are no farther apart than half their longest side. Bodies that can
-hardly be seen (see `detector_data.Body.counts`) are neither missed nor false when found. Tables
-by range, visibility and time of day are of airplanes of 8 pixels and more.
+Only findings count that are sure by themselves. A body counts as found if a box of its class
+overlaps its own by half (intersection over union); in the column `loose`, by three tenths. Bodies
+under 12 pixels are found by an overlap of a quarter, or where the centres are no farther apart
+than half their longest side. Bodies that can hardly be seen (see `detector_data.Body.counts`) are
+neither missed nor false when found. Tables by range, visibility and time of day are of airplanes
+of 8 pixels and more.
 
 ``--approaches`` draws a 737 that comes head-on, at 80 m/s, from 6 km to 300 m, in a visibility
 of 10 km, before a camera of 25 degrees and 640 by 360 pixels, and prints from which range it is
@@ -34,8 +35,9 @@ from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 from rich.progress import track
 
 from airhilt.boxes import centre, overlap, share_of_smaller
-from airhilt.workers.vision.detector import Detector, Found
-from airhilt.workers.vision.engines import vision_engine
+from airhilt.workers.vision.detector import Found, Picture
+from airhilt.workers.vision.engines import VisionEngine, vision_engine
+from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 
 FRAMES_A_MINUTE = 960
 SMALL_PX = 12.0
@@ -43,6 +45,7 @@ STRICT, LOOSE, SMALL = 0.5, 0.3, 0.25
 SIZES_PX = (5.0, 8.0, 12.0, 20.0, 40.0, 80.0, math.inf)
 RANGES_M = (0.0, 100.0, 300.0, 700.0, 1500.0, 3000.0, 6000.0, math.inf)
 VISIBILITIES_M = (0.0, 1500.0, 3000.0, 5000.0, 10_000.0, 20_000.0, math.inf)
+SHOWN = (0.25, 0.5, 0.75, 0.95, math.inf)
 SUN_DEG = {"day": (6.0, 90.0), "twilight": (-6.0, 6.0), "night": (-90.0, -6.0)}
 
 CLOSING_M_S = 80.0
@@ -134,16 +137,29 @@ def matched(
     return seen, used
 
 
-def judge(detector: Detector, shots: Sequence[Shot]) -> Judgement:
-    """Return what a detector finds in pictures, and what it does not."""
+def surely_found(engine: VisionEngine, picture: Picture) -> list[Found]:
+    """Return what of a picture counts by itself."""
+    return [each for each in engine.detector.detect(picture) if each.confidence >= engine.sure]
+
+
+def judge(engine: VisionEngine, shots: Sequence[Shot]) -> Judgement:
+    """Return what a detector finds in pictures, and what it does not.
+
+    Parts of the aircraft that carries the camera are left out, as a vision worker does.
+    """
     judgement = Judgement()
     for shot in track(shots, "pictures", transient=True, disable=not sys.stderr.isatty()):
-        found = list(detector.detect(shot.picture()))
+        own = shot.own_aircraft()
+        found = [
+            each
+            for each in surely_found(engine, shot.picture())
+            if covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
+        ]
         strict, used = matched(shot.bodies, found, STRICT)
         loose, _ = matched(shot.bodies, found, LOOSE)
         judgement.true += sum(shot.bodies[number].counts for number in strict)
         for index, each in enumerate(found):
-            if index not in used and not _on_faint(shot.bodies, each):
+            if index not in used and not on_faint(shot.bodies, each):
                 judgement.false += 1
                 judgement.empty_false += not shot.bodies
         judgement.empty_pictures += not shot.bodies
@@ -152,7 +168,7 @@ def judge(detector: Detector, shots: Sequence[Shot]) -> Judgement:
     return judgement
 
 
-def _on_faint(bodies: Sequence[Body], found: Found) -> bool:
+def on_faint(bodies: Sequence[Body], found: Found) -> bool:
     """Return whether a box lies on a body that can hardly be seen."""
     return any(
         not body.counts and (hits(body, found, 0.1) or share_of_smaller(body.box, found.box) > 0.5)
@@ -179,6 +195,9 @@ def _count(judgement: Judgement, shot: Shot, body: Body, strict: bool, loose: bo
         hour = next(name for name, (low, high) in SUN_DEG.items() if low <= sun < high)
         judgement.count("airplane_by_time_of_day", hour, strict, loose)
         judgement.count("airplane_by_camera", shot.about["camera_kind"], strict, loose)
+    if body.label == 0 and body.size_px >= 20.0:
+        shown = _row(body.visible_fraction, SHOWN, "shown")
+        judgement.count("airplane_over_20_px_by_part", shown, strict, loose)
 
 
 def _row(value: float, edges: Sequence[float], unit: str) -> str:
@@ -189,10 +208,10 @@ def _row(value: float, edges: Sequence[float], unit: str) -> str:
 # --- approaches ---------------------------------------------------------------------------
 
 
-def approaches(detector: Detector, renderer: str) -> dict[str, dict[str, float | None]]:
+def approaches(engine: VisionEngine, renderer: str) -> dict[str, dict[str, float | None]]:
     """Return for each camera the ranges from which an airliner that comes near is found."""
     return {
-        name: _ranges(detector, frames)
+        name: _ranges(engine, frames)
         for name, frames in (
             ("ground camera, day", _before_ground_camera(renderer, 10.0)),
             ("ground camera, twilight", _before_ground_camera(renderer, 18.9)),
@@ -202,7 +221,7 @@ def approaches(detector: Detector, renderer: str) -> dict[str, dict[str, float |
     }
 
 
-def _ranges(detector: Detector, frames: Iterator[Any]) -> dict[str, float | None]:
+def _ranges(engine: VisionEngine, frames: Iterator[Any]) -> dict[str, float | None]:
     away: list[float] = []
     seen: list[bool] = []
     pixels: list[float] = []
@@ -211,7 +230,7 @@ def _ranges(detector: Detector, frames: Iterator[Any]) -> dict[str, float | None
         if sighting is None:
             continue
         body = Body(0, tuple(sighting.box), sighting.range_m, 1.0, 1.0, 255.0)
-        found = [each for each in detector.detect(frame.colour) if each.label == "airplane"]
+        found = [each for each in surely_found(engine, frame.colour) if each.label == "airplane"]
         away.append(sighting.range_m)
         pixels.append(body.size_px)
         seen.append(any(hits(body, each, LOOSE) for each in found))
@@ -342,13 +361,13 @@ def main() -> None:
     given = parser.parse_args()
     if not given.folders and not given.approaches:
         parser.error("nothing to judge: give folders of airhilt dataset export, or --approaches")
-    detector = vision_engine(given.engine).detector
-    result: dict[str, Any] = {"engine": detector.name}
+    engine = vision_engine(given.engine)
+    result: dict[str, Any] = {"engine": engine.detector.name}
     if given.folders:
         shots = [shot for folder in given.folders for shot in read_folder(folder)]
-        result |= {"pictures": len(shots), **judge(detector, shots).as_dict()}
+        result |= {"pictures": len(shots), **judge(engine, shots).as_dict()}
     if given.approaches:
-        result["approaches"] = approaches(detector, given.renderer)
+        result["approaches"] = approaches(engine, given.renderer)
     if given.as_json:
         print(json.dumps(result, indent=2))
         return

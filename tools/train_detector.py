@@ -24,11 +24,12 @@ import argparse
 import copy
 import json
 import math
+import multiprocessing
 import time
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,29 +44,45 @@ STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""
 GRID_PX = 16
 """Pictures have a multiple of it on each side."""
-TILES = ((160, 32), (160, 32), (288, 12))
+TILES = ((96, 36), (160, 13), (96, 36), (288, 5))
 """Side in pixels and number of the tiles of a batch, in turn: most bodies are small."""
 LARGEST_SHARE = 0.7
 """Of a tile's side, that the body around which it is cut may have."""
 FOUND = 50
 """Bodies that are looked for in a picture, at most."""
 RATE, WARM_UP, DECAY = 2e-3, 200, 1e-3
-EMA = 0.9985
-AROUND_A_BODY = 0.8
-"""Part of the tiles."""
+EMA = 0.999
+AROUND_A_MISTAKE, AROUND_A_BODY = 0.3, 0.55
+"""Parts of the tiles; the rest is cut anywhere."""
+ROUND = 1000
+"""Batches after which the network is asked what it makes of some of the pictures."""
+AHEAD = 3
+"""Batches that are made before they are needed."""
+LONGEST_S = 600.0
+"""For which a batch is waited for."""
+ASKED = 400
+"""Pictures in a round."""
+REMEMBERED = 3000
+"""Mistakes, at most: the newest."""
+FALSE_FROM, MISSED_UNDER = 0.15, 0.4
+"""Scores that make a mistake of what is nothing, and of what is a body."""
 SCALES = (0.55, 1.7)
 CHECKPOINT_S = 120.0
-LEARNT_CONTRAST = 10.0
-"""Fainter bodies are left out of training: they teach to see things in haze."""
+LEARNT_PX = 8.0
+"""Smaller bodies are left out of training: they teach to take lamps and specks for something."""
 WIDTHS, BLOCKS = (16, 48, 64, 64), (1, 1, 3)
 FAINT_LEVELS = 12.0
 """Differences from the surroundings above it count less and less."""
+WORTH = (2.0, 0.5, 0.5)
+"""Of the losses of scores, places and overlaps."""
 PRIOR = 0.005
 """Score of everything before training."""
 FRAMES_A_MINUTE = 960
 
 Picture = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
+Mistake = tuple[int, float, float]
+"""A picture's number, and a place in it in pixels."""
 
 
 # --- the network --------------------------------------------------------------------------
@@ -226,6 +243,7 @@ class Tiles:
         rows, columns = shots[0].picture().shape[:2]
         shape = (len(shots), rows, columns, 3)
         size = math.prod(shape)
+        self.mistakes: list[Mistake] = []
         if not (scratch.is_file() and scratch.stat().st_size == size):
             pictures = np.memmap(scratch, np.uint8, "w+", shape=shape)
             for index, shot in enumerate(shots):
@@ -239,14 +257,62 @@ class Tiles:
             if _learnt(body)
         ]
         self._weights = {side: _weights(self._found, side) for side, _ in TILES}
+        self._own = {
+            index: mask
+            for index, mask in ((index, shot.own_aircraft()) for index, shot in enumerate(shots))
+            if mask.any()
+        }
 
-    def batch(self, number: int) -> tuple[Tensor, ...]:
+    def ask(self, network: Network, number: int) -> tuple[int, int]:
+        """Remember what a network gets wrong in some pictures, and return how much that is.
+
+        What it finds where nothing is comes first, what it misses second.
+        """
+        draws = np.random.default_rng((self._seed, number, 1))
+        indices = draws.choice(len(self._shots), min(ASKED, len(self._shots)), replace=False)
+        made: list[Mistake] = []
+        false = 0
+        network.eval()
+        for index in (int(each) for each in indices):
+            found, missed = self._mistakes(network, index)
+            false += len(found)
+            made += [*found, *missed]
+        network.train()
+        self.mistakes = [*self.mistakes, *made][-REMEMBERED:]
+        return false, len(made) - false
+
+    def _mistakes(self, network: Network, index: int) -> tuple[list[Mistake], list[Mistake]]:
+        rows, columns = (side - side % GRID_PX for side in self._pictures.shape[1:3])
+        picture = torch.from_numpy(self._pictures[index, :rows, :columns].copy())
+        with torch.no_grad():
+            scores = network(picture.permute(2, 0, 1)[None].float())[0][0].sigmoid()
+        best = scores.amax(dim=0)
+        free = np.ones(best.shape, dtype=np.float32)
+        missed = []
+        for body in self._shots[index].bodies:
+            left, top, right, bottom = (edge / STRIDE for edge in body.box)
+            near = np.s_[max(int(top) - 1, 0) : int(bottom) + 2,
+                         max(int(left) - 1, 0) : int(right) + 2]  # fmt: skip
+            free[near] = 0.0
+            own = scores[body.label][near]
+            if _learnt(body) and own.numel() and float(own.max()) < MISSED_UNDER:
+                missed.append((index, *_centre(body)))
+        if index in self._own:
+            free *= ~self._own[index][STRIDE // 2 : rows : STRIDE, STRIDE // 2 : columns : STRIDE]
+        best = best * torch.from_numpy(free)
+        peaks = (best > FALSE_FROM) & (best == functional.max_pool2d(best[None], 5, 1, 2)[0])
+        found = [
+            (index, STRIDE * (column + 0.5), STRIDE * (row + 0.5))
+            for row, column in peaks.nonzero().tolist()
+        ]
+        return found, missed
+
+    def batch(self, number: int) -> list[npt.NDArray[Any]]:
         """Return a batch: pictures, scores, weights of scores, boxes, and weights of boxes."""
         draws = np.random.default_rng((self._seed, number))
         side, count = TILES[number % len(TILES)]
         made = [self._tile(side, draws) for _ in range(count)]
-        pictures, *maps = (torch.from_numpy(np.stack(part)) for part in zip(*made, strict=True))
-        return pictures.permute(0, 3, 1, 2).float(), *maps
+        return [np.stack(part) for part in zip(*made, strict=True)]
 
     def _tile(
         self, tile_px: int, draws: np.random.Generator
@@ -256,12 +322,17 @@ class Tiles:
             scale = math.exp(draws.uniform(*np.log(SCALES)))
         rows, columns = self._pictures.shape[1:3]
         side = min(round(tile_px / scale), rows, columns)
-        if draws.random() < AROUND_A_BODY:
+        choice = draws.random()
+        if choice < AROUND_A_MISTAKE and self.mistakes:
+            index, x, y = self.mistakes[int(draws.integers(len(self.mistakes)))]
+            x -= side * draws.uniform(0.15, 0.85)
+            y -= side * draws.uniform(0.15, 0.85)
+        elif choice < AROUND_A_MISTAKE + AROUND_A_BODY:
             chosen = int(np.searchsorted(self._weights[tile_px], draws.random()))
             index, body = self._found[chosen]
-            left, top, right, bottom = body.box
-            x = (left + right) / 2.0 - side * draws.uniform(0.15, 0.85)
-            y = (top + bottom) / 2.0 - side * draws.uniform(0.15, 0.85)
+            x, y = _centre(body)
+            x -= side * draws.uniform(0.15, 0.85)
+            y -= side * draws.uniform(0.15, 0.85)
         else:
             index = int(draws.integers(len(self._shots)))
             x, y = draws.uniform(0.0, columns - side), draws.uniform(0.0, rows - side)
@@ -274,8 +345,14 @@ class Tiles:
         flip = draws.random() < 0.5
         if flip:
             tile = tile[:, ::-1]
-        maps = _maps(self._shots[index].bodies, x, y, tile_px / side, flip, tile_px)
-        return varied(tile, draws), *maps
+        scores, counts, *boxes = _maps(
+            self._shots[index].bodies, x, y, tile_px / side, flip, tile_px
+        )
+        if index in self._own:
+            middles = ((np.arange(tile_px // STRIDE) + 0.5) * STRIDE * side / tile_px).astype(int)
+            own = self._own[index][np.ix_(y + middles, x + middles)]
+            counts[0][(own[:, ::-1] if flip else own) & (scores.max(axis=0) < 0.3)] = 0.0
+        return varied(tile, draws), scores, counts, *boxes
 
 
 def _weights(found: list[tuple[int, Body]], side: int) -> npt.NDArray[np.float64]:
@@ -292,11 +369,16 @@ def _weights(found: list[tuple[int, Body]], side: int) -> npt.NDArray[np.float64
 
 
 def _learnt(body: Body) -> bool:
-    return body.counts and body.contrast >= LEARNT_CONTRAST
+    return body.counts and body.size_px >= LEARNT_PX
+
+
+def _centre(body: Body) -> tuple[float, float]:
+    left, top, right, bottom = body.box
+    return (left + right) / 2.0, (top + bottom) / 2.0
 
 
 def _octave(body: Body) -> int:
-    return int(2.0 * math.log2(body.size_px / 5.0))
+    return int(2.0 * math.log2(body.size_px / LEARNT_PX))
 
 
 def varied(tile: Picture, draws: np.random.Generator) -> Picture:
@@ -307,7 +389,8 @@ def varied(tile: Picture, draws: np.random.Generator) -> Picture:
         lift = draws.uniform(-8.0, 8.0)
         levels = np.arange(256)[:, None] / 255.0
         table = np.clip(255.0 * levels**gamma * gains + lift, 0.0, 255.0).astype(np.uint8)
-        tile = np.stack([table[:, c][tile[..., c]] for c in range(3)], axis=-1)
+        image = Image.fromarray(np.ascontiguousarray(tile))
+        tile = np.asarray(image.point(table.T.ravel().tolist()))
     if draws.random() < 0.08:
         grey = tile.mean(axis=2, keepdims=True)
         tile = np.broadcast_to(grey, tile.shape).astype(np.uint8)
@@ -365,10 +448,6 @@ def _maps(
             - 0.5 * ((centres - row - 0.5) / sigma_y)[:, None] ** 2
         )
         scores[body.label] = np.maximum(scores[body.label], bell)
-        # Each body counts alike, whatever its size.
-        near = bell > 0.05
-        counts[0][near] = np.clip(6.0 / near.sum(), 0.05, 1.0)
-        counts[0, row, column] = 1.0
         mine = (bell > 0.3) & (bell >= 0.99 * bells)
         bells[mine] = bell[mine]
         shares[0][mine] = bell[mine] / bell[mine].sum()
@@ -389,13 +468,17 @@ def _maps(
 def loss_of(
     scores: Tensor, boxes: Tensor, wanted: Tensor, counts: Tensor, sides: Tensor, shares: Tensor
 ) -> tuple[Tensor, Tensor, Tensor]:
-    """Return the quality focal loss of the scores, and the losses of places and of overlap.
+    """Return the focal loss of the scores, and the losses of places and of overlap.
 
-    The first is that of X. Li et al., Generalized Focal Loss, NeurIPS 2020.
+    The first is that of X. Zhou et al.: only the middle of a body must have a score of 1, and
+    what is near it may have one. So scores tell how sure it is that a body is there, and not
+    how sure it is in which cell its middle lies.
     """
-    number = (wanted >= 0.999).float().sum().clamp(min=1.0)
-    crossed = functional.binary_cross_entropy_with_logits(scores, wanted, reduction="none")
-    focal = (crossed * (wanted - scores.sigmoid()) ** 2 * counts).sum() / number
+    middle = (wanted >= 0.999).float()
+    chance = scores.sigmoid()
+    there = (1.0 - chance) ** 2 * functional.logsigmoid(scores) * middle
+    nothing = chance**2 * functional.logsigmoid(-scores) * (1.0 - wanted) ** 4
+    focal = -((there + nothing) * counts).sum() / middle.sum().clamp(min=1.0)
     share = shares.sum().clamp(min=1.0)
     away = functional.smooth_l1_loss(boxes, sides, reduction="none", beta=0.2)
     places = (away * shares).sum() / share
@@ -426,14 +509,35 @@ def _giou(one: Tensor, other: Tensor) -> Tensor:
 
 
 def batches(tiles: Tiles, first: int, last: int) -> Iterator[tuple[Tensor, ...]]:
-    """Yield batches by their numbers; the next is made while one is used."""
-    with ThreadPoolExecutor(1) as pool:
-        following = pool.submit(tiles.batch, first)
+    """Yield batches by their numbers; another process makes the next ones while one is used."""
+    fork = multiprocessing.get_context("fork")
+    made = fork.Queue(AHEAD)
+
+    def make() -> None:
         for number in range(first, last):
-            batch = following.result()
-            if number + 1 < last:
-                following = pool.submit(tiles.batch, number + 1)
-            yield batch
+            made.put(tiles.batch(number))
+
+    maker = fork.Process(target=make, daemon=True)
+    maker.start()
+    for _ in range(first, last):
+        pictures, *maps = (torch.from_numpy(part) for part in made.get(timeout=LONGEST_S))
+        yield pictures.permute(0, 3, 1, 2).float(), *maps
+    maker.join()
+
+
+def rounds(
+    tiles: Tiles, mean: nn.Module, first: int, last: int
+) -> Iterator[tuple[int, tuple[Tensor, ...]]]:
+    """Yield numbers and batches; the mean network's mistakes are learnt from, round by round."""
+    while first < last:
+        if first % ROUND == 0:
+            network = mean.module
+            assert isinstance(network, Network)
+            false, missed = tiles.ask(network, first)
+            print(f"of {ASKED} pictures: {false} false, {missed} missed", flush=True)
+        end = min(first + ROUND - first % ROUND, last)
+        yield from enumerate(batches(tiles, first, end), start=first)
+        first = end
 
 
 def begin_with(network: Network, weights: dict[str, Tensor]) -> None:
@@ -476,18 +580,19 @@ def train(
         mean.load_state_dict(kept["mean"])
         optimiser.load_state_dict(kept["optimiser"])
         done, spent_s = kept["done"], kept["spent_s"]
+        tiles.mistakes = [(int(index), x, y) for index, x, y in kept["mistakes"].tolist()]
         print(f"goes on at step {done}", flush=True)
     begun = saved = time.monotonic()
     means = np.zeros(3)
     network.train()
-    for step, (pictures, *maps) in enumerate(batches(tiles, done, steps), start=done):
+    for step, (pictures, *maps) in rounds(tiles, mean, done, steps):
         rate = RATE * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
         for group in optimiser.param_groups:
             group["lr"] = max(rate, 1e-5)
         scores, boxes = network(pictures.contiguous(memory_format=torch.channels_last))
         losses = loss_of(scores, boxes, *maps)
         optimiser.zero_grad(set_to_none=True)
-        sum(losses[1:], losses[0]).backward()
+        sum(worth * loss for worth, loss in zip(WORTH, losses, strict=True)).backward()
         nn.utils.clip_grad_norm_(network.parameters(), 5.0)
         optimiser.step()
         mean.update_parameters(network)
@@ -503,6 +608,7 @@ def train(
                 "network": network.state_dict(),
                 "mean": mean.state_dict(),
                 "optimiser": optimiser.state_dict(),
+                "mistakes": torch.tensor(tiles.mistakes, dtype=torch.float64).reshape(-1, 3),
                 "done": step + 1,
                 "spent_s": spent_s + saved - begun,
             }

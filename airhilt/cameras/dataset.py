@@ -20,7 +20,7 @@ from airhilt._version import __version__
 from airhilt.actors import build_cast
 from airhilt.cameras import RendererName
 from airhilt.cameras.bodies import state_of
-from airhilt.cameras.dataset_scenes import EN_ROUTE, Casting, cast
+from airhilt.cameras.dataset_scenes import EN_ROUTE, Casting, Sitting, cast
 from airhilt.cameras.masks import Mask, runs_of
 from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.stage import light_of, open_studio
@@ -93,14 +93,7 @@ def _shots(
     taken = number = 0
     while taken < count:
         sitting = casting.sitting(number, stream(seed, "dataset", number))
-        studio = Studio(
-            sitting.world,
-            sitting.light,
-            sitting.models,
-            sitting.cameras.values(),
-            renderer,
-            sitting.weather.rain_mm_h,
-        )
+        studio = studio_of(sitting, renderer)
         try:
             for turn, camera in enumerate(sitting.order[: count - taken]):
                 draws = stream(seed, "dataset/shot", number, turn)
@@ -121,6 +114,18 @@ def _shots(
             studio.close()
         taken += len(sitting.order)
         number += 1
+
+
+def studio_of(sitting: Sitting, renderer: RendererName) -> Studio:
+    """Return the studio in which a sitting is drawn; close it."""
+    return Studio(
+        sitting.world,
+        sitting.light,
+        sitting.models,
+        sitting.cameras.values(),
+        renderer,
+        sitting.weather.rain_mm_h,
+    )
 
 
 def scenario_pictures(

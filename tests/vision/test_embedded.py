@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from airhilt.errors import VisionError
 from airhilt.workers.asr import ctc
-from airhilt.workers.vision.embedded import MODEL, EmbeddedDetector
+from airhilt.workers.vision.embedded import MODEL, Calibration, EmbeddedDetector
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +96,50 @@ def test_the_surest_come_first_and_none_is_below_the_threshold(airliner) -> None
 def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner) -> None:
     picture, _ = airliner
     assert EmbeddedDetector(copy(tmp_path)).detect(picture) == EmbeddedDetector().detect(picture)
-    assert not EmbeddedDetector(copy(tmp_path, threshold=1.0)).detect(picture)
+    severe = EmbeddedDetector(copy(tmp_path, threshold=1.0))
+    assert severe.sure == 1.0
+    assert all(found.confidence < severe.sure for found in severe.detect(picture))
+
+
+def test_what_is_unsure_is_told_too_but_not_what_is_hardly_anything(tmp_path, airliner) -> None:
+    picture, _ = airliner
+    for threshold in (0.2, 0.6, 0.9):
+        detector = EmbeddedDetector(copy(tmp_path, threshold=threshold))
+        told = {found.confidence for found in detector.detect(picture)}
+        everything = {one.confidence for one in EmbeddedDetector(threshold=0.0).detect(picture)}
+        assert told == {one for one in everything if one >= threshold / 2.0}
+
+
+def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(tmp_path, airliner) -> None:
+    picture, _ = airliner
+    plain = {"of_class": {}, "logit": 1.0, "size": 0.0, "size_squared": 0.0, "logit_and_size": 0.0}
+    (tmp_path / "plain").mkdir()
+    (tmp_path / "kind").mkdir()
+    before = EmbeddedDetector(copy(tmp_path / "plain", calibration=plain), 0.0).detect(picture)
+    kind = plain | {"of_class": {"airplane": 1.0}}
+    after = EmbeddedDetector(copy(tmp_path / "kind", calibration=kind), 0.0).detect(picture)
+    assert {one.box for one in before} == {one.box for one in after}
+    sure = {one.box: one.confidence for one in before}
+    for one in after:
+        if one.label == "airplane":
+            odds = sure[one.box] / (1.0 - sure[one.box])
+            assert one.confidence == pytest.approx(odds * math.e / (1.0 + odds * math.e), rel=1e-3)
+        else:
+            assert one.confidence == pytest.approx(sure[one.box])
+
+
+@given(
+    score=st.floats(0.001, 0.998),
+    more=st.floats(1e-4, 1e-3),
+    side_px=st.floats(1.0, 640.0),
+)
+def test_the_shipped_calibration_never_turns_scores_round(
+    score: float, more: float, side_px: float
+) -> None:
+    card = json.loads(MODEL.with_name("card.json").read_text())
+    calibration = Calibration.model_validate(card["calibration"])
+    less_sure = calibration.log_odds("airplane", score, side_px)
+    assert less_sure < calibration.log_odds("airplane", score + more, side_px)
 
 
 def test_a_picture_that_is_none_is_refused(detector) -> None:
@@ -143,11 +189,17 @@ def test_a_card_that_is_wrong_is_named(
         EmbeddedDetector(copy(tmp_path, **card))
 
 
-def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path, airliner) -> None:
+def test_classes_are_those_of_the_card(tmp_path: Path, airliner) -> None:
     picture, _ = airliner
-    # The shipped network's airliner is its class 0; without airplanes, trucks are.
-    only = EmbeddedDetector(copy(tmp_path, classes=["truck"]))
-    assert only.detect(picture)[0].label == "truck"
+    # The shipped network's airliner is its class 0.
+    others = ["truck", "airplane", "deer", "coyote", "bird"]
+    assert EmbeddedDetector(copy(tmp_path, classes=others)).detect(picture)[0].label == "truck"
+
+
+def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path) -> None:
+    noise = np.random.default_rng(0).integers(0, 255, (360, 640, 3), dtype=np.uint8)
+    with pytest.raises(VisionError, match=r"answers class \d; expected one of the 1 of its card"):
+        EmbeddedDetector(copy(tmp_path, classes=["truck"])).detect(noise)
 
 
 @pytest.mark.parametrize("threshold", [-0.1, 1.1, float("nan")])

@@ -7,6 +7,7 @@ says how well it sees.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -18,7 +19,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.inference import open_network
 from airhilt.messages import Confidence, VisibleClass
-from airhilt.workers.vision.detector import Found, Picture
+from airhilt.workers.vision.detector import GRID_PX, Found, Picture
 
 MODEL = Path(__file__).with_name("model") / "detector.onnx"
 CARD = "card.json"
@@ -26,10 +27,39 @@ EXPECTED = (
     "a network of tools/train_detector.py: 'picture', uint8 [1, rows, columns, 3], to 'found', "
     "float [1, n, 6]: left, top, right, bottom, score, class"
 )
-GRID_PX = 16
 SMALLEST_PX = 64
-"""Pictures get a multiple of the one and at least the other on each side: their last rows and
-columns are repeated."""
+"""Pictures get at least so many pixels on each side, and a multiple of `GRID_PX`: their last rows
+and columns are repeated."""
+REFERENCE_PX = 32.0
+MOST_LOG_ODDS = 30.0
+LEAST_SCORE = 1e-4
+"""Scores are taken for no less than it, and for no more than one less it."""
+UNSURE = 0.5
+"""Times the threshold: unsure findings are reported too, for what is being followed."""
+
+
+class Calibration(BaseModel):
+    """How likely it is that a finding is true, by the network's score, the size and the class.
+
+    The logarithm of the odds is ``of_class + logit x + size u + size_squared u^2 +
+    logit_and_size x u``, where ``x`` is that of the score and ``u`` the binary logarithm of the
+    longest side of the box over `REFERENCE_PX` (J. Platt, 1999, with the size besides): a network
+    takes specks for something more easily than it takes anything for a big body.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    of_class: dict[VisibleClass, float] = {}
+    logit: float = 1.0
+    size: float = 0.0
+    size_squared: float = 0.0
+    logit_and_size: float = 0.0
+
+    def log_odds(self, label: VisibleClass, score: float, longest_px: float) -> float:
+        """Return the logarithm of the odds that a finding is true."""
+        score = min(max(score, LEAST_SCORE), 1.0 - LEAST_SCORE)
+        x, u = math.log(score / (1.0 - score)), math.log2(max(longest_px, 1.0) / REFERENCE_PX)
+        slope = self.logit + self.logit_and_size * u
+        return self.of_class.get(label, 0.0) + slope * x + (self.size + self.size_squared * u) * u
 
 
 class Card(BaseModel):
@@ -39,8 +69,9 @@ class Card(BaseModel):
     classes: Annotated[tuple[VisibleClass, ...], Field(min_length=1)]
     """By the number in the network's output."""
     threshold: Confidence
-    """Chosen for one false detection in 960 empty pictures, a minute at 16 Hz; docs/detector.md
-    has what comes of it elsewhere."""
+    """Confidence from which a finding counts by itself: with it there is one false detection a
+    minute and camera; docs/detector.md has what comes of it elsewhere."""
+    calibration: Calibration = Calibration()
 
 
 class EmbeddedDetector:
@@ -51,7 +82,12 @@ class EmbeddedDetector:
     path
         ONNX file, with its ``card.json`` beside it.
     threshold
-        Confidence below which nothing is reported, instead of the card's.
+        Confidence below which nothing is reported; None: `UNSURE` times the card's.
+
+    Attributes
+    ----------
+    sure
+        Confidence from which a finding counts by itself.
 
     Raises
     ------
@@ -65,7 +101,9 @@ class EmbeddedDetector:
         file = path or MODEL
         card = _card(file.with_name(CARD))
         self._classes = card.classes
-        self._threshold = card.threshold if threshold is None else threshold
+        self._calibration = card.calibration
+        self.sure = card.threshold
+        self._threshold = UNSURE * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._subject = f"detector {file}"
@@ -74,6 +112,20 @@ class EmbeddedDetector:
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""
+        found = [
+            one._replace(confidence=self._confidence(one)) for one in self.uncalibrated(picture)
+        ]
+        told = [one for one in found if one.confidence >= self._threshold]
+        return sorted(told, key=lambda one: -one.confidence)
+
+    def uncalibrated(self, picture: Picture) -> list[Found]:
+        """Return everything that the network gives, with its scores as confidences.
+
+        Raises
+        ------
+        VisionError
+            It has failed, or this is no picture.
+        """
         if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
             raise VisionError(
                 f"a picture is {picture.dtype} {list(picture.shape)}; expected uint8 "
@@ -88,15 +140,19 @@ class EmbeddedDetector:
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
         if not np.isfinite(found).all():
             raise VisionError(f"{self._subject} answers numbers that are not finite")
-        sure = found[found[:, 4] >= self._threshold]
-        sure = sure[np.argsort(-sure[:, 4], kind="stable")]
-        sure[:, [0, 2]] = sure[:, [0, 2]].clip(0.0, columns)
-        sure[:, [1, 3]] = sure[:, [1, 3]].clip(0.0, rows)
+        found[:, [0, 2]] = found[:, [0, 2]].clip(0.0, columns)
+        found[:, [1, 3]] = found[:, [1, 3]].clip(0.0, rows)
         return [
             Found(self._label(number), score, (left, top, right, bottom))
-            for left, top, right, bottom, score, number in sure.tolist()
+            for left, top, right, bottom, score, number in found.tolist()
             if left < right and top < bottom
         ]
+
+    def _confidence(self, found: Found) -> float:
+        left, top, right, bottom = found.box
+        longest = max(right - left, bottom - top)
+        odds = self._calibration.log_odds(found.label, found.confidence, longest)
+        return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
 
     def _label(self, number: float) -> VisibleClass:
         index = int(number)

@@ -35,7 +35,7 @@ def vision_engine(name: str) -> VisionEngine:
         from airhilt.workers.vision.embedded import EmbeddedDetector
 
         detector = EmbeddedDetector(Path(argument) if argument else None)
-        return VisionEngine(detector, gate=gate_of(detector))
+        return VisionEngine(detector, detector.sure, gate_of(detector))
     if kind == "yolo" and argument:
         from airhilt.workers.vision.yolo import SURE, YoloDetector
 
