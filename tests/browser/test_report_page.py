@@ -6,7 +6,6 @@ import json
 import re
 import shutil
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -22,30 +21,10 @@ from airhilt.scenario import Scenario
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parents[1] / "metrics"))
-from devtools import BROWSERS, Page, browser_page
+from devtools import Page
 from radio_folder import busy_radio
 
-EXECUTABLE = next((found for name in BROWSERS if (found := shutil.which(name))), None)
-
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.skipif(EXECUTABLE is None, reason="no Chromium on PATH: apt-get install chromium"),
-]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Page]:
-    assert EXECUTABLE is not None
-    with browser_page(EXECUTABLE) as page:
-        yield page
-
-
-@pytest.fixture
-def page(browser: Page) -> Iterator[Page]:
-    """A page that must have nothing to complain of."""
-    browser.complaints.clear()
-    yield browser
-    assert browser.complaints == []
+pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="module")
