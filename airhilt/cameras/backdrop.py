@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from airhilt.cameras.mesh import Floats
 from airhilt.cameras.renderers import Renderer, Samples
-from airhilt.cameras.view import NEAR_M, View, Window
+from airhilt.cameras.view import NEAR_M, Intrinsics, View, Window
 
 KEPT_PX = 0.25
 """A pixel of the world shows it as it was when it was within this of its place."""
@@ -53,13 +53,11 @@ class Backdrop:
         self._renderer = renderer
         self._samples = samples
         self._finish = finish
-        self._is_first = True
         self.colour = np.zeros((0, 0, 3), dtype=np.uint8)
         self.distance_m = np.zeros((0, 0), dtype=np.float32)
         self.drawn = 0
         self._views: list[View] = []
-        self._points = np.zeros((0, 0, 3))
-        self._places = np.zeros((0, 0, 2))
+        self._towards = self._places = self._points = np.zeros((3, 0, 0))
 
     def look(self, view: View) -> None:
         """Draw what has moved since it was drawn."""
@@ -82,9 +80,7 @@ class Backdrop:
         self.colour = np.empty((rows, columns, 3), dtype=np.uint8)
         self.distance_m = np.empty((rows, columns), dtype=np.float32)
         self._views = [view] * bands
-        watched = (BAND_ROWS // PROBE_PX) * -(-columns // PROBE_PX)
-        self._points = np.zeros((bands, watched, 3))
-        self._places = np.zeros((bands, watched, 2))
+        self._aim(lens, bands)
         self._draw(view, 0, bands)
         if self._finish is not None:
             self._finish(self.colour, self.distance_m, view)
@@ -104,30 +100,47 @@ class Backdrop:
             self._watch(view, band, past, drawn.distance_m)
         self.drawn += 1
 
+    def _aim(self, lens: Intrinsics, bands: int) -> None:
+        """Choose what is watched: squares in the order of their bands, of shape (3, bands, n)."""
+        across = PROBE_PX * (np.arange(-(-lens.width_px // PROBE_PX)) + 0.5) - lens.width_px / 2.0
+        down = PROBE_PX * (np.arange(bands * BAND_ROWS // PROBE_PX) + 0.5) - lens.height_px / 2.0
+        columns, rows = (place.reshape(bands, -1) for place in np.meshgrid(across, down))
+        self._places = np.stack((columns, rows, np.full_like(rows, lens.focal_px)))
+        self._towards = self._places / np.linalg.norm(self._places, axis=0)
+        self._points = np.zeros_like(self._places)
+
     def _watch(self, view: View, first: int, end: int, distance_m: Floats) -> None:
         """Remember the nearest point of each square, as if it were in the middle."""
-        rows, columns = distance_m.shape
-        across, down = -(-columns // PROBE_PX), (end - first) * BAND_ROWS // PROBE_PX
-        padded = np.full((down * PROBE_PX, across * PROBE_PX), SKY_M, dtype=np.float32)
-        np.minimum(distance_m, SKY_M, out=padded[:rows, :columns])
-        nearest = padded.reshape(down, PROBE_PX, across * PROBE_PX).min(axis=1)
-        nearest = nearest.reshape(down, across, PROBE_PX).min(axis=2)
-        half = np.float32(PROBE_PX / 2)
-        column = np.arange(across, dtype=np.float32)[None, :] * PROBE_PX + half
-        row = np.arange(down, dtype=np.float32)[:, None] * PROBE_PX + half
-        row += np.float32(first * BAND_ROWS)
-        points = (view.directions(column, row) * nearest).transpose(1, 2, 0)
-        points = points + np.asarray(view.pose.position_m)
-        places = np.stack(np.broadcast_arrays(column, row), axis=-1)
-        self._points[first:end] = points.reshape(end - first, -1, 3)
-        self._places[first:end] = places.reshape(end - first, -1, 2)
+        nearest = _nearest(distance_m, (end - first) * BAND_ROWS // PROBE_PX)
+        inside = self._towards[:, first:end] * nearest.reshape(end - first, -1)
+        points = (view.axes @ inside.reshape(3, -1)).reshape(inside.shape)
+        self._points[:, first:end] = points + _column(view.pose.position_m)
 
     def _moved_px(self, view: View) -> npt.NDArray[np.float64]:
         """Return by how much anything is out of its place at most, for each band."""
-        inside = view.in_camera(self._points)
-        inside[..., 2] = np.maximum(inside[..., 2], NEAR_M)
-        apart = np.abs(view.pixels(inside) - self._places)
-        return np.asarray(apart.max(axis=(1, 2)))
+        offset = self._points - _column(view.pose.position_m)
+        x, y, z = (view.axes.T @ offset.reshape(3, -1)).reshape(offset.shape)
+        scale = view.intrinsics.focal_px / np.maximum(z, NEAR_M)
+        columns, rows, _ = self._places
+        apart = np.maximum(np.abs(x * scale - columns), np.abs(y * scale - rows))
+        return np.asarray(apart.max(axis=1))
+
+
+def _column(vector: tuple[float, float, float]) -> npt.NDArray[np.float64]:
+    return np.asarray(vector).reshape(3, 1, 1)
+
+
+def _nearest(distance_m: Floats, down: int) -> Floats:
+    """Return the nearest of each square, of which there are ``down`` below each other."""
+    rows, columns = distance_m.shape
+    across = -(-columns // PROBE_PX)
+    beyond = (0, down * PROBE_PX - rows), (0, across * PROBE_PX - columns)
+    if beyond != ((0, 0), (0, 0)):
+        distance_m = np.pad(distance_m, beyond, constant_values=np.inf)
+    nearest = distance_m.reshape(down, PROBE_PX, -1).min(axis=1)
+    # Rows are compared fast, neighbours in a row are not: turned, they are rows too.
+    turned = np.ascontiguousarray(nearest.T).reshape(across, PROBE_PX, down)
+    return np.asarray(np.minimum(turned.min(axis=1).T, np.float32(SKY_M)))
 
 
 def resolved(drawn: Samples, samples: int) -> Samples:

@@ -180,13 +180,13 @@ class Lamps:
     @classmethod
     def of(cls, lamps: Sequence[Lamp]) -> Lamps:
         """Return lamps that are given one by one."""
-        return cls(
-            np.array([lamp.place_m for lamp in lamps]).reshape(-1, 3),
-            np.array([lamp.colour for lamp in lamps]).reshape(-1, 3),
-            np.array([lamp.candela for lamp in lamps]),
-            np.array([lamp.beam or (0.0, 0.0, 0.0) for lamp in lamps]).reshape(-1, 3),
-            np.array([lamp.beam_sharpness if lamp.beam else 0.0 for lamp in lamps]),
-        )
+        rows = [
+            (*lamp.place_m, *lamp.colour, lamp.candela, *(lamp.beam or (0.0, 0.0, 0.0)),
+             lamp.beam_sharpness if lamp.beam else 0.0)
+            for lamp in lamps
+        ]  # fmt: skip
+        table = np.array(rows, dtype=np.float64).reshape(-1, 11)
+        return cls(table[:, :3], table[:, 3:6], table[:, 6], table[:, 7:10], table[:, 10])
 
     @classmethod
     def carried(cls, groups: Sequence[tuple[Pose, Sequence[Lamp]]]) -> Lamps:

@@ -63,17 +63,19 @@ class Layer:
         """Return the layer of a body that has been drawn before a world so far away."""
         distance = by_sample(drawn.distance_m, samples)
         colour = by_sample(drawn.colour, samples)
-        seen = distance < behind_m + np.float32(TOUCHES_M)
-        seen &= np.isfinite(distance)
+        is_body = np.isfinite(distance)
+        seen = is_body & (distance < behind_m + np.float32(TOUCHES_M))
+        hidden = is_body & ~seen
+        if hidden.any():
+            colour = np.where(hidden[..., None], np.uint8(0), colour)
         count = np.float32(samples**2)
-        colour = np.where(seen[..., None], colour, np.uint8(0))
         return cls(
             number,
             window,
             box,
             whole,
             range_m,
-            float(np.isfinite(distance).sum()) / samples**2,
+            float(is_body.sum()) / samples**2,
             np.add.reduce(seen, axis=0, dtype=np.float32) / count,
             np.add.reduce(colour, axis=0, dtype=np.float32) / count,
             np.where(seen, distance, np.float32(np.inf)).min(axis=0),

@@ -71,12 +71,12 @@ class Light:
     @property
     def sun_elevation_rad(self) -> float:
         """Above the horizon."""
-        return math.asin(float(np.clip(self.sun[2], -1.0, 1.0)))
+        return math.asin(min(max(float(self.sun[2]), -1.0), 1.0))
 
-    @property
+    @cached_property
     def darkness(self) -> float:
         """0 in daylight, 1 at night, between them while the sun is low."""
-        return float(np.clip((4.0 - math.degrees(self.sun_elevation_rad)) / 10.0, 0.0, 1.0))
+        return min(max((4.0 - math.degrees(self.sun_elevation_rad)) / 10.0, 0.0), 1.0)
 
     @property
     def needs_lamps(self) -> bool:

@@ -271,8 +271,9 @@ def _smooth(
     unit = across / np.linalg.norm(across, axis=1, keepdims=True)
     bend = np.einsum("ij,ij->i", unit[owner[mine]], unit[theirs])
     kept = bend > math.cos(crease_rad)
-    total = np.zeros((len(at), 3))
-    np.add.at(total, mine[kept], across[theirs[kept]])
+    total = np.column_stack([
+        np.bincount(mine[kept], weights=axis, minlength=len(at)) for axis in across[theirs[kept]].T
+    ])  # fmt: skip
     length = np.linalg.norm(total, axis=1, keepdims=True)
     normals = np.where(length > 1e-12, total / np.maximum(length, 1e-12), unit[owner])
     return np.asarray(normals.reshape(-1, 3, 3), dtype=np.float32)

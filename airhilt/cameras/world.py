@@ -43,6 +43,8 @@ HORIZON_M = 420_000.0
 SHADOW_REACH = 6.0
 """Metres of shadow for a metre of height, at most: the sun is that low only for minutes."""
 CLEARANCE_M = 0.2
+ARC = 8
+"""Edges for a quarter of a circle: at the end of a taxiway they are within 6 cm of it."""
 SIGN_RED = srgb(190, 24, 28)
 
 
@@ -144,13 +146,13 @@ class _Airport:
         )
         self._runways = unary_union([strip.pavement for strip in layout.strips.values()])
         self._taxiways = unary_union(
-            [LineString(leg).buffer(width / 2.0) for leg, width in self._legs]
+            [LineString(leg).buffer(width / 2.0, ARC) for leg, width in self._legs]
         )
         self._apron = self._apron_area()
         self._water = unary_union([self._polygon(water.outline) for water in self._airport.water])
         paved = [self._runways, self._taxiways, self._apron, *(b.outline for b in self._blocks)]
-        reach = unary_union([geometry.buffer(140.0) for geometry in paved])
-        self._inside = reach.buffer(160.0).buffer(-160.0)
+        reach = unary_union([geometry.buffer(140.0, ARC) for geometry in paved])
+        self._inside = reach.buffer(160.0, ARC).buffer(-160.0, ARC)
 
     def _polygon(self, outline: tuple[tuple[float, float], ...]) -> Polygon:
         corners = [
@@ -192,7 +194,7 @@ class _Airport:
         yield self._mottled(self._taxiways, TAXI_ASPHALT, 90, 0.05, "taxiways")
         yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,))
         yield self._mottled(self._apron, APRON, 120, 0.05, "slabs")
-        yield Layer(self._taxiways.buffer(5.0), (SHOULDER,))
+        yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,))
         yield Layer(self._water, (WATER,))
         yield self._mottled(self._inside, GRASS, 420, 0.13, "grass")
         reach = 1.15 * max(NEAR_M, math.hypot(*np.abs(self._inside.bounds).reshape(2, 2).max(0)))
@@ -209,14 +211,14 @@ class _Airport:
 
     def _apron_area(self) -> BaseGeometry:
         stands = [
-            Point(self._frame.to_local(node.place)).buffer(APRON_REACH_M)
+            Point(self._frame.to_local(node.place)).buffer(APRON_REACH_M, ARC)
             for node in self._airport.taxiways.nodes
             if node.kind == "stand"
         ]
         around = [block.outline.buffer(38.0, join_style="mitre") for block in self._blocks]
-        joined = unary_union([*stands, *around]).buffer(60.0).buffer(-60.0)
+        joined = unary_union([*stands, *around]).buffer(60.0, ARC).buffer(-60.0, ARC)
         keep_off = unary_union(
-            [strip.pavement.buffer(60.0) for strip in self._layout.strips.values()]
+            [strip.pavement.buffer(60.0, ARC) for strip in self._layout.strips.values()]
         )
         return joined.difference(keep_off)
 

@@ -247,3 +247,13 @@ def test_what_stands_before_a_body_takes_from_what_is_seen_of_it(
     seen = {sighting.actor: sighting for sighting in frame.sightings}
     assert seen["fire_truck"].visible_fraction < 0.6
     assert seen["737"].visible_fraction == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+def test_a_camera_within_a_body_sees_nothing_else(
+    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+) -> None:
+    carrier = stage.bodies[3]
+    around = carrier._replace(actor="737", shape="clean", up_m=carrier.up_m - 1.5)
+    frame = studios[renderer].shoot(["nose"], [around, carrier], 0)[0]
+    assert (frame.instance == studios[renderer].actors.index("737") + 1).mean() > 0.99

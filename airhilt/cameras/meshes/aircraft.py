@@ -352,18 +352,22 @@ class _Aircraft:
         wing_up = self._axis - 0.45 * self._radius + 0.1 * (abs(right) - self._radius)
         pylon = box(self._livery.wing, 0.28 * radius, 0.75 * length, max(wing_up - up, 0.4))
         pylon = pylon.moved(right, front - 0.75 * length, up)
-        if self._coarse:
-            skin = loft([ring(1.0, 0.55), ring(0.35, 1.04), ring(0.0, 0.92)], self._livery.engine)
-            fan = loft([ring(0.0, 0.92), ring(0.02, 0.02)], DARK)
-            tail = loft([ring(1.0, 0.55), ring(1.2, 0.12)][::-1], GREY)
-            return join([skin, fan, tail, pylon])
-        cowl = [ring(1.0, 0.55), ring(0.72, 0.82), ring(0.35, 1.04), ring(0.06, 1.0),
-                ring(0.0, 0.92)]  # fmt: skip
-        skin = loft(cowl, self._livery.engine)
-        lip = loft([ring(0.0, 0.92), ring(0.03, 0.84), ring(0.12, 0.8)], SILVER)
-        fan = loft([ring(0.12, 0.8), ring(0.1, 0.02)], DARK)
-        cone = loft([ring(1.0, 0.55), ring(0.98, 0.36), ring(1.2, 0.12)][::-1], GREY, closed=True)
-        return join([skin, lip, fan, cone, pylon])
+
+        def paint(centres: Floats) -> Floats:
+            back = (front - centres[:, 1]) / length
+            part = np.hypot(centres[:, 0] - right, centres[:, 2] - up) / radius
+            colours = np.tile(np.asarray(self._livery.engine, dtype=np.float32), (len(back), 1))
+            colours[(back < 0.12) & (part < 0.9)] = SILVER
+            colours[(back < 0.12) & (part < 0.6)] = DARK
+            colours[back > 0.97] = GREY
+            return colours
+
+        # From the cone at the back along the cowl to the middle of the fan.
+        rings = [(1.2, 0.12), (1.0, 0.55), (0.35, 1.04), (0.0, 0.92), (0.02, 0.02)]
+        if not self._coarse:
+            rings = [(1.2, 0.12), (0.98, 0.36), (1.0, 0.55), (0.72, 0.82), (0.35, 1.04),
+                     (0.06, 1.0), (0.0, 0.92), (0.03, 0.84), (0.12, 0.8), (0.1, 0.02)]  # fmt: skip
+        return join([loft([ring(*at) for at in rings], paint, closed=True), pylon])
 
     def _propeller(self, front: float, right: float, up: float) -> Mesh:
         radius = 0.34 if self._single else 0.4

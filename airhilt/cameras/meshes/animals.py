@@ -51,11 +51,9 @@ def flock(size: Size, count: int, beat: int | None = None) -> Mesh:
     if beat is None:
         places[:, 2] = 0.0
     span = 0.37 if beat is not None else 0.12
-    birds = []
-    for number, place in enumerate(places):
-        own = None if beat is None else (beat + number) % WING_BEATS
-        birds.append(_small_bird(span, own).moved(*(float(value) for value in place)))
-    return join(birds)
+    phases = [None] if beat is None else [(beat + step) % WING_BEATS for step in range(WING_BEATS)]
+    kinds = [_small_bird(span, phase) for phase in phases]
+    return join([kinds[k % len(kinds)].moved(*place) for k, place in enumerate(places.tolist())])
 
 
 def _quadruped(

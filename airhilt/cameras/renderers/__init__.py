@@ -59,7 +59,7 @@ class Renderer(Protocol):
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
         """Return bodies through the air, and shadows.
 
-        The distance is infinite beside a body. Of a shadow it tells no more than that: it is
+        Beside a body it is black and infinitely far. Of a shadow it tells no more than that: it is
         finite where the body keeps the sun from the ground.
         """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,14 +13,16 @@ import numpy.typing as npt
 from airhilt.cameras.light import DISC, GLARE_ENDS, LOWEST_SKY, Light
 from airhilt.cameras.mesh import Floats, Mesh
 from airhilt.cameras.renderers import Part, Samples
+from airhilt.cameras.renderers.tiles import Tiles, edges
 from airhilt.cameras.view import NEAR_M, View, Window
 from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
-LEAST_TILE_M = 700.0
 CANVAS_STEP_PX = 64
 SHELF_PX = 1024
 """Width of a row of windows that are drawn together."""
+TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
+"""Colours and distances, as a mask of what is written."""
 
 _AIR = """
 uniform vec3 airlight;
@@ -28,9 +30,12 @@ uniform float extinction;
 vec3 through_air(vec3 colour, float distance) {
     return mix(airlight, colour, exp(-extinction * distance));
 }
+// sRGB, its power replaced by a polynomial of the root: less than a tenth of a level beside it.
 vec3 encode(vec3 linear) {
     vec3 l = clamp(linear, 0.0, 1.0);
-    return mix(12.92 * l, 1.055 * pow(l, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, l));
+    vec3 s = sqrt(l);
+    vec3 high = ((0.51713 * s - 1.62312) * s + 2.03096) * s - 1.40244;
+    return mix((high * s + 1.51789) * s - 0.04011, 12.92 * l, lessThan(l, vec3(0.0031308)));
 }
 """
 _WORLD_VERTEX = """
@@ -39,24 +44,23 @@ uniform mat4 projection;
 uniform vec3 eye;
 in vec3 in_place;
 in vec3 in_colour;
-out vec3 offset;
 flat out vec3 colour;
 void main() {
-    offset = in_place - eye;
     colour = in_colour;
-    gl_Position = projection * vec4(offset, 1.0);
+    gl_Position = projection * vec4(in_place - eye, 1.0);
 }
 """
 _WORLD_FRAGMENT = (
     "#version 330\n"
     + _AIR
     + """
-in vec3 offset;
+uniform vec4 focal_plane;
 flat in vec3 colour;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance;
 void main() {
-    float away = length(offset);
+    vec2 aside = focal_plane.xy * gl_FragCoord.xy + focal_plane.zw;
+    float away = sqrt(dot(aside, aside) + 1.0) / gl_FragCoord.w;
     out_colour = vec4(encode(through_air(colour, away)), 1.0);
     out_distance = away;
 }
@@ -67,7 +71,7 @@ _SKY_VERTEX = """
 uniform mat3 corners;
 out vec3 towards;
 void main() {
-    vec2 place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    vec2 place = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);
     towards = corners * vec3(place, 1.0);
     gl_Position = vec4(place, 1.0, 1.0);
 }
@@ -170,34 +174,7 @@ void main() {
 class _Body:
     drawn: Any
     shadow: Any
-
-
-@dataclass(frozen=True)
-class _Tiles:
-    """Parts of the world in the order in which they are drawn, and a ball about each.
-
-    Attributes
-    ----------
-    bounds
-        Number of the first corner of each part, and after the last.
-    """
-
-    bounds: npt.NDArray[np.intp]
-    middles: npt.NDArray[np.float64]
-    radii_m: npt.NDArray[np.float64]
-
-    def seen_in(self, view: View, window: Window) -> Iterator[tuple[int, int]]:
-        """Yield first corners and numbers of corners of what may reach into a window."""
-        x, y, z = view.in_camera(self.middles).T
-        left, top, right, bottom = _edges(view, window)
-        seen = z > -self.radii_m
-        for across, low, high in ((x, left, right), (y, top, bottom)):
-            seen &= across - high * z <= self.radii_m * math.hypot(1.0, high)
-            seen &= low * z - across <= self.radii_m * math.hypot(1.0, low)
-        edges = np.flatnonzero(np.diff(np.concatenate(([False], seen, [False]))))
-        for begin, end in edges.reshape(-1, 2):
-            first = int(self.bounds[begin])
-            yield first, int(self.bounds[end]) - first
+    reach_m: float
 
 
 @dataclass(frozen=True)
@@ -210,10 +187,10 @@ class _Canvas:
     def read(self) -> Samples:
         """Return colours, and what has been drawn for distances."""
         width, height = self.size
-        colour = np.frombuffer(self.frame.read(self.size, components=4), dtype=np.uint8)
+        colour = self.frame.read(self.size, components=3, alignment=1)
         distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
         return Samples(
-            colour.reshape(height, width, 4)[..., :3],
+            np.frombuffer(colour, dtype=np.uint8).reshape(height, width, 3),
             np.frombuffer(distance, dtype=np.float32).reshape(height, width),
         )
 
@@ -229,6 +206,9 @@ class ModernGLRenderer:
 
     def __init__(self, world: Mesh, light: Light) -> None:
         self._context = context = _open_context()
+        # Everything is closed and faces outwards; in a picture upside down, clockwise.
+        context.front_face = "cw"
+        context.depth_func = "<="
         self._light = light
         self._frames: dict[tuple[int, int], Any] = {}
         self._bodies: dict[str, _Body] = {}
@@ -244,13 +224,13 @@ class ModernGLRenderer:
         self._sky.filter = context.NEAREST, context.NEAREST
         self._tallest_m = float(world.corners[..., 2].max())
         self._skies = [context.vertex_array(program, []) for program in self._sky_programs]
-        order, self._tiles = _tiles(world)
-        self._world = self._array(
-            self._world_program,
-            "3f 3f",
-            ("in_place", "in_colour"),
-            _by_corner(world.corners, light.baked(world))[order],
-        )
+        self._tiles = Tiles.of(world.corners)
+        colours = np.broadcast_to(light.baked(world)[:, None], world.corners.shape)
+        data = np.concatenate((world.corners, colours), axis=2)[self._tiles.order]
+        corners, self._triangles = _alike(data)
+        self._shown = context.buffer(reserve=self._triangles.nbytes)
+        layout = (context.buffer(corners), "3f 3f", "in_place", "in_colour")
+        self._world = context.vertex_array(self._world_program, [layout], self._shown)
         self._set_light()
 
     def _set_light(self) -> None:
@@ -288,6 +268,7 @@ class ModernGLRenderer:
                 ), axis=2),
             ),
             self._array(self._shadow_program, "3f", ("in_place",), mesh.corners),
+            float(np.linalg.norm(mesh.corners, axis=2).max()),
         )  # fmt: skip
 
     def close(self) -> None:
@@ -296,41 +277,39 @@ class ModernGLRenderer:
 
     def world(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the world behind all bodies, with the sky and the air."""
-        canvas = self._canvas((window.width * samples, window.height * samples))
+        context, program = self._context, self._world_program
+        canvas = self._canvas((window.width * samples, window.height * samples), is_filled=True)
+        context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
         eye = view.pose.position_m
-        self._context.enable(self._context.DEPTH_TEST)
-        self._context.depth_func = "<="
+        left, top, right, bottom = edges(view, window)
+        width, height = canvas.size
         near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
-        self._world_program["projection"] = _columns(_projection(view, window, near))
-        self._world_program["eye"] = eye
-        # Everything is closed and faces outwards; in a picture upside down, clockwise.
-        self._context.front_face = "cw"
-        self._context.enable(self._context.CULL_FACE)
-        for first, count in self._tiles.seen_in(view, window):
-            self._world.render(vertices=count, first=first)
-        self._context.disable(self._context.CULL_FACE)
+        program["projection"].write(_columns(_projection(view, window, near)))
+        program["eye"] = eye
+        pixel = (right - left) / width, (bottom - top) / height
+        program["focal_plane"] = *pixel, left, top
+        shown = self._triangles[self._tiles.shown_in(view, window, samples)]
+        if len(shown):
+            self._shown.write(shown)
+            self._world.render(vertices=shown.size)
         # Last, and as far as can be: only where nothing else is.
-        left, top, right, bottom = _edges(view, window)
         x, y, ahead = view.axes.T
         middle = ahead + (left + right) / 2.0 * x + (top + bottom) / 2.0 * y
         corners = np.column_stack(((right - left) / 2.0 * x, (bottom - top) / 2.0 * y, middle))
         has_glare = self._has_glare(view, window)
         self._sky.use(0)
-        self._sky_programs[has_glare]["corners"] = _columns(corners)
+        self._sky_programs[has_glare]["corners"].write(_columns(corners))
         self._skies[has_glare].render(vertices=3)
         return canvas.read()
 
     def _has_glare(self, view: View, window: Window) -> bool:
         """Return whether the bright sky about the sun may reach into a window."""
         light = self._light
-        columns = np.array([window.left, window.right, window.left, window.right])
-        rows = np.array([window.top, window.top, window.bottom, window.bottom])
-        edges = view.directions(columns.astype(np.float32), rows.astype(np.float32))
-        middle = edges.sum(axis=1) / np.linalg.norm(edges.sum(axis=1))
-        reach = math.acos(max(float((middle @ edges).min()), -1.0))
+        left, top, right, bottom = (abs(edge) for edge in edges(view, window))
+        reach = math.atan(math.hypot(max(left, right), max(top, bottom)))
         reach += math.acos(max(light.glare_from, -1.0))
-        away = math.acos(min(max(float(middle @ light.sun), -1.0), 1.0))
-        return bool(light.glare.any()) and away < reach
+        ahead = float(view.axes[:, 2] @ light.sun)
+        return bool(light.glare.any()) and math.acos(min(max(ahead, -1.0), 1.0)) < reach
 
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
         """Return bodies through the air, and shadows: all are drawn on one canvas."""
@@ -339,7 +318,6 @@ class ModernGLRenderer:
         sizes = [(p.window.width * p.samples, p.window.height * p.samples) for p in parts]
         places, whole = _shelves(sizes)
         canvas = self._canvas(whole)
-        self._body_program["extinction"] = self._light.extinction_per_m
         self._shadow_program["eye"] = view.pose.position_m
         for part, place, size in zip(parts, places, sizes, strict=True):
             canvas.frame.viewport = canvas.frame.scissor = (*place, *size)
@@ -357,20 +335,23 @@ class ModernGLRenderer:
     def _draw(self, view: View, part: Part) -> None:
         body, context = self._bodies[part.shape], self._context
         program = self._shadow_program if part.is_shadow else self._body_program
-        away = np.subtract(part.pose.position_m, view.pose.position_m)
-        near = max(NEAR_M, 0.2 * (float(np.linalg.norm(away)) - 100.0))
-        if part.is_shadow:
-            context.disable(context.DEPTH_TEST)
-            near = NEAR_M
-        else:
-            context.enable(context.DEPTH_TEST)
-        program["projection"] = _columns(_projection(view, part.window, near))
-        program["rotation"] = _columns(part.pose.rotation)
-        program["place"] = part.pose.position_m if part.is_shadow else tuple(away)
+        offset = np.subtract(part.pose.position_m, view.pose.position_m)
+        away = float(np.linalg.norm(offset))
+        near = NEAR_M if part.is_shadow else max(NEAR_M, 0.2 * (away - 100.0))
+        # From within, a body is seen from behind.
+        culled = context.CULL_FACE if away > body.reach_m else context.NOTHING
+        tested = context.NOTHING if part.is_shadow else context.DEPTH_TEST
+        context.enable_only(culled | tested)
+        program["projection"].write(_columns(_projection(view, part.window, near)))
+        program["rotation"].write(_columns(part.pose.rotation))
+        program["place"] = part.pose.position_m if part.is_shadow else tuple(offset)
         (body.shadow if part.is_shadow else body.drawn).render()
 
-    def _canvas(self, size: tuple[int, int]) -> _Canvas:
-        """Return a cleared canvas. Frame buffers are costly to make: few sizes do."""
+    def _canvas(self, size: tuple[int, int], *, is_filled: bool = False) -> _Canvas:
+        """Return a cleared canvas; of one that will be filled, colours need not be cleared.
+
+        Frame buffers are costly to make: few sizes do.
+        """
         width, height = (CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX) for side in size)
         frame = self._frames.get((width, height))
         if frame is None:
@@ -384,43 +365,29 @@ class ModernGLRenderer:
             )
         frame.use()
         frame.viewport = 0, 0, *size
+        frame.color_mask = UNTOUCHED if is_filled else TOUCHED
         frame.clear()
+        frame.color_mask = TOUCHED
         return _Canvas(frame, size)
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
-        """Return triangles for drawing; corners that are alike are stored, and lit, once."""
-        corners = np.ascontiguousarray(data, dtype=np.float32).reshape(-1, data.shape[2])
-        rows = corners.view(np.dtype((np.void, corners.itemsize * corners.shape[1]))).reshape(-1)
-        _, first, number = np.unique(rows, return_index=True, return_inverse=True)
-        # In the order of their use, for the sake of the caches.
-        rank = np.empty(len(first), dtype=np.uint32)
-        rank[np.argsort(first)] = np.arange(len(first), dtype=np.uint32)
-        buffer = self._context.buffer(corners[np.sort(first)].tobytes())
-        indices = self._context.buffer(rank[number.reshape(-1)].tobytes())
+        """Return triangles for drawing."""
+        corners, triangles = _alike(data)
+        buffer, indices = self._context.buffer(corners), self._context.buffer(triangles)
         return self._context.vertex_array(program, [(buffer, layout, *names)], indices)
 
 
-def _tiles(world: Mesh) -> tuple[npt.NDArray[np.intp], _Tiles]:
-    """Return an order of triangles in which those of one tile follow each other, and the tiles.
+def _alike(data: Floats) -> tuple[Floats, npt.NDArray[np.uint32]]:
+    """Return corners that are alike once, and the numbers of those of each triangle.
 
-    Large triangles, which reach over many tiles, are in tiles of their own size.
+    They are stored, and lit, once, in the order of their use for the sake of the caches.
     """
-    low, high = world.corners.min(axis=1), world.corners.max(axis=1)
-    size = np.max(high - low, axis=1)
-    level = np.ceil(np.log2(np.maximum(size, LEAST_TILE_M) / LEAST_TILE_M))
-    cells = np.floor((low + high)[:, :2] / 2.0 / (LEAST_TILE_M * 2.0**level)[:, None])
-    _, number = np.unique(np.column_stack((level, cells)), axis=0, return_inverse=True)
-    order = np.argsort(number.reshape(-1), kind="stable")
-    starts = np.concatenate(([0], np.cumsum(np.bincount(number.reshape(-1)))))
-    bottom = np.minimum.reduceat(low[order], starts[:-1]).astype(np.float64)
-    top = np.maximum.reduceat(high[order], starts[:-1]).astype(np.float64)
-    middles = (bottom + top) / 2.0
-    return order, _Tiles(3 * starts, middles, np.linalg.norm(top - middles, axis=1))
-
-
-def _by_corner(corners: Floats, colours: Floats) -> Floats:
-    spread = np.broadcast_to(colours[:, None], corners.shape)
-    return np.concatenate((corners, spread), axis=2)
+    corners = np.ascontiguousarray(data, dtype=np.float32).reshape(-1, data.shape[2])
+    rows = corners.view(np.dtype((np.void, corners.itemsize * corners.shape[1]))).reshape(-1)
+    _, first, number = np.unique(rows, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), dtype=np.uint32)
+    rank[np.argsort(first)] = np.arange(len(first), dtype=np.uint32)
+    return corners[np.sort(first)], rank[number].reshape(-1, 3)
 
 
 def _shelves(
@@ -439,25 +406,12 @@ def _shelves(
     return places, (used, top + tallest)
 
 
-def _edges(view: View, window: Window) -> tuple[float, float, float, float]:
-    """Return left, top, right and bottom of a window at a depth of 1."""
-    lens = view.intrinsics
-    across, down = lens.width_px / 2.0, lens.height_px / 2.0
-    focal = lens.focal_px
-    return (
-        (window.left - across) / focal,
-        (window.top - down) / focal,
-        (window.right - across) / focal,
-        (window.bottom - down) / focal,
-    )
-
-
 def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.float64]:
     """Return clip coordinates from offsets in the world; the first row of a picture is the lowest.
 
     OpenGL keeps the lowest row first, so drawing upside down saves turning what is read.
     """
-    left, top, right, bottom = _edges(view, window)
+    left, top, right, bottom = edges(view, window)
     frustum = np.array((
         (2.0 / (right - left), 0.0, -(right + left) / (right - left), 0.0),
         (0.0, 2.0 / (bottom - top), -(bottom + top) / (bottom - top), 0.0),
@@ -469,9 +423,9 @@ def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.flo
     return np.asarray(frustum @ turn)
 
 
-def _columns(matrix: npt.NDArray[np.float64]) -> tuple[float, ...]:
+def _columns(matrix: npt.NDArray[np.float64]) -> bytes:
     """Return a matrix as OpenGL takes it."""
-    return tuple(float(value) for value in matrix.T.reshape(-1))
+    return matrix.T.astype(np.float32).tobytes()
 
 
 def _open_context() -> Any:

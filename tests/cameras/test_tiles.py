@@ -1,0 +1,69 @@
+"""Of the still world only what may show in a picture is drawn."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from airhilt.cameras.mesh import Floats
+from airhilt.cameras.renderers.tiles import Tiles
+from airhilt.cameras.view import Intrinsics, Pose, View, Window
+
+VIEW = View(Intrinsics(160, 90, math.radians(60.0)), Pose.of((5.0, -3.0, 40.0), 0.4, -0.1, 0.05))
+
+
+def triangles(count: int, size_m: float, reach_m: float) -> Floats:
+    """Return triangles strewn over some ground, as the numbers of a seed have it."""
+    draws = np.random.default_rng(7)
+    middles = draws.uniform(-reach_m, reach_m, size=(count, 1, 3)) * (1.0, 1.0, 0.01)
+    return (middles + draws.normal(scale=size_m, size=(count, 3, 3))).astype(np.float32)
+
+
+def shown(corners: Floats, window: Window = VIEW.whole, samples: int = 1) -> set[int]:
+    tiles = Tiles.of(corners)
+    return set(tiles.order[tiles.shown_in(VIEW, window, samples)].tolist())
+
+
+def holding_a_middle(corners: Floats, window: Window, samples: int) -> set[int]:
+    """Return which triangles before the camera hold the middle of a sample, one by one."""
+    columns, rows = VIEW.sample_places(window, samples)
+    found = set()
+    for number, triangle in enumerate(corners):
+        if VIEW.in_camera(triangle)[:, 2].min() < 0.5:
+            continue
+        a, b, c = VIEW.pixels(VIEW.in_camera(triangle))
+        side = [
+            (q[0] - p[0]) * (rows - p[1]) - (q[1] - p[1]) * (columns - p[0])
+            for p, q in ((a, b), (b, c), (c, a))
+        ]
+        inside = np.minimum.reduce(side) > 0.0, np.maximum.reduce(side) < 0.0
+        if inside[0].any() or inside[1].any():
+            found.add(number)
+    return found
+
+
+@pytest.mark.parametrize("samples", [1, 2])
+@pytest.mark.parametrize("window", [VIEW.whole, Window(20, 30, 100, 75)])
+def test_whatever_holds_the_middle_of_a_sample_is_drawn(window: Window, samples: int) -> None:
+    corners = triangles(400, 20.0, 1000.0)
+    seen = holding_a_middle(corners, window, samples)
+    assert len(seen) > 10
+    assert seen <= shown(corners, window=window, samples=samples)
+
+
+def test_what_lies_between_the_middles_of_pixels_is_left_out() -> None:
+    corners = triangles(400, 0.5, 4000.0)
+    drawn = shown(corners)
+    assert len(holding_a_middle(corners, VIEW.whole, 1)) <= len(drawn) < 100
+
+
+def test_what_crosses_the_plane_of_the_camera_is_drawn() -> None:
+    below = np.array([[(0.0, -500.0, 0.0), (400.0, 900.0, 0.0), (-400.0, 900.0, 0.0)]])
+    assert shown(below.astype(np.float32)) == {0}
+
+
+def test_what_is_behind_the_camera_is_left_out() -> None:
+    behind = np.array([[(0.0, -500.0, 0.0), (90.0, -400.0, 0.0), (-90.0, -400.0, 0.0)]])
+    assert not shown(behind.astype(np.float32))
