@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from airhilt.cameras import RENDERER, RENDERERS, RendererName
-from airhilt.errors import AirhiltError, CameraError
+from airhilt.errors import CameraError
 
 
 @click.command(
@@ -45,10 +45,7 @@ def render(
         raise CameraError(f"--at is {at_s} s; expected 0 to 86400")
     frame = still(load(name), camera, at_s, seed, renderer)
     path = out or Path(f"{Path(name).stem}-{camera}-{at_s:g}.png")
-    try:
-        write_png(frame, path, boxes)
-    except OSError as error:
-        raise AirhiltError(f"{path}: cannot be written: {error.strerror}") from None
+    write_png(frame, path, boxes)
     click.echo(path)
     for sighting in frame.sightings:
         box = ", ".join(f"{side:.1f}" for side in sighting.box)

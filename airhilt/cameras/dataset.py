@@ -26,7 +26,7 @@ from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.stage import light_of, open_studio
 from airhilt.cameras.still import TICK_S
 from airhilt.cameras.studio import Frame, Sighting, Studio
-from airhilt.errors import AirhiltError, CameraError
+from airhilt.errors import CameraError
 from airhilt.files import replace_file
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
@@ -169,10 +169,7 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -
         camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
         for camera in realised.cameras
     }
-    carriers = {
-        camera.name: camera.mount.actor if camera.mount.type == "actor" else None
-        for camera in realised.cameras
-    }
+    carriers = {camera.name: camera.carrier for camera in realised.cameras}
     names = list(stations)
     instants = -(-count // len(names))
     ticks = round(realised.duration_s / TICK_S)
@@ -237,7 +234,7 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
                 Image.fromarray(picture.frame.colour).save(
                     buffer, format="JPEG", quality=QUALITY, subsampling=0
                 )
-                (folder / name).write_bytes(buffer.getvalue())
+                replace_file(folder / name, buffer.getvalue())
                 images.append(_image(number, name, picture))
                 for sighting in picture.frame.sightings:
                     if sighting.pixels >= FAINTEST_PX:
@@ -253,7 +250,9 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
             data = json.dumps(document, separators=(",", ":")).encode()
             replace_file(folder / "annotations.json", data)
     except OSError as error:
-        raise AirhiltError(f"{folder}: cannot be written: {error.strerror}") from None
+        raise CameraError(
+            f"{folder}: cannot be written: {error.strerror}; make room, or choose another --out"
+        ) from None
     found = [CLASSES[annotation["category_id"] - 1] for annotation in annotations]
     return {name: found.count(name) for name in CLASSES}
 

@@ -88,11 +88,18 @@ class RemoteStudio:
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = _cameras(scenario, wanted)
         self._places = _places(self._cameras)
-        self._file = _shared_file()
         size = max(sum(camera_bytes(camera) for camera in self._cameras.values()), 1)
-        self._file.truncate(size)
-        self._pixels = mmap.mmap(self._file.fileno(), size)
-        self._said = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115
+        try:
+            self._said = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115
+            self._file = _shared_file()
+            self._file.truncate(size)
+            self._pixels = mmap.mmap(self._file.fileno(), size)
+        except OSError as error:
+            raise RendererError(
+                f"the renderer {renderer} has no room for pictures of {size / 1e6:.0f} MB and for "
+                f"what it says: {error.strerror}; expected that much memory, and a few kB where "
+                "temporary files are (TMPDIR)"
+            ) from None
         self._process, self._ask, self._answers = self._start()
         self._unread = b""
         self._last: dict[str, Frame] = {}
@@ -287,7 +294,7 @@ def _cameras(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]:
     from airhilt.cameras.bodies import model_of
 
     setting = Setting.of(scenario)
-    carriers = {camera.mount.actor for camera in scenario.cameras if camera.mount.type == "actor"}
+    carriers = {camera.carrier for camera in scenario.cameras}
     models = {
         actor.callsign: model_of(actor) for actor in scenario.actors if actor.callsign in carriers
     }

@@ -129,7 +129,7 @@ class CameraRig:
                     width_px=camera.width_px,
                     height_px=camera.height_px,
                     horizontal_fov_deg=camera.horizontal_fov_deg,
-                    carrier=_carrier(camera),
+                    carrier=camera.carrier,
                     own_aircraft=() if own is None else runs_of(own),
                 ),
             )
@@ -159,7 +159,7 @@ class CameraRig:
         self._schedule()
 
     def _has_ended(self, camera: Camera) -> bool:
-        carrier = _carrier(camera)
+        carrier = camera.carrier
         return carrier is not None and self._performers[carrier].body.ended is not None
 
     def _bodies(self) -> list[BodyState]:
@@ -187,7 +187,7 @@ class CameraRig:
             camera=name,
             seq=seq,
             t_frame_ns=now_ns,
-            view=view_message(frame.view, self._frame, _carrier(self._cameras[name])),
+            view=view_message(frame.view, self._frame, self._cameras[name].carrier),
             sha256=self._sha256[name],
         )
         truth = CameraTruth(
@@ -228,7 +228,3 @@ def angles_of(rotation: npt.NDArray[np.float64]) -> tuple[float, float, float]:
     pitch = math.asin(min(max(float(ahead[2]), -1.0), 1.0))
     roll = math.atan2(-right[2], up[2])
     return heading, pitch, roll
-
-
-def _carrier(camera: Camera) -> str | None:
-    return camera.mount.actor if camera.mount.type == "actor" else None

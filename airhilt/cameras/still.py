@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 from airhilt.actors import build_cast
@@ -11,6 +12,7 @@ from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.remote import RemoteStudio
 from airhilt.cameras.studio import Frame
 from airhilt.errors import CameraError
+from airhilt.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
 from airhilt.scenario.loading import draw
@@ -50,14 +52,12 @@ def still(
 
 
 def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
-    """Write a picture, with the boxes of what is in it if wanted.
+    """Write a picture, with the boxes of what is in it if wanted: all of the file or nothing.
 
     Raises
     ------
     CameraError
-        Pillow is not installed.
-    OSError
-        The file cannot be written.
+        Pillow is not installed, or the file cannot be written.
     """
     try:
         from PIL import Image, ImageDraw
@@ -71,4 +71,11 @@ def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
             pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=(255, 220, 40))
             text = f"{sighting.label} {sighting.range_m:.0f} m"
             pen.text((left, max(top - 14, 0)), text, fill=(255, 220, 40))
-    picture.save(path, format="PNG")
+    buffer = io.BytesIO()
+    picture.save(buffer, format="PNG")
+    try:
+        replace_file(path, buffer.getvalue())
+    except OSError as error:
+        raise CameraError(
+            f"{path}: cannot be written: {error.strerror}; make room, or choose another --out"
+        ) from None

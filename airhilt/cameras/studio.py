@@ -275,7 +275,7 @@ class Studio:
         backdrop = self._backdrops[camera.name]
         backdrop.look(view)
         mount = camera.at if isinstance(camera.at, Mount) else None
-        carrier = mount.actor if mount is not None else None
+        carrier = camera.carrier
         others = [body for actor, body in bodies.items() if actor != carrier]
         seen = [one for body in others if (one := self._seen(body, poses[body.actor], view))]
         drawn = [one for one in seen if one.leaves_a_trace]

@@ -323,6 +323,11 @@ class Camera(_Model):
         default=0.0, ge=0.0, lt=1.0, description="end of its first exposure after the start"
     )
 
+    @property
+    def carrier(self) -> str | None:
+        """The actor that carries it; None if it stands."""
+        return self.mount.actor if isinstance(self.mount, ActorMount) else None
+
 
 class Wind(_Model):
     """A steady wind, the same everywhere."""

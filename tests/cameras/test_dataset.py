@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
+import os
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from subprocess import CompletedProcess
@@ -20,6 +23,8 @@ from airhilt.cameras.dataset import (
     run_lengths,
     scenario_pictures,
 )
+from airhilt.cameras.studio import Frame
+from airhilt.cameras.view import Intrinsics, Pose, View
 from airhilt.errors import CameraError, ScenarioError
 
 pytest.importorskip("moderngl")
@@ -213,6 +218,50 @@ def test_a_folder_with_something_in_it_is_left_alone(tmp_path: Path) -> None:
     with pytest.raises(CameraError, match="is not empty"):
         export(iter(()), tmp_path, {})
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def frames(count: int) -> Iterator[Picture]:
+    """Return grey pictures of nobody."""
+    view = View(Intrinsics(32, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
+    colour = np.full((16, 32, 3), 128, dtype=np.uint8)
+    plane = np.zeros((16, 32), dtype=np.uint8)
+    frame = Frame("field", 0, view, colour, plane.astype(np.float32), plane, ())
+    for _ in range(count):
+        yield Picture(frame, (), None, 10_000.0, 12.0, 50.0, 0.0, "fixed", None)
+
+
+def test_a_folder_that_cannot_be_made_is_named_with_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    for folder in (tmp_path / "file", tmp_path / "file" / "new"):
+        with pytest.raises(CameraError, match=r"cannot be written: Not a dir.*another --out"):
+            export(frames(1), folder, {})
+
+
+def test_of_a_full_disk_the_truth_tells_what_is_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = Path.write_bytes
+
+    def filling(path: Path, data: bytes) -> int:
+        if "000003" in path.name:
+            write(path, data[:100])
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return write(path, data)
+
+    monkeypatch.setattr(Path, "write_bytes", filling)
+    with pytest.raises(CameraError, match=r"part: .*No space left.*make room") as caught:
+        export(frames(5), tmp_path / "part", {})
+    assert "\n" not in str(caught.value)
+    written = sorted(path.name for path in (tmp_path / "part" / "images").iterdir())
+    assert written == ["000001.jpg", "000002.jpg"]
+    assert len(read(tmp_path / "part")["images"]) == 2
+
+
+def test_without_pillow_nothing_is_begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(CameraError, match=r"pip install 'airhilt\[vision\]'"):
+        export(frames(1), tmp_path / "new", {})
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_run_lengths_go_down_the_columns_and_begin_with_what_is_free() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import math
 import os
 import signal
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -21,6 +23,8 @@ from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.remote import RemoteStudio, probe
 from airhilt.cameras.renderers import raycasting, require_renderer
 from airhilt.cameras.still import TICK_S, still, write_png
+from airhilt.cameras.studio import Frame
+from airhilt.cameras.view import Intrinsics, Pose, View
 from airhilt.errors import CameraError, RendererError
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
@@ -117,6 +121,54 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
     frame = still(washington(), "field", 1.0, renderer="moderngl")
     write_png(frame, tmp_path / "still.png", boxes=True)
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
+
+
+def blank() -> Frame:
+    """Return a picture of nothing."""
+    view = View(Intrinsics(32, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
+    plane = np.zeros((16, 32), dtype=np.uint8)
+    colour = np.zeros((16, 32, 3), dtype=np.uint8)
+    return Frame("field", 0, view, colour, plane.astype(np.float32), plane, ())
+
+
+def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    (tmp_path / "file").touch()
+    with pytest.raises(CameraError, match=r"a\.png: cannot be written: Not a dir.* another --out"):
+        write_png(blank(), tmp_path / "file" / "a.png")
+
+
+def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("PIL")
+    write_png(blank(), tmp_path / "a.png")
+    before = (tmp_path / "a.png").read_bytes()
+    monkeypatch.setattr(Path, "write_bytes", full_disk)
+    with pytest.raises(CameraError, match=r"a\.png: .*No space left.*make room") as caught:
+        write_png(blank(), tmp_path / "a.png", boxes=True)
+    assert "\n" not in str(caught.value)
+    assert (tmp_path / "a.png").read_bytes() == before
+
+
+def test_without_pillow_a_still_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(CameraError, match=r"pip install 'airhilt\[vision\]'"):
+        write_png(blank(), tmp_path / "a.png")
+
+
+def test_a_renderer_without_room_for_its_files_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tempfile, "TemporaryFile", full_disk)
+    with pytest.raises(RendererError, match=r"No space left.*TMPDIR"):
+        RemoteStudio(washington(), ["runway_01"], "moderngl")
+
+
+def full_disk(*_: object, **__: object) -> None:
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def test_a_renderer_without_its_libraries_says_what_to_install(

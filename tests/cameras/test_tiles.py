@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.cameras.mesh import Floats
 from airhilt.cameras.renderers.tiles import Tiles
-from airhilt.cameras.view import Intrinsics, Pose, View, Window
+from airhilt.cameras.view import NEAR_M, Intrinsics, Pose, View, Window
 
 VIEW = View(Intrinsics(160, 90, math.radians(60.0)), Pose.of((5.0, -3.0, 40.0), 0.4, -0.1, 0.05))
 
@@ -23,7 +23,7 @@ def triangles(count: int, size_m: float, reach_m: float) -> Floats:
 
 def shown(corners: Floats, window: Window = VIEW.whole, samples: int = 1) -> set[int]:
     tiles = Tiles.of(corners)
-    return set(tiles.order[tiles.shown_in(VIEW, window, samples)].tolist())
+    return set(tiles.order[tiles.shown_in(VIEW, window, samples).places].tolist())
 
 
 def holding_a_middle(corners: Floats, window: Window, samples: int) -> set[int]:
@@ -67,3 +67,28 @@ def test_what_crosses_the_plane_of_the_camera_is_drawn() -> None:
 def test_what_is_behind_the_camera_is_left_out() -> None:
     behind = np.array([[(0.0, -500.0, 0.0), (90.0, -400.0, 0.0), (-90.0, -400.0, 0.0)]])
     assert not shown(behind.astype(np.float32))
+
+
+def test_nothing_in_the_window_is_nearer_than_what_is_told() -> None:
+    window = Window(20, 30, 100, 75)
+    corners = np.concatenate((triangles(400, 20.0, 1000.0), triangles(20, 900.0, 1000.0)))
+    corners = corners[VIEW.in_camera(corners)[..., 2].max(axis=1) > 0.0]
+    weights = np.random.default_rng(8).dirichlet((1.0, 1.0, 1.0), size=2000).astype(np.float32)
+    compared = 0
+    for triangle in corners:
+        points = VIEW.in_camera(weights @ triangle)
+        points = points[points[:, 2] > NEAR_M]
+        column, row = VIEW.pixels(points).T
+        inside = (column > window.left) & (column < window.right)
+        inside &= (row > window.top) & (row < window.bottom)
+        seen = Tiles.of(triangle[None]).shown_in(VIEW, window)
+        if len(seen.places):
+            assert (points[inside, 2] >= 0.999 * seen.depth_m).all()
+            compared += int(inside.sum())
+    assert compared > 1000
+
+
+def test_ground_below_the_camera_is_not_near() -> None:
+    below = np.array([[(0.0, -900.0, 0.0), (900.0, 900.0, 0.0), (-900.0, 900.0, 0.0)]])
+    depth_m = Tiles.of(below.astype(np.float32)).shown_in(VIEW, VIEW.whole).depth_m
+    assert depth_m == pytest.approx(40.0, rel=0.3)

@@ -7,9 +7,11 @@ something is missed. For tests of what is made of detections, quickly and withou
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -17,15 +19,17 @@ import pytest
 from airhilt import cosim, load, team, vision
 from airhilt.cameras.bodies import BodyState, model_of
 from airhilt.cameras.masks import Mask
-from airhilt.cameras.mounts import Mount, cameras_of
+from airhilt.cameras.mounts import cameras_of
 from airhilt.cameras.outline import Outline
 from airhilt.cameras.studio import Frame, Sighting
 from airhilt.messages import (
     CameraFrame,
+    CameraView,
     DeclaredLatency,
     Detection,
     Detections,
     InputSpec,
+    VisibleClass,
     WorkerDescription,
 )
 from airhilt.metrics.summary import Summary
@@ -33,12 +37,18 @@ from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.scenario.geometry import Setting
 from airhilt.sim.worker import Input, Output
+from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
+from airhilt.workers.vision.detector import Found
+from airhilt.workers.vision.tracker import Tracker
 
 SMALLEST_PX = 8.0
 LEAST_TRANSMISSION = 0.15
 MISSED = 0.1
 ERROR_PX = 0.7
+PICTURES_MISSED, FALSE_BOXES = 0.1, 0.1
+SURE = 0.4
+HIDDEN_EVERY_NS, HIDDEN_NS = 10 * SECOND_NS, 3 * SECOND_NS // 2
 
 
 class BlankStudio:
@@ -76,8 +86,8 @@ class BlankStudio:
     def _picture(self, name: str, bodies: Mapping[str, BodyState], t_ns: int) -> Frame:
         camera = self._cameras[name]
         view = camera.view(bodies)
-        own = camera.at.actor if isinstance(camera.at, Mount) else None
-        found = [self._sighting(body, view) for body in bodies.values() if body.actor != own]
+        others = [body for body in bodies.values() if body.actor != camera.carrier]
+        found = [self._sighting(body, view) for body in others]
         sightings = tuple(each for each in found if each is not None)
         self.sightings[name, t_ns] = sightings
         size = view.intrinsics.height_px, view.intrinsics.width_px
@@ -120,14 +130,20 @@ class Oracle:
         outputs = []
         for item in inputs:
             frame = CameraFrame.model_validate(item.attachment)
-            seen = self._studio.sightings[frame.camera, frame.t_frame_ns]
+            detections = self._look(frame)
+            if detections is None:
+                continue
             found = Detections(
                 camera=frame.camera, seq=frame.seq, t_frame_ns=frame.t_frame_ns, view=frame.view,
-                detections=tuple(d for s in seen if (d := self._detect(frame.camera, s))),
-                engine="oracle",
+                detections=detections, engine="oracle",
             )  # fmt: skip
             outputs.append(Output(f"vision/{frame.camera}", found.model_dump_json().encode()))
         return Step(tuple(outputs))
+
+    def _look(self, frame: CameraFrame) -> tuple[Detection, ...] | None:
+        """Return what is in a picture; None if it was missed."""
+        seen = self._studio.sightings[frame.camera, frame.t_frame_ns]
+        return tuple(d for s in seen if (d := self._detect(frame.camera, s)))
 
     def _detect(self, camera: str, sighting: Sighting) -> Detection | None:
         box, key = sighting.box, (camera, sighting.actor)
@@ -146,6 +162,54 @@ class Oracle:
         )  # fmt: skip
 
 
+class Follower(Oracle):
+    """One that errs for moments, and follows what it finds with the tracker that ships.
+
+    Some pictures are missed, in some it finds for once what is not there, and every few seconds
+    something is before the lens for longer than a track lives.
+    """
+
+    def __init__(self, studio: BlankStudio, seed: int, smallest_px: float) -> None:
+        super().__init__(studio, seed, smallest_px)
+        self._errors = np.random.default_rng((seed, 72))
+        self._trackers: dict[str, Tracker] = {}
+        self.erred: Counter[str] = Counter()
+        """How often, by kind."""
+
+    def _look(self, frame: CameraFrame) -> tuple[Detection, ...] | None:
+        if self._errors.random() < PICTURES_MISSED:
+            self.erred["missed"] += 1
+            return None
+        found = []
+        if frame.t_frame_ns % HIDDEN_EVERY_NS < HIDDEN_NS:
+            self.erred["hidden"] += 1
+        else:
+            found = [self._unsure(each) for each in super()._look(frame)]
+        if self._errors.random() < FALSE_BOXES:
+            self.erred["false"] += 1
+            found.append(self._false(frame.view))
+        tracker = self._trackers.setdefault(frame.camera, Tracker(SURE))
+        return tuple(
+            Detection(
+                label=one.found.label, confidence=one.found.confidence, box=one.found.box,
+                track_id=one.track_id, hits=one.hits,
+            )
+            for one in tracker.follow(frame.t_frame_ns, frame.view, found)
+        )  # fmt: skip
+
+    def _unsure(self, found: Detection) -> Found:
+        """Return a finding, of which one in six is not sure."""
+        return Found(found.label, float(self._errors.uniform(0.3, 0.9)), found.box)
+
+    def _false(self, view: CameraView) -> Found:
+        """Return something somewhere."""
+        draws = self._errors
+        side, label = float(draws.uniform(8.0, 40.0)), str(draws.choice(get_args(VisibleClass)))
+        left = float(draws.uniform(0.0, view.width_px - side))
+        top = float(draws.uniform(0.0, view.height_px - side))
+        return Found(label, float(draws.uniform(0.3, 0.6)), (left, top, left + side, top + side))
+
+
 def watched(
     name: str,
     out: Path,
@@ -153,8 +217,9 @@ def watched(
     seed: int = 0,
     smallest_px: float = SMALLEST_PX,
     scenario: Scenario | None = None,
+    oracle: type[Oracle] = Oracle,
 ) -> tuple[Summary, Oracle]:
-    """Run a scenario with its cameras, the oracle and the reference assistant."""
+    """Run a scenario with its cameras, an oracle and the reference assistant."""
     made: list[Oracle] = []
 
     def open_studio(realised: Scenario, renderer: str) -> BlankStudio:
@@ -165,7 +230,7 @@ def watched(
     reference = team.reference_workers
 
     def workers(assistant, radio, taken, engines):
-        made.append(Oracle(None, seed, smallest_px))
+        made.append(oracle(None, seed, smallest_px))
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 

@@ -96,6 +96,17 @@ def test_a_measured_run_with_cameras_is_replayed_to_the_byte(
     assert replay(tmp_path / "run").identical
 
 
+def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
+    short: Scenario, tmp_path: Path
+) -> None:
+    """A replay draws all pictures again, and each header vouches for its pixels."""
+    pytest.importorskip("open3d")
+    glance = short.model_copy(update={"duration_s": 0.5})
+    log = log_of(glance, tmp_path / "run", renderer="open3d", latency="measured")
+    assert len(messages(log, "camera/nose")) == 2 * (1 + 5)
+    assert replay(tmp_path / "run").identical
+
+
 def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,8 +1,9 @@
 """What cameras add: conflicts that no transponder shows are seen, and normal traffic is quiet.
 
 Most of these runs draw nothing, and their detector is told what is in view where it is 8 pixels
-large: they are about what is made of detections. The last ones draw every picture and look at it
-with the detector that ships.
+large: they are about what is made of detections, in some after the tracker, with errors that
+flicker. The last ones draw every picture and look at it with the detector that ships, whose errors
+may last.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from oracle import watched
+from oracle import Follower, Oracle, watched
 
 from airhilt import load, run
 from airhilt.messages import Advisory, Severity
@@ -85,6 +86,61 @@ def test_in_normal_traffic_that_is_seen_nothing_is_told(
     assert summary.nuisance_alerts == 0
     # Whoever has no transponder is seen, and so is who has one, where it comes near.
     assert name == "s02c_nominal" or len({actor for _, actor in oracle.first_m}) >= 2
+
+
+# --- with errors, through the tracker ---------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [ON_THE_RUNWAY[0], *(
+    pytest.param(name, marks=pytest.mark.slow) for name in ON_THE_RUNWAY[1:]
+)])  # fmt: skip
+def test_what_is_followed_on_a_runway_with_errors_sends_the_arrival_around(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    summary, follower = watched(name, tmp_path / "run", monkeypatch, oracle=Follower)
+    assert has_erred(follower)
+    assert summary.avoided is True
+    assert not summary.collision
+    assert summary.nuisance_alerts == 0
+    assert summary.t_conflict_s is not None
+    told = [w for w in warnings(tmp_path / "run") if w.recipient == "AAL123"]
+    assert told[0].recommendation is not None
+    assert told[0].recommendation.action == "go_around"
+    assert told[0].t_ns / SECOND_NS - summary.t_conflict_s < 12.0
+
+
+@pytest.mark.parametrize("name", [IN_THE_AIR[0], *(
+    pytest.param(name, marks=pytest.mark.slow) for name in IN_THE_AIR[1:]
+)])  # fmt: skip
+def test_an_intruder_that_is_followed_with_errors_is_missed(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    summary, follower = watched(name, tmp_path / "run", monkeypatch, oracle=Follower)
+    assert has_erred(follower)
+    assert not summary.collision
+    assert not summary.nmac
+    assert summary.nuisance_alerts == 0
+    assert {w.recipient for w in warnings(tmp_path / "run")} == {"AAL123", "ATC"}
+
+
+@pytest.mark.parametrize("name", [NOMINAL[2], *(
+    pytest.param(name, marks=pytest.mark.slow) for name in NOMINAL[:2]
+)])  # fmt: skip
+def test_errors_make_no_alarm_in_normal_traffic(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    summary, follower = watched(name, tmp_path / "run", monkeypatch, oracle=Follower)
+    assert has_erred(follower)
+    assert [
+        told for told in summary.advisories if told.severity.rank >= Severity.CAUTION.rank
+    ] == []
+    assert summary.nuisance_alerts == 0
+
+
+def has_erred(follower: Oracle) -> bool:
+    """Return whether there were errors of each kind."""
+    assert isinstance(follower, Follower)
+    return all(follower.erred[kind] >= 20 for kind in ("missed", "hidden", "false"))
 
 
 # --- with pictures and the detector that ships ----------------------------------------------

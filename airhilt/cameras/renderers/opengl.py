@@ -18,6 +18,8 @@ from airhilt.cameras.view import NEAR_M, View, Window
 from airhilt.errors import RendererError, first_line
 
 FAR_M = 600_000.0
+WITHIN = 0.99
+"""Of the depth of what is nearest: depths are rounded."""
 CANVAS_STEP_PX = 64
 SHELF_PX = 1024
 """Width of a row of windows that are drawn together."""
@@ -222,7 +224,6 @@ class ModernGLRenderer:
         self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
         self._sky.repeat_x = False
         self._sky.filter = context.NEAREST, context.NEAREST
-        self._tallest_m = float(world.corners[..., 2].max())
         self._skies = [context.vertex_array(program, []) for program in self._sky_programs]
         self._tiles = Tiles.of(world.corners)
         colours = np.broadcast_to(light.baked(world)[:, None], world.corners.shape)
@@ -280,18 +281,19 @@ class ModernGLRenderer:
         context, program = self._context, self._world_program
         canvas = self._canvas((window.width * samples, window.height * samples), is_filled=True)
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
-        eye = view.pose.position_m
         left, top, right, bottom = edges(view, window)
         width, height = canvas.size
-        near = max(NEAR_M, 0.4 * (eye[2] - self._tallest_m))
-        program["projection"].write(_columns(_projection(view, window, near)))
-        program["eye"] = eye
-        pixel = (right - left) / width, (bottom - top) / height
-        program["focal_plane"] = *pixel, left, top
-        shown = self._triangles[self._tiles.shown_in(view, window, samples)]
-        if len(shown):
-            self._shown.write(shown)
-            self._world.render(vertices=shown.size)
+        shown = self._tiles.shown_in(view, window, samples)
+        if len(shown.places):
+            # As far away as can be: 24 bits of depth tell apart what is not much farther.
+            near = max(NEAR_M, WITHIN * shown.depth_m)
+            program["projection"].write(_columns(_projection(view, window, near)))
+            program["eye"] = view.pose.position_m
+            pixel = (right - left) / width, (bottom - top) / height
+            program["focal_plane"] = *pixel, left, top
+            triangles = self._triangles[shown.places]
+            self._shown.write(triangles)
+            self._world.render(vertices=triangles.size)
         # Last, and as far as can be: only where nothing else is.
         x, y, ahead = view.axes.T
         middle = ahead + (left + right) / 2.0 * x + (top + bottom) / 2.0 * y
