@@ -187,7 +187,7 @@ class Light:
 
     def baked(self, mesh: Mesh) -> Floats:
         """Return the light that triangles which never move send out, shape (n, 3)."""
-        lit = self.shade(mesh.colours, mesh.face_normals, mesh.sunlit)
+        lit = self.shade(mesh.colours, mesh.mean_normals, mesh.sunlit)
         return lit + (mesh.glow * np.float32(self.darkness))[:, None] * mesh.colours
 
     @property

@@ -123,6 +123,13 @@ class Mesh:
         return np.asarray(across / np.maximum(length, 1e-12), dtype=np.float32)
 
     @property
+    def mean_normals(self) -> Floats:
+        """Of each triangle, over its corners; shape (n, 3)."""
+        total = self.normals.sum(axis=1)
+        length = np.linalg.norm(total, axis=1, keepdims=True)
+        return np.asarray(total / np.maximum(length, 1e-12), dtype=np.float32)
+
+    @property
     def lowest_m(self) -> float:
         """Height of its lowest point."""
         return float(self.corners[..., 2].min())

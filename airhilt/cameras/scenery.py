@@ -13,7 +13,7 @@ from shapely import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from airhilt.cameras.ground import drop_m
-from airhilt.cameras.mesh import Colour, Mesh, box, ellipsoid, join, loft, srgb, tube
+from airhilt.cameras.mesh import Colour, Mesh, box, join, loft, srgb, tube
 from airhilt.sim.streams import stream
 
 CONCRETE = srgb(196, 192, 184)
@@ -23,7 +23,10 @@ WINDOW = srgb(74, 72, 70)
 TOWER_WHITE = srgb(224, 224, 220)
 TREE_GREENS = (srgb(52, 80, 40), srgb(66, 92, 44), srgb(44, 70, 42), srgb(84, 100, 52))
 HOUSES = (srgb(170, 150, 130), srgb(190, 184, 172), srgb(150, 110, 92), srgb(204, 200, 196))
-CLOUD = srgb(236, 238, 242)
+CLOUD = srgb(246, 247, 250)
+CLOUD_KINDS, CLOUD_SIDES = 8, 8
+NARROWEST_CLOUD_M, WIDEST_CLOUD_M = 250.0, 900.0
+LIGHT_THROUGH_CLOUD = 0.8
 STOREY_M = 4.5
 LIT_WINDOW = 3.0
 """Light from windows at night, against their reflectance."""
@@ -117,26 +120,53 @@ def _without_floor(mesh: Mesh) -> Mesh:
     return mesh.part(mesh.face_normals[:, 2] > -0.5)
 
 
-def clouds(base_m: float, reach_m: float, count: int, seed: int) -> Mesh:
-    """Return fair-weather cumulus with a flat base at some height."""
+def clouds(base_m: float, tops_m: float, reach_m: float, count: int, seed: int) -> Mesh:
+    """Return fair-weather cumulus: flat bases at one height, and heaps on them up to another."""
     draws = stream(seed, "clouds")
+    kinds = [_cumulus(draws) for _ in range(CLOUD_KINDS)]
     found = []
-    puff = ellipsoid(CLOUD, 1.0, 1.0, 1.0, 10, 6)
     for _ in range(count):
         distance = reach_m * math.sqrt(float(draws.uniform(0.002, 1.0)))
-        angle = float(draws.uniform(0.0, math.tau))
+        angle, turn = draws.uniform(0.0, math.tau, size=2)
         east, north = distance * math.sin(angle), distance * math.cos(angle)
-        size = float(draws.uniform(220.0, 620.0))
-        for _ in range(int(draws.integers(3, 6))):
-            wide = size * float(draws.uniform(0.35, 0.75))
-            aside = draws.normal(size=2) * 0.55 * size
-            tall = wide * float(draws.uniform(0.35, 0.6))
-            found.append(
-                puff.stretched(wide, wide, tall).moved(
-                    east + float(aside[0]), north + float(aside[1]), base_m + 0.5 * tall
-                )
-            )
+        tall = (tops_m - base_m) * float(draws.uniform(0.35, 1.0))
+        wide = min(max(tall, NARROWEST_CLOUD_M), WIDEST_CLOUD_M) * float(draws.uniform(1.0, 2.2))
+        kind = kinds[int(draws.integers(len(kinds)))].stretched(wide, wide, tall)
+        sin, cos = math.sin(turn), math.cos(turn)
+        low = base_m - float(drop_m(distance))
+        found.append(
+            kind.turned(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1))).moved(east, north, low)
+        )
     return join(found)
+
+
+def _cumulus(draws: np.random.Generator) -> Mesh:
+    """Return a heap of puffs about 2 wide and 1 high, cut off flat below.
+
+    Light goes through: all sides but the base are lit as if they looked up a little more.
+    """
+    found = []
+    for number in range(int(draws.integers(10, 14))):
+        is_low = number % 2 == 0
+        spread = (0.5, 0.32) if is_low else (0.26, 0.18)
+        right, ahead = (float(place) for place in draws.normal(size=2) * spread)
+        inward = math.exp(-2.0 * (right**2 + ahead**2))
+        size = float(draws.uniform(0.24, 0.36)) * (0.55 + 0.55 * inward)
+        up = 0.3 * size if is_low else inward * float(draws.uniform(0.2, 0.5))
+        angles = np.linspace(0.0, math.tau, CLOUD_SIDES, endpoint=False) + number
+        rings = [
+            np.column_stack((
+                right + size * math.cos(latitude) * np.cos(angles),
+                ahead + size * math.cos(latitude) * np.sin(angles),
+                np.full(CLOUD_SIDES, max(up + size * math.sin(latitude), 0.0)),
+            ))
+            for latitude in np.radians((-45.0, -5.0, 30.0, 60.0, 82.0))
+        ]  # fmt: skip
+        found.append(loft(rings, CLOUD, closed=True, crease_rad=math.radians(80.0)))
+    heap = join(found)
+    heap = heap.stretched(1.0, 1.0, 1.0 / float(heap.corners[..., 2].max()))
+    normals = heap.normals + np.array((0.0, 0.0, LIGHT_THROUGH_CLOUD), dtype=np.float32)
+    return replace(heap, normals=normals / np.linalg.norm(normals, axis=2, keepdims=True))
 
 
 def scattered(

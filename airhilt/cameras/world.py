@@ -121,8 +121,8 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
         parts.append(woods)
     tallest = 60.0
     if cloud_tops_m is not None and light.overcast < 0.7:
-        base = 0.72 * cloud_tops_m
-        parts.append(scenery.clouds(base, 25_000.0, 40, seed))
+        base = 0.55 * cloud_tops_m
+        parts.append(scenery.clouds(base, cloud_tops_m, 30_000.0, 60, seed))
         tallest = cloud_tops_m
     return World(join(parts), (), (), tallest)
 
