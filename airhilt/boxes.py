@@ -11,6 +11,12 @@ def centre(box: Box) -> tuple[float, float]:
     return (left + right) / 2.0, (top + bottom) / 2.0
 
 
+def sides(box: Box) -> tuple[float, float]:
+    """Return width and height of a box, each at least a pixel."""
+    left, top, right, bottom = box
+    return max(right - left, 1.0), max(bottom - top, 1.0)
+
+
 def size_px(box: Box) -> float:
     """Return the longest side of a box."""
     left, top, right, bottom = box
@@ -51,3 +57,14 @@ def moved(box: Box, columns: float, rows: float) -> Box:
     """Return a box further to the right and down."""
     left, top, right, bottom = box
     return left + columns, top + rows, right + columns, bottom + rows
+
+
+def within(box: Box, columns: float, rows: float) -> Box:
+    """Return what of a box lies in a picture of some size; it may be empty."""
+    left, top, right, bottom = box
+    return (
+        min(max(left, 0.0), columns),
+        min(max(top, 0.0), rows),
+        min(max(right, 0.0), columns),
+        min(max(bottom, 0.0), rows),
+    )

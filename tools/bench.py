@@ -393,6 +393,38 @@ def render() -> dict[str, float]:
     return {name: min(times) for name, times in measured.items()}
 
 
+def detection() -> dict[str, float]:
+    """Look at pictures of 640 by 360 pixels with the detector that ships.
+
+    They are those of `render`, with three bodies, from the runway and from the nose. Numbers are
+    the CPU time of a picture, the mean of a second, in the best second; and how many places are
+    looked at a second time.
+    """
+    from airhilt.workers.vision.embedded import EmbeddedDetector
+
+    stage, detector = Stage(), EmbeddedDetector()
+    studio = stage.studio("moderngl")
+    shown = {
+        camera: [studio.shoot([camera], scene, 0)[0].colour for scene in stage.scene()]
+        for camera in ("runway_01", "nose")
+    }
+    studio.close()
+    measured: dict[str, float] = {}
+    for camera, pictures in shown.items():
+        times, first = [], []
+        for _ in range(2 * ROUNDS):
+            for spent, look in ((times, detector.detect), (first, detector.proposed)):
+                begun = time.process_time()
+                for picture in pictures:
+                    look(picture)
+                spent.append(1000.0 * (time.process_time() - begun) / len(pictures))
+        places = [len(detector.uncalibrated(picture)) for picture in pictures]
+        measured[f"{camera}_ms"] = min(times)
+        measured[f"{camera}_first_network_ms"] = min(first)
+        measured[f"{camera}_places"] = sum(places) / len(places)
+    return measured
+
+
 class Stage:
     """Washington: a 737 on final to runway 01, a 747 and a fire truck on it, and two cameras."""
 
@@ -586,6 +618,7 @@ BENCHMARKS = {
     "phraseology": phraseology,
     "speech": speech,
     "render": render,
+    "detection": detection,
     "frames": frames,
     "sight": sight,
     "startup": startup,

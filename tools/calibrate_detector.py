@@ -53,6 +53,7 @@ from airhilt.workers.vision.embedded import (
     UNSURE,
     Calibration,
     EmbeddedDetector,
+    once,
 )
 from airhilt.workers.vision.tracker import Tracker
 from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
@@ -215,9 +216,10 @@ def findings(
     is_true: list[bool] = []
     for shot in track(pictures, "pictures", transient=True, disable=not sys.stderr.isatty()):
         own = shot.own_aircraft()
+        told = sorted(detector.uncalibrated(shot.picture()), key=lambda one: -one.confidence)
         here = [
             each
-            for each in detector.uncalibrated(shot.picture())
+            for each in once(told)
             if each.confidence >= SMALL_CHANCE
             and covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
             and not on_faint(shot.bodies, each)

@@ -11,7 +11,9 @@ suppression of overlapping boxes. It learns from tiles: most are cut around a bo
 and size, drawn so that rare classes and small bodies come as often as others, and changed in
 scale, colour and sharpness. Bodies that can hardly be seen are neither learnt nor counted as
 background. After training, the threshold is the lowest at which no more than one empty picture of
-the dev folders in 960 has something found in it: 960 are a minute of one camera at 16 Hz.
+the dev folders in 960 has something found in it: 960 are a minute of one camera at 16 Hz. Then
+``tools/train_second_look.py`` makes the second network, and ``tools/calibrate_detector.py`` fits
+what both say.
 
 A checkpoint is written every few minutes; the same command goes on from it. Pictures must all be
 of one size; they are kept decoded in ``OUT/pictures.u8``. The same data, seed and versions give
@@ -553,7 +555,7 @@ def begin_with(network: Network, weights: dict[str, Tensor]) -> None:
     print(f"begins with {len(fitting)} of {len(own)} weights", flush=True)
 
 
-def _moved(mean: Tensor, now: Tensor, count: Tensor | int) -> Tensor:
+def followed(mean: Tensor, now: Tensor, count: Tensor | int) -> Tensor:
     """Return a running mean that follows fast at first."""
     return mean + (now - mean) * max(1.0 - EMA, 10.0 / (10.0 + float(count)))
 
@@ -567,7 +569,7 @@ def train(
     if start is not None and not checkpoint.is_file():
         begin_with(network, torch.load(start, weights_only=True)["mean"])
     network.to(memory_format=torch.channels_last)
-    mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=_moved, use_buffers=True)
+    mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=followed, use_buffers=True)
     scaled = [p for p in network.parameters() if p.ndim > 1]
     others = [p for p in network.parameters() if p.ndim <= 1]
     optimiser = torch.optim.AdamW(

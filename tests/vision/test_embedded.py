@@ -52,7 +52,8 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
 
 def copy(folder: Path, **card: object) -> Path:
     """Return the detector's file in another place, with changes to its card."""
-    shutil.copy(MODEL, folder)
+    for network in MODEL.parent.glob("*.onnx"):
+        shutil.copy(network, folder)
     document = json.loads(MODEL.with_name("card.json").read_text())
     (folder / "card.json").write_text(json.dumps(document | card))
     return folder / MODEL.name
@@ -199,7 +200,7 @@ def test_classes_are_those_of_the_card(tmp_path: Path, airliner) -> None:
 def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path) -> None:
     noise = np.random.default_rng(0).integers(0, 255, (360, 640, 3), dtype=np.uint8)
     with pytest.raises(VisionError, match=r"answers class \d; expected one of the 1 of its card"):
-        EmbeddedDetector(copy(tmp_path, classes=["truck"])).detect(noise)
+        EmbeddedDetector(copy(tmp_path, classes=["truck"], second_look=None)).detect(noise)
 
 
 @pytest.mark.parametrize("threshold", [-0.1, 1.1, float("nan")])
@@ -208,8 +209,8 @@ def test_a_threshold_that_is_none_is_refused(threshold: float) -> None:
         EmbeddedDetector(threshold=threshold)
 
 
-def test_the_file_is_small_and_its_card_says_how_it_was_made() -> None:
-    assert MODEL.stat().st_size < 10_000_000
+def test_the_files_are_small_and_their_card_says_how_they_were_made() -> None:
+    assert sum(file.stat().st_size for file in MODEL.parent.iterdir()) < 10_000_000
     card = json.loads(MODEL.with_name("card.json").read_text())
     assert card["training"]["seed"] is not None
     assert card["training"]["pictures"] > 5000

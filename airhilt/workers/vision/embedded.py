@@ -1,8 +1,9 @@
 """The embedded detector: a small network that was trained on pictures of AIRHILT.
 
-It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850) and needs
-no suppression of overlapping boxes. ``tools/train_detector.py`` makes it, and docs/detector.md
-says how well it sees.
+It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850), and then
+once more at each place where one may be: see `airhilt.workers.vision.second_look`.
+``tools/train_detector.py`` and ``tools/train_second_look.py`` make the networks, and
+docs/detector.md says how well they see.
 """
 
 from __future__ import annotations
@@ -16,10 +17,12 @@ import numpy as np
 import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from airhilt.boxes import area, overlap, size_px, within
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.inference import open_network
 from airhilt.messages import Confidence, VisibleClass
 from airhilt.workers.vision.detector import GRID_PX, Found, Picture
+from airhilt.workers.vision.second_look import SecondLook, SecondLookCard
 
 MODEL = Path(__file__).with_name("model") / "detector.onnx"
 CARD = "card.json"
@@ -34,6 +37,8 @@ REFERENCE_PX = 32.0
 MOST_LOG_ODDS = 30.0
 LEAST_SCORE = 1e-4
 """Scores are taken for no less than it, and for no more than one less it."""
+SAME_OVERLAP = 0.5
+"""Of boxes that a second look has moved onto one body."""
 UNSURE = 0.5
 """Times the threshold: unsure findings are reported too, for what is being followed."""
 
@@ -72,6 +77,10 @@ class Card(BaseModel):
     """Confidence from which a finding counts by itself: with it there is one false detection a
     minute and camera; docs/detector.md has what comes of it elsewhere."""
     calibration: Calibration = Calibration()
+    reach_px: Annotated[float, Field(gt=0.0)] | None = None
+    """What is farther away in a picture hardly matters to a finding; see docs/vision.md."""
+    second_look: SecondLookCard | None = None
+    """Without it the first network has the last word."""
 
 
 class EmbeddedDetector:
@@ -88,6 +97,8 @@ class EmbeddedDetector:
     ----------
     sure
         Confidence from which a finding counts by itself.
+    reach_px
+        That of the card, None if it has none.
 
     Raises
     ------
@@ -103,23 +114,51 @@ class EmbeddedDetector:
         self._classes = card.classes
         self._calibration = card.calibration
         self.sure = card.threshold
+        self.reach_px = card.reach_px
         self._threshold = UNSURE * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError)
         _require_shapes(self._network, self._subject)
+        self._second_look = (
+            None
+            if card.second_look is None
+            else SecondLook(card.second_look, file.parent, card.classes)
+        )
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""
         found = [
             one._replace(confidence=self._confidence(one)) for one in self.uncalibrated(picture)
         ]
-        told = [one for one in found if one.confidence >= self._threshold]
-        return sorted(told, key=lambda one: -one.confidence)
+        told = sorted(
+            (one for one in found if one.confidence >= self._threshold),
+            key=lambda one: -one.confidence,
+        )
+        return told if self._second_look is None else once(told)
 
     def uncalibrated(self, picture: Picture) -> list[Found]:
-        """Return everything that the network gives, with its scores as confidences.
+        """Return all findings of the last network, with its scores as confidences.
+
+        The second look may move several onto one body.
+
+        Raises
+        ------
+        VisionError
+            A network has failed, or this is no picture.
+        """
+        found = self.proposed(picture)
+        if self._second_look is None:
+            return found
+        rows, columns = picture.shape[:2]
+        places = self._second_look.places(found, rows * columns)
+        judged = self._second_look.judge(picture, places)
+        inside = [one._replace(box=within(one.box, columns, rows)) for one in judged]
+        return [one for one in inside if area(one.box) > 0.0]
+
+    def proposed(self, picture: Picture) -> list[Found]:
+        """Return all findings of the first network, the highest scores first.
 
         Raises
         ------
@@ -140,18 +179,16 @@ class EmbeddedDetector:
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
         if not np.isfinite(found).all():
             raise VisionError(f"{self._subject} answers numbers that are not finite")
-        found[:, [0, 2]] = found[:, [0, 2]].clip(0.0, columns)
-        found[:, [1, 3]] = found[:, [1, 3]].clip(0.0, rows)
-        return [
-            Found(self._label(number), score, (left, top, right, bottom))
-            for left, top, right, bottom, score, number in found.tolist()
-            if left < right and top < bottom
+        boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
+        proposed = [
+            Found(self._label(number), score, box)
+            for box, (score, number) in zip(boxes, found[:, 4:].tolist(), strict=True)
+            if area(box) > 0.0
         ]
+        return sorted(proposed, key=lambda one: -one.confidence)
 
     def _confidence(self, found: Found) -> float:
-        left, top, right, bottom = found.box
-        longest = max(right - left, bottom - top)
-        odds = self._calibration.log_odds(found.label, found.confidence, longest)
+        odds = self._calibration.log_odds(found.label, found.confidence, size_px(found.box))
         return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
 
     def _label(self, number: float) -> VisibleClass:
@@ -162,6 +199,15 @@ class EmbeddedDetector:
                 f"{len(self._classes)} of its {CARD}, from 0"
             )
         return self._classes[index]
+
+
+def once(found: Sequence[Found]) -> list[Found]:
+    """Return each thing once: of boxes on the same, of whatever class, that which comes first."""
+    kept: list[Found] = []
+    for each in found:
+        if not any(overlap(each.box, other.box) > SAME_OVERLAP for other in kept):
+            kept.append(each)
+    return kept
 
 
 def _card(path: Path) -> Card:

@@ -1,0 +1,136 @@
+"""Places in pictures where a detector's first network sees something, and what is really there."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from detector_data import Body, Shot, read_folder
+from eval_detector import on_faint
+from rich.progress import track
+
+from airhilt.boxes import centre, overlap, size_px
+from airhilt.messages import Box
+from airhilt.workers.vision.detector import Found
+from airhilt.workers.vision.embedded import EmbeddedDetector
+from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+
+LEAST_SCORE, MOST = 0.03, 20
+"""Of the places that are learnt from: the score that the first network gives, and how many there
+are in a picture."""
+TRUE, FALSE = 0.3, 0.2
+"""Overlaps from which a place is that of a body, and up to which it is not."""
+NEAR_IT, NEAR_IT_PX = 0.3, 2.0
+"""A place is that of a body too if their middles are no farther apart than such a part of the
+longest side and so many pixels."""
+ALIKE = 2.2
+"""Times that the longest sides then differ, at most."""
+
+Bytes = npt.NDArray[np.uint8]
+Floats = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Places in pictures that the first network names.
+
+    Attributes
+    ----------
+    pictures
+        Shape (pictures, rows, columns, 3).
+    picture
+        In which each is, shape (n,).
+    boxes, scores
+        What the first network says, shapes (n, 4) and (n,).
+    labels
+        0 for nothing, and 1 more than the place in `CLASSES` of what is there.
+    truth
+        Boxes of the bodies, where there are any; shape (n, 4).
+    """
+
+    pictures: Bytes
+    picture: npt.NDArray[np.int64]
+    boxes: Floats
+    scores: Floats
+    labels: npt.NDArray[np.int64]
+    truth: Floats
+
+    def __len__(self) -> int:
+        return len(self.picture)
+
+
+def places_of(folder: Path, network: Path, scratch: Path) -> Places:
+    """Return the places of a folder, from ``scratch`` if they are there."""
+    decoded, kept = scratch / f"{folder.name}.u8", scratch / f"{folder.name}.npz"
+    origin = _origin(folder, network)
+    if not (decoded.is_file() and kept.is_file() and _load(kept)["origin"] == origin):
+        shots, detector = read_folder(folder), EmbeddedDetector(network)
+        shape = (len(shots), *shots[0].picture().shape)
+        pictures = np.memmap(decoded, np.uint8, "w+", shape=shape)
+        rows: list[tuple[Any, ...]] = []
+        for index, shot in enumerate(track(shots, folder.name, transient=True)):
+            pictures[index] = shot.picture()
+            rows += [(index, *row) for row in places_in(shot, detector.proposed(pictures[index]))]
+        pictures.flush()
+        columns = zip(*rows, strict=True)
+        names = ("picture", "boxes", "scores", "labels", "truth")
+        arrays = dict(zip(names, map(np.array, columns), strict=True))
+        np.savez(kept, origin=origin, shape=shape, **arrays)
+    data = _load(kept)
+    pictures = np.memmap(decoded, np.uint8, "r", shape=tuple(data["shape"]))
+    return Places(
+        pictures,
+        data["picture"],
+        data["boxes"].astype(np.float32),
+        data["scores"].astype(np.float32),
+        data["labels"],
+        data["truth"].astype(np.float32),
+    )
+
+
+def _load(path: Path) -> dict[str, npt.NDArray[Any]]:
+    with np.load(path, allow_pickle=False) as data:
+        return dict(data)
+
+
+def _origin(folder: Path, network: Path) -> str:
+    """Return what changes with all that places come from."""
+    limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE)).encode()
+    files = network.read_bytes(), (folder / "annotations.json").read_bytes()
+    return hashlib.sha256(b"".join((limits, *files))).hexdigest()
+
+
+def places_in(shot: Shot, found: Sequence[Found]) -> Iterator[tuple[Box, float, int, Box]]:
+    """Yield boxes, scores, labels and boxes of bodies of what teaches something."""
+    own = shot.own_aircraft()
+    counting = [body for body in shot.bodies if body.counts]
+    for each in [one for one in found if one.confidence >= LEAST_SCORE][:MOST]:
+        if covered_share(each.box, own) > MOST_OF_OWN_AIRCRAFT:
+            continue
+        near = [body for body in counting if is_at(body, each)]
+        if near:
+            body = max(near, key=lambda body: _likeness(body, each))
+            yield each.box, each.confidence, 1 + body.label, body.box
+        elif not on_faint(shot.bodies, each) and not any(
+            overlap(body.box, each.box) > FALSE for body in counting
+        ):
+            yield each.box, each.confidence, 0, each.box
+
+
+def is_at(body: Body, found: Found) -> bool:
+    """Return whether a place is that of a body, though its box may be wrong."""
+    if overlap(body.box, found.box) >= TRUE:
+        return True
+    apart = math.dist(centre(body.box), centre(found.box))
+    times = size_px(found.box) / body.size_px
+    return apart <= NEAR_IT * body.size_px + NEAR_IT_PX and 1.0 / ALIKE <= times <= ALIKE
+
+
+def _likeness(body: Body, found: Found) -> tuple[float, float]:
+    return overlap(body.box, found.box), -math.dist(centre(body.box), centre(found.box))

@@ -1,0 +1,290 @@
+"""Train the second look of the detector that ships with AIRHILT, and write it as ONNX.
+
+    python tools/train_second_look.py data/train1 data/train2 --network detector/detector.onnx \
+        --scratch places
+
+``tools/train_detector.py`` makes the network that sees a whole picture. Here it is asked what it
+makes of pictures; whether a body of `airhilt dataset export` is at each place that it names is
+known, and that is what the second network learns to tell, with the body's class and box (see
+`airhilt.workers.vision.second_look`). Of what is nothing it is shown most often what it has taken
+for something. Places on bodies that can hardly be seen teach nothing.
+
+It is written beside the first network, as ``second_look.onnx``, and into the card there. Pictures
+are kept decoded beside the answers of the first network in ``SCRATCH/<folder>.u8`` and
+``SCRATCH/<folder>.npz``; both are made again when missing. A checkpoint is written every few
+minutes; the same command goes on from it, also with more folders.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import multiprocessing
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from detector_data import CLASSES
+from detector_lessons import Lessons
+from detector_places import places_of
+from torch import Tensor, nn
+from torch.nn import functional
+from train_detector import followed
+
+from airhilt.workers.vision.embedded import CARD
+from airhilt.workers.vision.second_look import VIEW_PX
+
+FILE = "second_look.onnx"
+USED_FROM, USED = 0.12, 8
+"""Of the places that are looked at twice: the first score, and how many there are in a picture."""
+WIDTHS = (16, 48, 64)
+NEAR_BLOCKS, WIDE_BLOCKS = (1, 1), (0, 1)
+"""At half and a quarter of the resolution."""
+LAST = 96
+RATE, WARM_UP, DECAY = 2e-3, 200, 1e-2
+BOX_WORTH = 1.0
+ROUND = 250
+"""Batches after which hard places are chosen anew."""
+CHECKPOINT_S = 120.0
+LONGEST_S = 600.0
+AHEAD = 4
+
+Bytes = npt.NDArray[np.uint8]
+Floats = npt.NDArray[np.float32]
+
+
+# --- the network --------------------------------------------------------------------------
+
+
+def convolution(inward: int, outward: int, step: int = 1, size: int = 3) -> nn.Sequential:
+    """Return a convolution with normalisation and rectifier."""
+    return nn.Sequential(
+        nn.Conv2d(inward, outward, size, step, size // 2, bias=False),
+        nn.BatchNorm2d(outward),
+        nn.ReLU(inplace=True),
+    )
+
+
+class Block(nn.Module):
+    """Two convolutions past which the input goes too."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.body = nn.Sequential(convolution(width, width), convolution(width, width))
+
+    def forward(self, features: Tensor) -> Tensor:
+        """Return as many features."""
+        return features + self.body(features)
+
+
+def tower(blocks: tuple[int, int]) -> nn.Sequential:
+    """Return what makes features of a view."""
+    fine, coarse, last = WIDTHS
+    return nn.Sequential(
+        convolution(4, fine, 2, 5),
+        *(Block(fine) for _ in range(blocks[0])),
+        convolution(fine, coarse, 2),
+        *(Block(coarse) for _ in range(blocks[1])),
+        convolution(coarse, last, 2),
+        nn.Flatten(),
+    )
+
+
+class Network(nn.Module):
+    """From views, and what is known besides, to logits and moves of boxes.
+
+    The first logit is that of nothing. To the colours of a view goes how much each pixel differs
+    from the mean, in parts of how much all do.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.near, self.wide = tower(NEAR_BLOCKS), tower(WIDE_BLOCKS)
+        self.joined = nn.Sequential(
+            nn.Linear(2 * (VIEW_PX // 8) ** 2 * WIDTHS[-1] + 3, LAST),
+            nn.ReLU(inplace=True),
+            nn.Dropout(0.1),
+        )
+        self.last = nn.Linear(LAST, 1 + len(CLASSES) + 4)
+        nn.init.normal_(self.last.weight, std=0.01)
+        nn.init.zeros_(self.last.bias)
+
+    def forward(self, views: Tensor, known: Tensor) -> tuple[Tensor, Tensor]:
+        """Return logits, shape (n, 1 + classes), and moves, shape (n, 4)."""
+        pixels = views.permute(0, 1, 4, 2, 3).float() * (1.0 / 255.0)
+        grey = pixels.mean(dim=2, keepdim=True)
+        away = grey - grey.mean(dim=(3, 4), keepdim=True)
+        spread = (away * away).mean(dim=(3, 4), keepdim=True).sqrt() + 0.02
+        seen = torch.cat((pixels - 0.5, away / spread), dim=2)
+        features = (self.near(seen[:, 0]), self.wide(seen[:, 1]), known)
+        out = self.last(self.joined(torch.cat(features, dim=1)))
+        return out[:, : 1 + len(CLASSES)], out[:, 1 + len(CLASSES) :]
+
+
+class Exported(nn.Module):
+    """What is exported: chances in place of logits."""
+
+    def __init__(self, network: Network) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(self, views: Tensor, known: Tensor) -> tuple[Tensor, Tensor]:
+        """Return chances and moves."""
+        logits, moves = self.network(views, known)
+        return logits.softmax(dim=1), moves
+
+
+def write_onnx(network: Network, path: Path) -> None:
+    """Write a network for any number of places."""
+    example = torch.zeros((2, 2, VIEW_PX, VIEW_PX, 3), dtype=torch.uint8), torch.zeros((2, 3))
+    torch.onnx.export(
+        Exported(network).eval(),
+        example,
+        str(path),
+        input_names=["views", "about"],
+        output_names=["chances", "moves"],
+        dynamic_axes={name: {0: "n"} for name in ("views", "about", "chances", "moves")},
+        opset_version=17,
+        dynamo=False,
+    )
+
+
+# --- training -----------------------------------------------------------------------------
+
+
+def batches(lessons: Lessons, first: int, last: int) -> Iterator[tuple[Tensor, ...]]:
+    """Yield batches by their numbers; another process makes the next ones while one is used."""
+    fork = multiprocessing.get_context("fork")
+    made = fork.Queue(AHEAD)
+
+    def make() -> None:
+        for number in range(first, last):
+            made.put(lessons.batch(number))
+
+    maker = fork.Process(target=make, daemon=True)
+    maker.start()
+    for _ in range(first, last):
+        yield tuple(torch.from_numpy(part) for part in made.get(timeout=LONGEST_S))
+    maker.join()
+
+
+def train(
+    lessons: Lessons, steps: int, checkpoint: Path, seed: int
+) -> tuple[Network, list[dict[str, int]]]:
+    """Return the mean network of the last part of the training, and how the training went.
+
+    That is a row for each time that it was gone on with: from which step, up to which it was
+    planned, and on how many places and bodies.
+    """
+    torch.manual_seed(seed)
+    network = Network().to(memory_format=torch.channels_last)
+    mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=followed, use_buffers=True)
+    optimiser = torch.optim.AdamW(network.parameters(), RATE, weight_decay=DECAY)
+    done, spent_s = 0, 0.0
+    stages: list[dict[str, int]] = []
+    if checkpoint.is_file():
+        kept = torch.load(checkpoint, weights_only=True)
+        network.load_state_dict(kept["network"])
+        mean.load_state_dict(kept["mean"])
+        optimiser.load_state_dict(kept["optimiser"])
+        done, spent_s, stages = kept["done"], kept["spent_s"], kept["stages"]
+        if len(kept["fooled"]) == len(lessons.fooled):
+            lessons.fooled = kept["fooled"].numpy()
+        print(f"goes on at step {done}", flush=True)
+    if done < steps:
+        counts = {"places": len(lessons), "bodies": lessons.bodies}
+        stages = [*stages, {"from_step": done, "planned_steps": steps, **counts}]
+    begun = saved = time.monotonic()
+    told = np.zeros(3)
+    network.train()
+    while done < steps:
+        end = min(done + ROUND - done % ROUND, steps)
+        for numbers, views, known, labels, wanted in batches(lessons, done, end):
+            rate = RATE * min((done + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * done / steps))
+            for group in optimiser.param_groups:
+                group["lr"] = max(rate, 1e-5)
+            logits, moves = network(views, known)
+            kinds = functional.cross_entropy(logits, labels)
+            bodies = labels > 0
+            places = functional.smooth_l1_loss(moves[bodies], wanted[bodies], beta=0.1)
+            optimiser.zero_grad(set_to_none=True)
+            (kinds + BOX_WORTH * places).backward()
+            nn.utils.clip_grad_norm_(network.parameters(), 5.0)
+            optimiser.step()
+            mean.update_parameters(network)
+            with torch.no_grad():
+                something = 1.0 - logits.softmax(dim=1)[:, 0]
+                nothing = numbers >= 0
+                taken = numbers[nothing].numpy()
+                lessons.fooled[taken] = 0.5 * (lessons.fooled[taken] + something[nothing].numpy())
+                right = (logits.argmax(dim=1) == labels).float().mean()
+            told += float(kinds.detach()), float(places.detach()), float(right)
+            done += 1
+            if done % 50 == 0:
+                now = "  ".join(f"{value:.4f}" for value in told / 50)
+                spent = spent_s + time.monotonic() - begun
+                print(f"step {done} of {steps}  {spent:.0f} s  {now}", flush=True)
+                told[:] = 0.0
+        if time.monotonic() - saved > CHECKPOINT_S or done == steps:
+            saved = time.monotonic()
+            state = {
+                "network": network.state_dict(),
+                "mean": mean.state_dict(),
+                "optimiser": optimiser.state_dict(),
+                "fooled": torch.from_numpy(lessons.fooled),
+                "done": done,
+                "stages": stages,
+                "spent_s": spent_s + saved - begun,
+            }
+            partial = checkpoint.with_suffix(".partial")
+            torch.save(state, partial)
+            partial.replace(checkpoint)
+    averaged = mean.module
+    assert isinstance(averaged, Network)
+    return averaged, stages
+
+
+def main() -> None:
+    """Train, export and write into the card."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", type=Path, metavar="DATA")
+    parser.add_argument("--network", required=True, type=Path, metavar="FILE")
+    parser.add_argument("--scratch", required=True, type=Path, metavar="DIR")
+    parser.add_argument("--steps", type=int, default=12_000, help="batches to train on")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--threads", type=int, default=1)
+    given = parser.parse_args()
+    torch.set_num_threads(given.threads)
+    given.scratch.mkdir(parents=True, exist_ok=True)
+    folders = [places_of(folder, given.network, given.scratch) for folder in given.folders]
+    lessons = Lessons(folders, given.seed)
+    print(f"{len(lessons)} places, {lessons.bodies} of them bodies", flush=True)
+    checkpoint = given.scratch / "second_look.pt"
+    network, stages = train(lessons, given.steps, checkpoint, given.seed)
+    write_onnx(network, given.network.with_name(FILE))
+    path = given.network.with_name(CARD)
+    card = json.loads(path.read_text(encoding="utf-8"))
+    for stale in ("calibration", "false_a_minute"):
+        card.pop(stale, None)
+    card["second_look"] = {
+        "file": FILE,
+        "least_score": USED_FROM,
+        "most": USED,
+        "parameters": sum(p.numel() for p in network.parameters()),
+        "training": {
+            "pictures": sum(len(each.pictures) for each in folders),
+            "stages": stages,
+            "seed": given.seed,
+        },
+    }
+    path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
+    print(json.dumps(card["second_look"], indent=2))
+    print(f"{path} has no calibration now: tools/calibrate_detector.py makes it")
+
+
+if __name__ == "__main__":
+    main()
