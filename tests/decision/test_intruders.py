@@ -255,3 +255,17 @@ def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
     assert approach_of(seen[:4]) is None
     cut = [Glimpse.of(each.t_ns, each.eye, (0.0, *each.box[1:]), 0.9) for each in seen]
     assert approach_of(cut) is None
+
+
+@pytest.mark.parametrize("phase", range(5))
+def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
+    """They are thinner than a pixel: now only the fuselage shows, now all of it."""
+    seen = glimpses_of(130.0, 0.0, 12.0, 5.0, 0.0, 0.0)
+    narrow = [
+        glimpse._replace(size_rad=(0.4 * glimpse.size_rad[0], glimpse.size_rad[1]))
+        if math.sin(math.tau * (number / 8.0 / 1.6 + phase / 5.0)) < 0.0 else glimpse
+        for number, glimpse in enumerate(seen)
+    ]  # fmt: skip
+    approach = approach_of(narrow)
+    assert approach.is_growing
+    assert approach.time_s == pytest.approx(12.0, rel=0.35)

@@ -25,6 +25,9 @@ SIDE_ERROR_PX = 0.4
 """A detector errs at least so much in a side of a box (standard deviation)."""
 CORRELATION_S = 0.2
 """Pictures nearer in time than this err alike."""
+SHOWN_S, SHOWN_QUANTILE, SHOWN_PART = 1.0, 0.8, 0.75
+"""Wings thinner than a pixel show in some pictures and not in others, as they pass from one row of
+pixels to the next. Sizes count that are not much below the larger ones within so long."""
 OUTLIER_SIGMAS = 3.0
 MAD_PER_SIGMA = 0.6745
 """Median absolute deviation of a normal distribution."""
@@ -87,7 +90,9 @@ def approach_of(glimpses: Sequence[Glimpse]) -> Approach | None:
     # The diagonal changes least while the camera rolls.
     diagonals = np.hypot(sizes[:, 0], sizes[:, 1])
     side_rad = SIDE_ERROR_PX / last.eye.focal_px
-    growth = _line(times, 1.0 / diagonals, math.sqrt(2.0) * side_rad / diagonals**2)
+    shown = _is_shown(times, diagonals)
+    size_error = math.sqrt(2.0) * side_rad / diagonals[shown] ** 2
+    growth = _line(times[shown], 1.0 / diagonals[shown], size_error)
     offsets = np.array([last.ray.offset_to(glimpse.ray) for glimpse in whole])
     aim_error = np.full_like(times, side_rad / math.sqrt(2.0))
     turns = [_line(times, axis, aim_error) for axis in offsets.T]
@@ -99,6 +104,15 @@ def approach_of(glimpses: Sequence[Glimpse]) -> Approach | None:
         turning_error=math.hypot(*(turn.slope_error for turn in turns)),
         size_rad=float(np.median(sizes[-LEAST_GLIMPSES:].max(axis=1))),
     )
+
+
+def _is_shown(times: Floats, diagonals: Floats) -> npt.NDArray[np.bool_]:
+    """Return in which pictures all of something shows; all, if that is in too few."""
+    larger = [
+        np.quantile(diagonals[np.abs(times - time) <= SHOWN_S], SHOWN_QUANTILE) for time in times
+    ]
+    shown = diagonals >= SHOWN_PART * np.array(larger)
+    return np.asarray(shown if shown.sum() >= LEAST_GLIMPSES else np.ones_like(shown))
 
 
 class _Line(NamedTuple):
