@@ -136,8 +136,21 @@ def test_a_camera_that_moves_is_looked_at_as_a_whole() -> None:
     scene = background()
     for step in range(4):
         view = camera_view(heading_deg=float(step))
-        gate.look("nose", view, step * PERIOD_NS, with_blobs(scene, [("bird", (9, 9, 19, 19))]))
+        bird = ("bird", (9 + step, 9, 19 + step, 19))
+        gate.look("nose", view, step * PERIOD_NS, with_blobs(scene, [bird]))
     assert detector.asked == [(360, 640)] * 4
+
+
+def test_a_camera_that_moves_and_sees_the_same_to_the_bit_is_not_asked_again() -> None:
+    detector = BlobDetector()
+    gate = Gate(detector, CHANGES)
+    scene = with_blobs(background(), [("bird", (9, 9, 19, 19))])
+    found = [
+        gate.look("nose", camera_view(heading_deg=float(step)), step * PERIOD_NS, scene.copy())
+        for step in range(4)
+    ]
+    assert detector.asked == [(360, 640)]
+    assert found == [found[0]] * 4
 
 
 def test_cameras_do_not_know_of_each_other() -> None:
