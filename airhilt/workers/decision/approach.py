@@ -108,10 +108,11 @@ def approach_of(glimpses: Sequence[Glimpse]) -> Approach | None:
 
 def _is_shown(times: Floats, diagonals: Floats) -> npt.NDArray[np.bool_]:
     """Return in which pictures all of something shows; all, if that is in too few."""
-    larger = [
-        np.quantile(diagonals[np.abs(times - time) <= SHOWN_S], SHOWN_QUANTILE) for time in times
-    ]
-    shown = diagonals >= SHOWN_PART * np.array(larger)
+    near = np.abs(times[:, None] - times) <= SHOWN_S
+    falling = -np.sort(np.where(near, -diagonals, np.inf), axis=1)
+    place = ((1.0 - SHOWN_QUANTILE) * (near.sum(axis=1) - 1)).astype(int)
+    larger = np.take_along_axis(falling, place[:, None], axis=1)[:, 0]
+    shown = diagonals >= SHOWN_PART * larger
     return np.asarray(shown if shown.sum() >= LEAST_GLIMPSES else np.ones_like(shown))
 
 
