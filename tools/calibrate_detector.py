@@ -288,6 +288,7 @@ def main() -> None:
         card["false_a_minute"] = {
             kind: round(counts[kind].a_minute(card["threshold"]), 2) for kind in kinds
         }
+        card["counted_minutes"] = {kind: round(counts[kind].minutes, 1) for kind in kinds}
         write(path, card)
         print(f"{path}: threshold {card['threshold']}")
 

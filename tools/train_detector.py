@@ -28,7 +28,7 @@ import json
 import math
 import multiprocessing
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -510,20 +510,21 @@ def _giou(one: Tensor, other: Tensor) -> Tensor:
     return shared / union - (around - union) / around
 
 
-def batches(tiles: Tiles, first: int, last: int) -> Iterator[tuple[Tensor, ...]]:
+def batches(
+    make_one: Callable[[int], list[npt.NDArray[Any]]], first: int, last: int
+) -> Iterator[tuple[Tensor, ...]]:
     """Yield batches by their numbers; another process makes the next ones while one is used."""
     fork = multiprocessing.get_context("fork")
     made = fork.Queue(AHEAD)
 
     def make() -> None:
         for number in range(first, last):
-            made.put(tiles.batch(number))
+            made.put(make_one(number))
 
     maker = fork.Process(target=make, daemon=True)
     maker.start()
     for _ in range(first, last):
-        pictures, *maps = (torch.from_numpy(part) for part in made.get(timeout=LONGEST_S))
-        yield pictures.permute(0, 3, 1, 2).float(), *maps
+        yield tuple(torch.from_numpy(part) for part in made.get(timeout=LONGEST_S))
     maker.join()
 
 
@@ -538,7 +539,7 @@ def rounds(
             false, missed = tiles.ask(network, first)
             print(f"of {ASKED} pictures: {false} false, {missed} missed", flush=True)
         end = min(first + ROUND - first % ROUND, last)
-        yield from enumerate(batches(tiles, first, end), start=first)
+        yield from enumerate(batches(tiles.batch, first, end), start=first)
         first = end
 
 
@@ -591,7 +592,8 @@ def train(
         rate = RATE * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
         for group in optimiser.param_groups:
             group["lr"] = max(rate, 1e-5)
-        scores, boxes = network(pictures.contiguous(memory_format=torch.channels_last))
+        seen = pictures.permute(0, 3, 1, 2).float()
+        scores, boxes = network(seen.contiguous(memory_format=torch.channels_last))
         losses = loss_of(scores, boxes, *maps)
         optimiser.zero_grad(set_to_none=True)
         sum(worth * loss for worth, loss in zip(WORTH, losses, strict=True)).backward()

@@ -20,20 +20,17 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import multiprocessing
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import torch
 from detector_data import CLASSES
 from detector_lessons import Lessons
 from detector_places import places_of
 from torch import Tensor, nn
 from torch.nn import functional
-from train_detector import followed
+from train_detector import batches, followed
 
 from airhilt.workers.vision.embedded import CARD
 from airhilt.workers.vision.second_look import VIEW_PX
@@ -50,11 +47,6 @@ BOX_WORTH = 1.0
 ROUND = 250
 """Batches after which hard places are chosen anew."""
 CHECKPOINT_S = 120.0
-LONGEST_S = 600.0
-AHEAD = 4
-
-Bytes = npt.NDArray[np.uint8]
-Floats = npt.NDArray[np.float32]
 
 
 # --- the network --------------------------------------------------------------------------
@@ -156,22 +148,6 @@ def write_onnx(network: Network, path: Path) -> None:
 # --- training -----------------------------------------------------------------------------
 
 
-def batches(lessons: Lessons, first: int, last: int) -> Iterator[tuple[Tensor, ...]]:
-    """Yield batches by their numbers; another process makes the next ones while one is used."""
-    fork = multiprocessing.get_context("fork")
-    made = fork.Queue(AHEAD)
-
-    def make() -> None:
-        for number in range(first, last):
-            made.put(lessons.batch(number))
-
-    maker = fork.Process(target=make, daemon=True)
-    maker.start()
-    for _ in range(first, last):
-        yield tuple(torch.from_numpy(part) for part in made.get(timeout=LONGEST_S))
-    maker.join()
-
-
 def train(
     lessons: Lessons, steps: int, checkpoint: Path, seed: int
 ) -> tuple[Network, list[dict[str, int]]]:
@@ -203,7 +179,7 @@ def train(
     network.train()
     while done < steps:
         end = min(done + ROUND - done % ROUND, steps)
-        for numbers, views, known, labels, wanted in batches(lessons, done, end):
+        for numbers, views, known, labels, wanted in batches(lessons.batch, done, end):
             rate = RATE * min((done + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * done / steps))
             for group in optimiser.param_groups:
                 group["lr"] = max(rate, 1e-5)
@@ -268,7 +244,7 @@ def main() -> None:
     write_onnx(network, given.network.with_name(FILE))
     path = given.network.with_name(CARD)
     card = json.loads(path.read_text(encoding="utf-8"))
-    for stale in ("calibration", "false_a_minute"):
+    for stale in ("calibration", "false_a_minute", "counted_minutes"):
         card.pop(stale, None)
     card["second_look"] = {
         "file": FILE,
