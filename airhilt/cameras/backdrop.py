@@ -2,8 +2,9 @@
 
 A camera that moves little against what it sees shows the same for some pictures: en route hardly
 anything changes, and on an approach the horizon stays while the ground in front passes by. So the
-picture is kept in bands of rows, and a band is drawn anew once anything in it would be out of its
-place by more than `KEPT_PX`.
+picture is kept in bands of rows, and drawn anew once anything in it would be out of its place by
+more than `KEPT_PX`: all bands that soon would be are then drawn at once, so that pictures are the
+same as the last one for as long as can be.
 """
 
 from __future__ import annotations
@@ -17,8 +18,10 @@ from airhilt.cameras.mesh import Floats
 from airhilt.cameras.renderers import Renderer, Samples
 from airhilt.cameras.view import NEAR_M, Intrinsics, View, Window
 
-KEPT_PX = 0.25
+KEPT_PX = 0.5
 """A pixel of the world shows it as it was when it was within this of its place."""
+SOON_PX = 0.35
+"""A band of which something is as much out of its place is drawn together with others."""
 BAND_ROWS = 24
 PROBE_PX = 8
 """Of each square of this side the nearest point is watched."""
@@ -65,9 +68,10 @@ class Backdrop:
             self._draw_all(view)
         if self._has(view):
             return
-        moved = np.flatnonzero(self._moved_px(view) > KEPT_PX)
-        if len(moved):
-            self._draw(view, int(moved[0]), int(moved[-1]) + 1)
+        moved_px = self._moved_px(view)
+        if moved_px.max() > KEPT_PX:
+            soon = np.flatnonzero(moved_px > SOON_PX)
+            self._draw(view, int(soon[0]), int(soon[-1]) + 1)
 
     def _has(self, view: View) -> bool:
         """Return whether all has been drawn from just there."""

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from airhilt.cameras.backdrop import Backdrop
+from airhilt.cameras.backdrop import KEPT_PX, SOON_PX, Backdrop
 from airhilt.cameras.mesh import Mesh
 from airhilt.cameras.renderers import Part, Samples
 from airhilt.cameras.view import Intrinsics, Pose, View, Window
@@ -64,10 +64,10 @@ def test_a_camera_that_stands_is_drawn_once(plain: Plain, backdrop: Backdrop) ->
     assert backdrop.drawn == 1
 
 
-def test_a_step_that_moves_nothing_by_a_quarter_of_a_pixel_keeps_it(
+def test_a_step_that_moves_nothing_by_half_a_pixel_keeps_it(
     plain: Plain, backdrop: Backdrop
 ) -> None:
-    backdrop.look(at(5.0))
+    backdrop.look(at(10.0))
     assert not plain.windows
 
 
@@ -78,6 +78,23 @@ def test_a_long_way_brings_the_near_ground_anew_and_neither_sky_nor_horizon(
     (window,) = plain.windows
     assert window.bottom == LENS.height_px
     assert window.top > LENS.height_px / 2
+
+
+def test_what_would_be_drawn_soon_is_drawn_with_the_first(
+    plain: Plain, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def drawn(soon_px: float) -> tuple[int, int]:
+        """Return how often it draws on a way, and how many rows in all."""
+        monkeypatch.setattr("airhilt.cameras.backdrop.SOON_PX", soon_px)
+        flying = Backdrop(plain, samples=1)
+        plain.windows.clear()
+        for step in range(120):
+            flying.look(at(3.0 * step))
+        return flying.drawn, sum(window.height for window in plain.windows)
+
+    (one_by_one, their_rows), (together, rows) = drawn(KEPT_PX), drawn(SOON_PX)
+    assert together < 0.6 * one_by_one
+    assert rows < 1.5 * their_rows
 
 
 def test_a_small_turn_brings_all_anew(plain: Plain, backdrop: Backdrop) -> None:

@@ -31,10 +31,14 @@ SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
 THREADS = 1
 """Of a cast: runs share a machine with each other."""
 Number = TypeVar("Number", bound=np.generic)
+Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]
 """Numbers of pieces."""
 RAISED_M = 0.5
 """Above the ground: what reaches higher may stand before the sky."""
+LEAST_RADIUS_M, SQUARES = 4.0, 8.0
+"""What stands is taken together in squares whose sides are so many times the radius of its
+triangles, or of triangles of the least radius."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -92,7 +96,7 @@ class Open3DRenderer:
         sky = pieces == MISSED
         glare = self._look_up(view, x, y, length, pieces, sky)
         # A plane n p = h is met at the depth h / (n d): its inverse is linear in the picture.
-        right, down, ahead = self._slopes(view)
+        right, down, ahead = self._slopes(view, pieces)
         inverse_depth = _of(right, pieces)
         inverse_depth *= x
         part = _of(down, pieces)
@@ -187,8 +191,8 @@ class Open3DRenderer:
         pieces[asked] = _of(self._piece_of, faces + 1)
         return pieces.reshape(x.shape)
 
-    def _highest(self, eye: npt.NDArray[np.float64]) -> np.float32:
-        """Return the greatest slope, up over along, at which the world is seen; at least 0."""
+    def _highest(self, eye: Doubles) -> np.float32:
+        """Return a slope, up over along, above which nothing of the world is seen; at least 0."""
         middles, radii, tops = self._raised
         if not len(tops):
             return np.float32(0.0)
@@ -217,14 +221,22 @@ class Open3DRenderer:
         apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
         return _Glare(near + block.start * pieces.shape[1], self._light.glare_at(apart))
 
-    def _slopes(self, view: View) -> Floats:
-        """Return how the inverse depth of each piece grows to the right and down, and ahead."""
-        heights = self._heights - np.asarray(view.pose.position_m) @ self._normals
-        heights[MISSED] = 1.0
+    def _slopes(self, view: View, pieces: Pieces) -> Floats:
+        """Return how the inverse depth grows to the right and down, and ahead.
+
+        It has a column for each piece, of which only those of ``pieces`` are filled in; those of
+        the sky are 0.
+        """
+        slopes = np.zeros((3, len(self._heights) + SKY_STEPS), dtype=np.float32)
+        is_there = np.zeros(slopes.shape[1], dtype=bool)
+        is_there[pieces] = True
+        is_there[MISSED] = False
+        met = np.flatnonzero(is_there[: len(self._heights)])
+        normals = self._normals.take(met, axis=1)
+        heights = self._heights[met] - np.asarray(view.pose.position_m) @ normals
         # No ray meets a plane in which the camera lies.
         heights[heights == 0.0] = np.inf
-        slopes = np.zeros((3, len(heights) + SKY_STEPS), dtype=np.float32)
-        slopes[:, : len(heights)] = (view.axes.T @ self._normals) / heights
+        slopes[:, met] = (view.axes.T @ normals) / heights
         return slopes
 
     def _colour_of(
@@ -257,13 +269,29 @@ def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDA
     return table.take(entries, mode="clip")
 
 
-def _raised(world: Mesh) -> tuple[Floats, Floats, Floats]:
-    """Return what stands up from the ground: circles about its triangles, and how high they are."""
-    tops = world.corners[..., 2].max(axis=1)
-    standing = world.corners[tops > RAISED_M]
-    middles = standing[..., :2].mean(axis=1)
-    radii = np.linalg.norm(standing[..., :2] - middles[:, None], axis=2).max(axis=1)
-    return middles, radii, tops[tops > RAISED_M]
+def _raised(world: Mesh) -> tuple[Doubles, Doubles, Doubles]:
+    """Return what stands up from the ground: circles about parts of it, and how high they are.
+
+    A part is what has about the same size and stands in one square of `SQUARES` times that.
+    """
+    tops = world.corners[..., 2].max(axis=1).astype(np.float64)
+    standing, tops = (
+        world.corners[tops > RAISED_M][..., :2].astype(np.float64),
+        tops[tops > RAISED_M],
+    )
+    middles = standing.mean(axis=1)
+    radii = np.linalg.norm(standing - middles[:, None], axis=2).max(axis=1)
+    level = np.ceil(np.log2(np.maximum(radii, LEAST_RADIUS_M)))
+    squares = np.floor(middles / (SQUARES * 2.0**level)[:, None])
+    _, part = np.unique(np.column_stack((level, squares)), axis=0, return_inverse=True)
+    order = np.argsort(part.reshape(-1), kind="stable")
+    first = np.flatnonzero(np.diff(part.reshape(-1)[order], prepend=-1))
+    if not len(first):
+        return np.zeros((0, 2)), np.zeros(0), np.zeros(0)
+    low = np.minimum.reduceat(standing.min(axis=1)[order], first)
+    high = np.maximum.reduceat(standing.max(axis=1)[order], first)
+    half = (high - low) / 2.0
+    return low + half, np.hypot(*half.T), np.maximum.reduceat(tops[order], first)
 
 
 def _on_focal_plane(view: View, columns: Floats, rows: Floats) -> tuple[Floats, Floats]:
@@ -288,9 +316,7 @@ def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
     return rays
 
 
-def _pieces(
-    world: Mesh, light: Light
-) -> tuple[Pieces, npt.NDArray[np.float64], npt.NDArray[np.float64], Floats]:
+def _pieces(world: Mesh, light: Light) -> tuple[Pieces, Doubles, Doubles, Floats]:
     """Return the piece of each triangle; normals, heights and colours of pieces in columns.
 
     Triangles of one colour in one plane are one piece. The first entry stands for no triangle,
