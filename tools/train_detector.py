@@ -42,10 +42,10 @@ from PIL import Image, ImageFilter
 from torch import Tensor, nn
 from torch.nn import functional
 
+from airhilt.workers.vision.detector import GRID_PX
+
 STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""
-GRID_PX = 16
-"""Pictures have a multiple of it on each side."""
 TILES = ((96, 36), (160, 13), (96, 36), (288, 5))
 """Side in pixels and number of the tiles of a batch, in turn: most bodies are small."""
 LARGEST_SHARE = 0.7

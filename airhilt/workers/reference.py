@@ -102,8 +102,8 @@ def reference_worker(
             from airhilt.workers.vision.engines import vision_engine
             from airhilt.workers.vision.worker import VisionWorker
 
-            detector, sure, gate = vision_engine(DETECTOR if engine is None else engine)
-            return VisionWorker(detector, name or kind, sure, gate)
+            detector, sure = vision_engine(DETECTOR if engine is None else engine)
+            return VisionWorker(detector, name or kind, sure)
         case "decision" if engine is None:
             return DecisionWorker(name=name or kind)
         case "decision":

@@ -8,32 +8,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import BlobDetector, background, with_blobs
 
-from airhilt.workers.vision.detector import Found, Picture
-from airhilt.workers.vision.tiling import OVERLAP_PX, TILE_PX, Tiled
+from airhilt.workers.vision.gating import Gate
+from airhilt.workers.vision.tiling import OVERLAP_PX, TILE_PX, Tile, tiles_of
 
 
 def test_small_pictures_are_looked_at_in_one_piece() -> None:
-    detector = BlobDetector()
-    Tiled(detector).detect(background(1280, 720))
-    assert detector.asked == [(720, 1280)]
-    assert Tiled(detector).name == detector.name
+    assert tiles_of(background(1280, 720)) == [Tile(0, 0, 720, 1280)]
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(1920, 1080), (1281, 200), (100, 3000)])
 def test_tiles_are_small_and_leave_nothing_out(columns: int, rows: int) -> None:
-    class Covering(BlobDetector):
-        def __init__(self) -> None:
-            self.seen = np.zeros(rows * columns, dtype=bool)
-
-        def detect(self, picture: Picture) -> list[Found]:
-            assert max(picture.shape) <= TILE_PX
-            self.seen[picture.astype(int) @ (1, 256, 65_536)] = True
-            return []
-
-    numbers = np.arange(rows * columns, dtype="<u4").view(np.uint8).reshape(rows, columns, 4)
-    detector = Covering()
-    Tiled(detector).detect(numbers[..., :3])
-    assert detector.seen.all()
+    picture = background(columns, rows)
+    seen = np.zeros((rows, columns), dtype=bool)
+    for tile in tiles_of(picture):
+        assert max(tile.height, tile.width) <= TILE_PX
+        assert tile.of(picture).shape[:2] == (tile.height, tile.width)
+        tile.of(seen)[...] = True  # type: ignore[arg-type]
+    assert seen.all()
 
 
 @settings(max_examples=8, deadline=None)
@@ -48,12 +39,12 @@ def test_what_is_smaller_than_the_overlap_is_found_once_and_whole(
 ) -> None:
     box = (left, top, min(left + width, 1920), min(top + height, 1080))
     flat = np.full((1080, 1920, 3), 100, np.uint8)
-    found = Tiled(BlobDetector()).detect(with_blobs(flat, [("airplane", box)]))
+    found = Gate(BlobDetector()).look("tower", with_blobs(flat, [("airplane", box)]))
     assert [(one.label, one.box) for one in found] == [("airplane", box)]
 
 
 def test_different_things_side_by_side_stay_two() -> None:
     flat = np.full((1080, 1920, 3), 100, np.uint8)
     blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
-    found = Tiled(BlobDetector()).detect(with_blobs(flat, blobs))  # type: ignore[arg-type]
+    found = Gate(BlobDetector()).look("tower", with_blobs(flat, blobs))  # type: ignore[arg-type]
     assert sorted(one.box for one in found) == [box for _, box in blobs]

@@ -77,8 +77,6 @@ class Card(BaseModel):
     """Confidence from which a finding counts by itself: with it there is one false detection a
     minute and camera; docs/detector.md has what comes of it elsewhere."""
     calibration: Calibration = Calibration()
-    reach_px: Annotated[float, Field(gt=0.0)] | None = None
-    """What is farther away in a picture hardly matters to a finding; see docs/vision.md."""
     second_look: SecondLookCard | None = None
     """Without it the first network has the last word."""
 
@@ -97,8 +95,6 @@ class EmbeddedDetector:
     ----------
     sure
         Confidence from which a finding counts by itself.
-    reach_px
-        That of the card, None if it has none.
 
     Raises
     ------
@@ -114,7 +110,6 @@ class EmbeddedDetector:
         self._classes = card.classes
         self._calibration = card.calibration
         self.sure = card.threshold
-        self.reach_px = card.reach_px
         self._threshold = UNSURE * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")

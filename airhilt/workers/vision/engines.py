@@ -8,7 +8,6 @@ from typing import NamedTuple
 from airhilt.errors import VisionError
 from airhilt.service import is_service
 from airhilt.workers.vision.detector import Detector
-from airhilt.workers.vision.gating import WHOLE, GateSettings, gate_of
 
 EXPECTED = "embedded, embedded:FILE.onnx, yolo:FILE, or the address of a service"
 
@@ -19,7 +18,6 @@ class VisionEngine(NamedTuple):
     detector: Detector
     sure: float = 0.0
     """Confidence from which a finding counts by itself."""
-    gate: GateSettings = WHOLE
 
 
 def vision_engine(name: str) -> VisionEngine:
@@ -35,7 +33,7 @@ def vision_engine(name: str) -> VisionEngine:
         from airhilt.workers.vision.embedded import EmbeddedDetector
 
         detector = EmbeddedDetector(Path(argument) if argument else None)
-        return VisionEngine(detector, detector.sure, gate_of(detector))
+        return VisionEngine(detector, detector.sure)
     if kind == "yolo" and argument:
         from airhilt.workers.vision.yolo import SURE, YoloDetector
 

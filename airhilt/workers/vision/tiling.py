@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import product
 from typing import NamedTuple
 
-import numpy as np
-
 from airhilt.boxes import moved, overlap, share_of_smaller
-from airhilt.workers.vision.detector import GRID_PX, Detector, Found, Picture
+from airhilt.workers.vision.detector import GRID_PX, Found, Picture
 
 GREATEST_SIDE_PX = 1280
 """Pictures up to this are looked at in one piece."""
@@ -21,57 +19,60 @@ SAME_SHARE = 0.7
 EDGE_PX = 1.0
 
 
-class _Piece(NamedTuple):
+class Tile(NamedTuple):
+    """A part of a picture, in pixels."""
+
+    top: int
+    left: int
+    height: int
+    width: int
+
+    def of(self, picture: Picture) -> Picture:
+        """Return its pixels."""
+        return picture[self.top : self.top + self.height, self.left : self.left + self.width]
+
+
+class Piece(NamedTuple):
+    """What was found in a tile, where it is in the picture."""
+
     found: Found
     is_cut: bool
     """Its box ends where the tile does, and the picture does not."""
 
 
-class Tiled:
-    """Gives a detector big pictures in overlapping tiles, and small ones as they are.
+def tiles_of(picture: Picture) -> list[Tile]:
+    """Return overlapping tiles of a big picture, and a small one in one piece."""
+    rows, columns = picture.shape[:2]
+    if max(rows, columns) <= GREATEST_SIDE_PX:
+        return [Tile(0, 0, rows, columns)]
+    return [
+        Tile(top, left, min(TILE_PX, rows - top), min(TILE_PX, columns - left))
+        for top, left in product(_starts(rows), _starts(columns))
+    ]
+
+
+def pieces_of(found: Iterable[Found], tile: Tile, picture: Picture) -> list[Piece]:
+    """Return what was found in a tile of a picture."""
+    rows, columns = picture.shape[:2]
+    top, left, height, width = tile
+    return [
+        Piece(
+            one._replace(box=moved(one.box, left, top)),
+            is_cut=(left > 0 and one.box[0] < EDGE_PX)
+            or (top > 0 and one.box[1] < EDGE_PX)
+            or (left + width < columns and one.box[2] > width - EDGE_PX)
+            or (top + height < rows and one.box[3] > height - EDGE_PX),
+        )
+        for one in found
+    ]
+
+
+def merged(pieces: Sequence[Piece]) -> list[Found]:
+    """Return each thing once, the surest first.
 
     Of what is found in several tiles the whole ones count before those that an edge cuts, and
     then the surest. Pieces of what is bigger than the overlap may stay pieces.
     """
-
-    def __init__(self, detector: Detector) -> None:
-        self._detector = detector
-
-    @property
-    def name(self) -> str:
-        """That of the detector."""
-        return self._detector.name
-
-    def detect(self, picture: Picture) -> Sequence[Found]:
-        """Return what is in a picture; see `Detector.detect`."""
-        rows, columns = picture.shape[:2]
-        if max(rows, columns) <= GREATEST_SIDE_PX:
-            return self._detector.detect(picture)
-        pieces = [
-            piece
-            for top, left in product(_starts(rows), _starts(columns))
-            for piece in self._pieces(picture, top, left)
-        ]
-        return merged(pieces)
-
-    def _pieces(self, picture: Picture, top: int, left: int) -> list[_Piece]:
-        tile = np.ascontiguousarray(picture[top : top + TILE_PX, left : left + TILE_PX])
-        rows, columns = picture.shape[:2]
-        height, width = tile.shape[:2]
-        pieces = []
-        for found in self._detector.detect(tile):
-            is_cut = (
-                (left > 0 and found.box[0] < EDGE_PX)
-                or (top > 0 and found.box[1] < EDGE_PX)
-                or (left + width < columns and found.box[2] > width - EDGE_PX)
-                or (top + height < rows and found.box[3] > height - EDGE_PX)
-            )
-            pieces.append(_Piece(found._replace(box=moved(found.box, left, top)), is_cut))
-        return pieces
-
-
-def merged(pieces: Sequence[_Piece]) -> list[Found]:
-    """Return each thing once, the surest first."""
     kept: list[Found] = []
     for piece in sorted(pieces, key=lambda each: (each.is_cut, -each.found.confidence)):
         if not any(_is_same(piece.found, other) for other in kept):

@@ -23,8 +23,7 @@ from airhilt.messages import (
 from airhilt.sim.worker import Input, Output
 from airhilt.workers.protocol import Step
 from airhilt.workers.vision.detector import Detector, Picture, PictureMissed
-from airhilt.workers.vision.gating import WHOLE, Gate, GateSettings
-from airhilt.workers.vision.tiling import Tiled
+from airhilt.workers.vision.gating import Gate
 from airhilt.workers.vision.tracker import Tracker
 
 MOST_OF_OWN_AIRCRAFT = 0.6
@@ -39,19 +38,11 @@ class VisionWorker:
     sure
         Confidence from which a finding counts by itself. One below it is published only where it
         goes on with what was found in three pictures or more.
-    gate
-        When parts of a picture are enough.
     """
 
-    def __init__(
-        self,
-        detector: Detector,
-        name: str = "vision",
-        sure: float = 0.0,
-        gate: GateSettings = WHOLE,
-    ) -> None:
+    def __init__(self, detector: Detector, name: str = "vision", sure: float = 0.0) -> None:
         self._engine = detector.name
-        self._gate = Gate(Tiled(detector), gate)
+        self._gate = Gate(detector)
         self._sure = sure
         self._infos: dict[str, CameraInfo] = {}
         self._masks: dict[str, Mask] = {}
@@ -106,7 +97,7 @@ class VisionWorker:
     def _look(self, item: Input) -> Detections:
         header = header_of(item)
         picture = picture_of(header, item.payload, self._infos.get(header.camera))
-        found = self._gate.look(header.camera, header.view, header.t_frame_ns, picture)
+        found = self._gate.look(header.camera, picture)
         mask = self._masks.get(header.camera)
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
