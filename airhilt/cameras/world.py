@@ -40,6 +40,8 @@ HOLD_WIDTH_M = 22.0
 NEAR_M = 7000.0
 FAR_M = 70_000.0
 HORIZON_M = 420_000.0
+DEEPEST_CLOUDS_M = 1_400.0
+"""From the bases to the highest tops: fair-weather clouds are no towers."""
 SHADOW_REACH = 6.0
 """Metres of shadow for a metre of height, at most: the sun is that low only for minutes."""
 CLEARANCE_M = 0.2
@@ -121,7 +123,7 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
         parts.append(woods)
     tallest = 60.0
     if cloud_tops_m is not None and light.overcast < 0.7:
-        base = 0.55 * cloud_tops_m
+        base = max(0.55 * cloud_tops_m, cloud_tops_m - DEEPEST_CLOUDS_M)
         parts.append(scenery.clouds(base, cloud_tops_m, 30_000.0, 60, seed))
         tallest = cloud_tops_m
     return World(join(parts), (), (), tallest)
