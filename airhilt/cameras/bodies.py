@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ from airhilt.surface.frame import LocalFrame
 from airhilt.surface.kinds import load_kind
 from airhilt.surface.mover import Dimensions, Size, carried_on
 from airhilt.surface.wildlife import AnimalKind
+from airhilt.units import SECOND_NS
 
 GEAR_DOWN_BELOW_M = 600.0
 """Above the ground: on a glide path of 3 degrees that is 11 km before the threshold."""
@@ -148,6 +149,29 @@ def _bird(size: Size | Dimensions, count: int, beat: int | None) -> Mesh:
 
 def _no_lamps(_t_s: float, _lit: bool) -> Iterator[Lamp]:
     return iter(())
+
+
+def states_of(
+    performers: Iterable[Performer], frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
+) -> list[BodyState]:
+    """Return where everybody is; those that have ended lie where they did.
+
+    Parameters
+    ----------
+    ticked_ns
+        Time of the control tick that their states are of.
+    """
+    elapsed_s = (now_ns - ticked_ns) / SECOND_NS
+    return [
+        state_of(
+            performer,
+            frame,
+            ground_m,
+            now_ns / SECOND_NS,
+            elapsed_s if performer.body.ended is None else 0.0,
+        )
+        for performer in performers
+    ]
 
 
 def state_of(

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -30,7 +30,7 @@ from airhilt.cameras.mesh import Floats
 from airhilt.cameras.mounts import Camera, cameras_of, find_camera
 from airhilt.cameras.outline import Box
 from airhilt.cameras.renderers import require_renderer
-from airhilt.cameras.studio import Frame, Sighting
+from airhilt.cameras.studio import STILL_SAMPLES, Frame, Sighting
 from airhilt.cameras.view import View
 from airhilt.errors import AirhiltError, CameraError, RendererError, ScenarioError
 from airhilt.scenario import Scenario
@@ -43,6 +43,9 @@ BYTES_PER_PIXEL = 3 + 1 + 4
 TOLD = {error.__name__: error for error in (CameraError, RendererError, ScenarioError)}
 """Errors that go from one process to the other by their names."""
 STARTING_S = 120.0
+PATIENCE_S = 60.0
+SLOWEST_SAMPLES_PER_S = 250_000.0
+"""Of a renderer on a busy core: it is given a second more for each as many samples."""
 MOST_SAID_BYTES = 1 << 20
 """Of what the other process says besides its answers, before it is forgotten."""
 LAST_SAID_BYTES = 1 << 12
@@ -57,7 +60,8 @@ class RemoteStudio:
     names
         Of the cameras; None: those that the scenario declares.
     patience_s
-        For the pictures of one instant, before the renderer is given up.
+        For the pictures of one instant, before the renderer is given up. What it takes to draw
+        all that the cameras see, sample by sample, is added.
 
     Attributes
     ----------
@@ -81,12 +85,14 @@ class RemoteStudio:
         names: Sequence[str] | None = None,
         renderer: RendererName = "open3d",
         fine: int = 1,
-        patience_s: float = 60.0,
+        patience_s: float = PATIENCE_S,
     ) -> None:
         self._renderer = renderer
-        self._patience_s = patience_s
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = _cameras(scenario, wanted)
+        samples = sum(_samples(camera, fine) for camera in self._cameras.values())
+        drawing_s = samples / SLOWEST_SAMPLES_PER_S
+        self._patience_s = patience_s + drawing_s
         self._places = _places(self._cameras)
         size = max(sum(camera_bytes(camera) for camera in self._cameras.values()), 1)
         try:
@@ -111,7 +117,7 @@ class RemoteStudio:
                     "renderer": renderer,
                     "fine": fine,
                 },
-                STARTING_S,
+                STARTING_S + drawing_s,
             )
         except BaseException:
             self.close()
@@ -223,8 +229,9 @@ class RemoteStudio:
                 if left_s <= 0.0 or not selector.select(left_s):
                     self._process.kill()
                     raise RendererError(
-                        f"the renderer {self._renderer} has not answered for "
-                        f"{patience_s:.0f} s; no more pictures are drawn"
+                        f"the renderer {self._renderer} has not answered for {patience_s:.0f} s, "
+                        f"with pictures of {_sizes(self._cameras.values())} pixels; no more are "
+                        "drawn: take smaller ones (width_px, height_px) or another --renderer"
                     )
                 part = self._answers.read(1 << 16)
                 if not part:
@@ -272,6 +279,18 @@ def _shared_file() -> IO[bytes]:
 
 def _how(code: int | None) -> str:
     return f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"
+
+
+def _samples(camera: Camera, fine: int) -> int:
+    """Return how many samples a picture has at most; a fixed camera's first one has more."""
+    along = max(fine, STILL_SAMPLES) if camera.is_fixed else fine
+    return camera.intrinsics.width_px * camera.intrinsics.height_px * along**2
+
+
+def _sizes(cameras: Iterable[Camera]) -> str:
+    """Return how large pictures are, for a message."""
+    sizes = {(camera.intrinsics.width_px, camera.intrinsics.height_px) for camera in cameras}
+    return ", ".join(f"{width} x {height}" for width, height in sorted(sizes))
 
 
 def camera_bytes(camera: Camera) -> int:

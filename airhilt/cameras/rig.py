@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.actors.performer import Performer
-from airhilt.cameras.bodies import BodyState, state_of
+from airhilt.cameras.bodies import BodyState, states_of
 from airhilt.cameras.masks import runs_of
 from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.studio import Frame
@@ -163,19 +163,13 @@ class CameraRig:
         return carrier is not None and self._performers[carrier].body.ended is not None
 
     def _bodies(self) -> list[BodyState]:
-        """Return where everybody is; those that have ended lie where they did."""
-        now_ns = self._director.now_ns
-        elapsed_s = (now_ns - self._state_at_ns()) / SECOND_NS
-        return [
-            state_of(
-                performer,
-                self._frame,
-                self._ground_m,
-                now_ns / SECOND_NS,
-                elapsed_s if performer.body.ended is None else 0.0,
-            )
-            for performer in self._performers.values()
-        ]
+        return states_of(
+            self._performers.values(),
+            self._frame,
+            self._ground_m,
+            self._director.now_ns,
+            self._state_at_ns(),
+        )
 
     def _give_out(self, frame: Frame, seq: int) -> None:
         now_ns, name = self._director.now_ns, frame.camera

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from airhilt.actors import build_cast
 from airhilt.cameras import RendererName
-from airhilt.cameras.bodies import state_of
+from airhilt.cameras.bodies import states_of
 from airhilt.cameras.mounts import frame_of
 from airhilt.cameras.remote import RemoteStudio
 from airhilt.cameras.studio import Frame
@@ -33,22 +33,26 @@ def still(
 ) -> Frame:
     """Return what a camera sees at a time, in a run in which nothing is said.
 
+    Between two control ticks everybody has moved straight on, as in the pictures of a run.
+
     Raises
     ------
     AirhiltError
         There is no such camera, it could see nothing, or pictures cannot be drawn.
     """
+    now_ns, tick_ns = seconds_to_ns(at_s), seconds_to_ns(TICK_S)
+    ticks = now_ns // tick_ns
     realised, _ = draw(scenario, seed)
     setting = Setting.of(realised)
     with RemoteStudio(realised, [camera], renderer, FINE) as studio:
         cast = build_cast(realised, setting, seed, TICK_S)
-        for _ in range(round(at_s / TICK_S)):
+        for _ in range(ticks):
             for performer in cast.values():
                 if performer.body.ended is None:
                     performer.body.advance()
         frame = frame_of(setting)
-        bodies = [state_of(performer, frame, setting.ground_m, at_s) for performer in cast.values()]
-        return studio.shoot([camera], bodies, seconds_to_ns(at_s))[0]
+        bodies = states_of(cast.values(), frame, setting.ground_m, now_ns, ticks * tick_ns)
+        return studio.shoot([camera], bodies, now_ns)[0]
 
 
 def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
@@ -70,7 +74,8 @@ def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
             left, top, right, bottom = sighting.box
             pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=(255, 220, 40))
             text = f"{sighting.label} {sighting.range_m:.0f} m"
-            pen.text((left, max(top - 14, 0)), text, fill=(255, 220, 40))
+            above = (left, max(top - 14, 0))
+            pen.text(above, text, (255, 220, 40), stroke_width=2, stroke_fill="black")
     buffer = io.BytesIO()
     picture.save(buffer, format="PNG")
     try:

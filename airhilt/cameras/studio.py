@@ -29,10 +29,13 @@ from airhilt.cameras.rain import Streaks
 from airhilt.cameras.renderers import Part, Samples, open_renderer
 from airhilt.cameras.view import Pose, View, Window
 from airhilt.cameras.world import World
+from airhilt.errors import CameraError
 from airhilt.messages import VisibleClass
 
 FINENESS = ((900, 4), (2500, 3), (16_000, 2))
 """Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
+MOST_ACTORS = int(np.iinfo(np.uint8).max)
+"""That the numbers of ``Frame.instance`` tell apart."""
 STILL_SAMPLES = 3
 """Along each side of a pixel of a background that is drawn once."""
 FAINTEST = 1.0 / 512.0
@@ -160,7 +163,7 @@ class Studio:
     Raises
     ------
     CameraError
-        A fixed camera stands in something.
+        A fixed camera stands in something, or there are more actors than pictures tell apart.
     RendererError
         The renderer cannot be opened.
     """
@@ -178,6 +181,11 @@ class Studio:
         self._world = world
         self._light = light
         self._models = dict(models)
+        if len(self._models) > MOST_ACTORS:
+            raise CameraError(
+                f"there are {len(self._models)} actors, and cameras tell at most {MOST_ACTORS} "
+                "apart; take some out of the scenario, or run it with --no-cameras"
+            )
         self._numbers = {actor: number for number, actor in enumerate(self._models, start=1)}
         self._cameras = {camera.name: camera for camera in cameras}
         for camera in self._cameras.values():

@@ -123,6 +123,21 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
+    """As the run's own picture of that time does, which a tick is too coarse for."""
+    scenario = washington()
+    early, late = (still(scenario, "field", at_s, renderer="moderngl") for at_s in (4.0, 4.04))
+    setting = Setting.of(scenario)
+    cast = build_cast(scenario, setting, 0, TICK_S)
+    for _ in range(80):
+        for performer in cast.values():
+            performer.body.advance()
+    speed = cast["AAL123"].body.state.ground_speed_m_s
+    nearer_m = early.sightings[0].range_m - late.sightings[0].range_m
+    assert nearer_m == pytest.approx(0.04 * speed, rel=0.05)
+    assert late.t_ns == 4_040_000_000
+
+
 def blank() -> Frame:
     """Return a picture of nothing."""
     view = View(Intrinsics(32, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
@@ -232,8 +247,35 @@ def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_t
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(remote, "STARTING_S", 0.0)
-    with pytest.raises(RendererError, match="has not answered for 0 s"):
+    with pytest.raises(RendererError, match="has not answered for 1 s"):
         RemoteStudio(washington(), renderer="moderngl")
+
+
+def test_a_renderer_that_hangs_as_it_draws_is_given_up_and_says_what_to_do(
+    bodies: list[BodyState],
+) -> None:
+    with RemoteStudio(washington(), renderer="moderngl", patience_s=1.0) as opened:
+        os.kill(opened.process_id, signal.SIGSTOP)
+        with pytest.raises(RendererError, match=r"not answered for 2 s.* 160 x 90 .*smaller"):
+            opened.shoot(["field"], bodies, 0)
+
+
+def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fixed camera's first picture has 3 x 3 samples in each pixel, or more."""
+    waited = []
+    reads = "import os, sys; os.fdopen(int(sys.argv[1])).read()"
+    monkeypatch.setattr(remote, "COMMAND", (sys.executable, "-c", reads))
+    monkeypatch.setattr(remote, "SLOWEST_SAMPLES_PER_S", 1600.0)
+
+    def note(_: RemoteStudio, patience_s: float) -> bytes:
+        waited.append(patience_s)
+        return b'{"error": "RendererError", "text": "noted"}'
+
+    monkeypatch.setattr(RemoteStudio, "_line", note)
+    for fine in (1, 4):
+        with pytest.raises(RendererError, match="noted"):
+            RemoteStudio(washington(), None, "moderngl", fine)
+    assert waited == [remote.STARTING_S + 9.0 * 9.0, remote.STARTING_S + 16.0 * 9.0]
 
 
 def test_a_studio_may_be_the_last_of_thousands_of_open_files(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from airhilt.cameras.mounts import Camera, Mount, cameras_of, frame_of
 from airhilt.cameras.stage import light_of, world_of
 from airhilt.cameras.studio import Frame, Studio
 from airhilt.cameras.view import Intrinsics, Pose
+from airhilt.errors import CameraError
 from airhilt.positions import RunwayPosition
 from airhilt.scenario.geometry import Setting
 from airhilt.units import DEGREE
@@ -145,6 +147,53 @@ def test_a_box_goes_round_all_pixels_of_its_body(
                 assert columns.max() <= sighting.box.right + 1.0
                 assert sighting.box.top - 1.0 <= rows.min()
                 assert rows.max() <= sighting.box.bottom + 1.0
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+def test_a_body_darkens_the_ground_below_it(
+    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+) -> None:
+    low = stage.on_runway("737", 250.0, 0.0, turned=1.2, up_m=15.0)
+    shots = [studios[renderer].shoot(["runway_01"], there, 0)[0] for there in ([], [low])]
+    darker = (shots[0].colour.astype(int) - shots[1].colour).min(axis=2)
+    body = np.pad(shots[1].instance > 0, 2)
+    beside = np.lib.stride_tricks.sliding_window_view(body, (5, 5)).any(axis=(2, 3))
+    assert (darker[~beside] > 8).sum() > 100
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+def test_the_own_aircraft_is_lit_anew_when_it_turns(
+    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+) -> None:
+    carrier = stage.bodies[3]
+    turned = carrier._replace(heading_rad=carrier.heading_rad + 2.0)
+    shots = [studios[renderer].shoot(["tail"], [body], 0)[0] for body in (carrier, turned)]
+    own = (shots[0].instance > 0) & (shots[1].instance > 0)
+    change = np.abs(shots[0].colour[own].astype(int) - shots[1].colour[own])
+    assert change.mean() > 3.0
+
+
+def test_rain_falls_through_pictures(stage: Stage) -> None:
+    """Streaks are in a few pixels, and in others in each picture."""
+    camera = replace(stage.cameras[0], intrinsics=Intrinsics(160, 90, 40.0 * DEGREE))
+    dry, wet = (
+        Studio(stage.world, stage.light, {}, [camera], "open3d", rain_mm_h)
+        for rain_mm_h in (0.0, 50.0)
+    )
+    clear, first, second = (
+        studio.shoot([camera.name], [], 0)[0].colour for studio in (dry, wet, wet)
+    )
+    streaks = [(rainy != clear).any(axis=2) for rainy in (first, second)]
+    assert all(0.005 < there.mean() < 0.2 for there in streaks)
+    assert (streaks[0] != streaks[1]).any()
+    dry.close()
+    wet.close()
+
+
+def test_more_actors_than_pictures_tell_apart_are_refused(stage: Stage) -> None:
+    crowd = {f"deer{number}": MODELS["deer"] for number in range(256)}
+    with pytest.raises(CameraError, match=r"256 actors, .* at most 255 apart; .*--no-cameras"):
+        Studio(stage.world, stage.light, crowd, [], "open3d")
 
 
 def test_distances_are_metric(pairs: list[tuple[Frame, Frame]], studios: dict[str, Studio]) -> None:

@@ -37,12 +37,14 @@ class Fake:
 
     fails_at_ns: int | None = None
     shots: list[tuple[int, tuple[str, ...]]] = field(default_factory=list)
+    places: list[dict[str, tuple[float, float]]] = field(default_factory=list)
     own_aircraft: dict[str, Mask] = field(default_factory=dict)
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
         if self.fails_at_ns is not None and t_ns >= self.fails_at_ns:
             raise RendererError("the driver has died")
         self.shots.append((t_ns, tuple(names)))
+        self.places.append({body.actor: (body.east_m, body.north_m) for body in bodies})
         view = View(LENS, Pose.of((10.0, 20.0, 30.0), 1.0, 0.1, -0.2))
         blank = np.full((36, 64, 3), len(self.shots) % 256, dtype=np.uint8)
         distance = np.full((36, 64), np.inf, dtype=np.float32)
@@ -165,19 +167,21 @@ def test_a_renderer_that_dies_is_told_once_and_asked_no_more() -> None:
 
 
 def test_a_picture_taken_between_two_ticks_shows_bodies_further_on() -> None:
-    places = []
-
-    class Watching(Fake):
-        def shoot(
-            self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-        ) -> list[Frame]:
-            places.append((bodies[0].east_m, bodies[0].north_m))
-            return super().shoot(names, bodies, t_ns)
-
-    run = Run(scenario_with(), Watching(), 1.0).go()
+    fake = Fake()
+    run = Run(scenario_with(), fake, 1.0).go()
     state = run.cast["AAL123"].body.state
-    moved = np.hypot(*(np.subtract(places[-1], places[0])))
+    moved = np.hypot(*(np.subtract(fake.places[-1]["AAL123"], fake.places[0]["AAL123"])))
     assert moved == pytest.approx(state.ground_speed_m_s, rel=1e-2)
+
+
+def test_what_has_ended_lies_where_it_did_while_others_move_on() -> None:
+    fake = Fake()
+    run = Run(scenario_with(), fake, 1.0)
+    run.director.at(SECOND_NS // 2, lambda: end(run.cast["AAL123"]), Priority.PHYSICS)
+    run.go()
+    before, last = fake.places[-2:]
+    assert last["AAL123"] == before["AAL123"]
+    assert last["DAL456"] != before["DAL456"]
 
 
 @given(

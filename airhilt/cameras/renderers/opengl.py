@@ -179,12 +179,43 @@ class _Body:
     reach_m: float
 
 
-@dataclass(frozen=True)
 class _Canvas:
-    """Where is drawn: the first corner of a frame buffer that is at least as large."""
+    """Where is drawn: the first corner of a frame buffer that only grows.
 
-    frame: Any
-    size: tuple[int, int]
+    There is never more than one: a buffer for each size would in time take all memory.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self._context = context
+        self._room = 0, 0
+        self._owned: list[Any] = []
+        self.frame: Any = None
+        self.size = 0, 0
+
+    def clear(self, size: tuple[int, int], *, is_filled: bool = False) -> None:
+        """Begin a drawing of some size; if all of it will be filled, colours need no clearing."""
+        width, height = (
+            max(CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX), room)
+            for side, room in zip(size, self._room, strict=True)
+        )
+        if (width, height) != self._room:
+            self._replace((width, height))
+        self.size = size
+        self.frame.use()
+        self.frame.viewport = 0, 0, *size
+        self.frame.color_mask = UNTOUCHED if is_filled else TOUCHED
+        self.frame.clear(viewport=(0, 0, *size))
+        self.frame.color_mask = TOUCHED
+
+    def _replace(self, room: tuple[int, int]) -> None:
+        for owned in self._owned:
+            owned.release()
+        context = self._context
+        colour, distance = context.texture(room, 4), context.texture(room, 1, dtype="f4")
+        depth = context.depth_renderbuffer(room)
+        self.frame = context.framebuffer([colour, distance], depth)
+        self._owned = [self.frame, colour, distance, depth]
+        self._room = room
 
     def read(self) -> Samples:
         """Return colours, and what has been drawn for distances."""
@@ -212,7 +243,7 @@ class ModernGLRenderer:
         context.front_face = "cw"
         context.depth_func = "<="
         self._light = light
-        self._frames: dict[tuple[int, int], Any] = {}
+        self._behind, self._before = _Canvas(context), _Canvas(context)
         self._bodies: dict[str, _Body] = {}
         self._world_program = context.program(_WORLD_VERTEX, _WORLD_FRAGMENT)
         self._sky_programs = [
@@ -279,7 +310,8 @@ class ModernGLRenderer:
     def world(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the world behind all bodies, with the sky and the air."""
         context, program = self._context, self._world_program
-        canvas = self._canvas((window.width * samples, window.height * samples), is_filled=True)
+        canvas = self._behind
+        canvas.clear((window.width * samples, window.height * samples), is_filled=True)
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
         left, top, right, bottom = edges(view, window)
         width, height = canvas.size
@@ -319,7 +351,8 @@ class ModernGLRenderer:
             return []
         sizes = [(p.window.width * p.samples, p.window.height * p.samples) for p in parts]
         places, whole = _shelves(sizes)
-        canvas = self._canvas(whole)
+        canvas = self._before
+        canvas.clear(whole)
         self._shadow_program["eye"] = view.pose.position_m
         for part, place, size in zip(parts, places, sizes, strict=True):
             canvas.frame.viewport = canvas.frame.scissor = (*place, *size)
@@ -348,29 +381,6 @@ class ModernGLRenderer:
         program["rotation"].write(_columns(part.pose.rotation))
         program["place"] = part.pose.position_m if part.is_shadow else tuple(offset)
         (body.shadow if part.is_shadow else body.drawn).render()
-
-    def _canvas(self, size: tuple[int, int], *, is_filled: bool = False) -> _Canvas:
-        """Return a cleared canvas; of one that will be filled, colours need not be cleared.
-
-        Frame buffers are costly to make: few sizes do.
-        """
-        width, height = (CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX) for side in size)
-        frame = self._frames.get((width, height))
-        if frame is None:
-            context = self._context
-            frame = self._frames[width, height] = context.framebuffer(
-                [
-                    context.texture((width, height), 4),
-                    context.texture((width, height), 1, dtype="f4"),
-                ],
-                context.depth_renderbuffer((width, height)),
-            )
-        frame.use()
-        frame.viewport = 0, 0, *size
-        frame.color_mask = UNTOUCHED if is_filled else TOUCHED
-        frame.clear()
-        frame.color_mask = TOUCHED
-        return _Canvas(frame, size)
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
         """Return triangles for drawing."""
