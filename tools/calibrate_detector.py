@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from detector_data import CLASSES, Shot, read_folder
-from eval_detector import LOOSE, matched, on_faint
+from eval_detector import loosely, matched, on_faint
 from rich.progress import track
 from scipy import optimize
 
@@ -224,7 +224,7 @@ def findings(
             and covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
             and not on_faint(shot.bodies, each)
         ]
-        _, used = matched(shot.bodies, here, LOOSE)
+        _, used = matched(shot.bodies, here, loosely)
         found += here
         is_true += [index in used for index in range(len(here))]
     return found, is_true

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from detector_data import Body, Shot, read_folder
+from detector_scratch import Pictures, contents, decoded, mark_of
 from eval_detector import on_faint
 from rich.progress import track
 
@@ -32,7 +32,6 @@ longest side and so many pixels."""
 ALIKE = 2.2
 """Times that the longest sides then differ, at most."""
 
-Bytes = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
 
 
@@ -54,7 +53,7 @@ class Places:
         Boxes of the bodies, where there are any; shape (n, 4).
     """
 
-    pictures: Bytes
+    pictures: Pictures
     picture: npt.NDArray[np.int64]
     boxes: Floats
     scores: Floats
@@ -67,23 +66,15 @@ class Places:
 
 def places_of(folder: Path, network: Path, scratch: Path) -> Places:
     """Return the places of a folder, from ``scratch`` if they are there."""
-    decoded, kept = scratch / f"{folder.name}.u8", scratch / f"{folder.name}.npz"
-    origin = _origin(folder, network)
-    if not (decoded.is_file() and kept.is_file() and _load(kept)["origin"] == origin):
-        shots, detector = read_folder(folder), EmbeddedDetector(network)
-        shape = (len(shots), *shots[0].picture().shape)
-        pictures = np.memmap(decoded, np.uint8, "w+", shape=shape)
-        rows: list[tuple[Any, ...]] = []
-        for index, shot in enumerate(track(shots, folder.name, transient=True)):
-            pictures[index] = shot.picture()
-            rows += [(index, *row) for row in places_in(shot, detector.proposed(pictures[index]))]
-        pictures.flush()
-        columns = zip(*rows, strict=True)
-        names = ("picture", "boxes", "scores", "labels", "truth")
-        arrays = dict(zip(names, map(np.array, columns), strict=True))
-        np.savez(kept, origin=origin, shape=shape, **arrays)
+    seen = contents(folder)
+    file = scratch / f"{folder.name}-{mark_of([seen])}.u8"
+    limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE)).encode()
+    kept = scratch / f"{folder.name}-{mark_of([limits, network.read_bytes(), seen])}.npz"
+    if not (file.is_file() and kept.is_file()):
+        shots = read_folder(folder)
+        _write(kept, shots, decoded(shots, file), EmbeddedDetector(network))
     data = _load(kept)
-    pictures = np.memmap(decoded, np.uint8, "r", shape=tuple(data["shape"]))
+    pictures = np.memmap(file, np.uint8, "r", shape=tuple(data["shape"]))
     return Places(
         pictures,
         data["picture"],
@@ -94,16 +85,24 @@ def places_of(folder: Path, network: Path, scratch: Path) -> Places:
     )
 
 
+def _write(
+    path: Path, shots: Sequence[Shot], pictures: Pictures, detector: EmbeddedDetector
+) -> None:
+    """Ask the first network about all pictures; the file gets its name once all are in it."""
+    rows: list[tuple[Any, ...]] = []
+    for index, shot in enumerate(track(shots, path.name, transient=True)):
+        rows += [(index, *row) for row in places_in(shot, detector.proposed(pictures[index]))]
+    names = ("picture", "boxes", "scores", "labels", "truth")
+    arrays: dict[str, Any] = dict(zip(names, map(np.array, zip(*rows, strict=True)), strict=True))
+    partial = path.with_suffix(".partial")
+    with partial.open("wb") as file:
+        np.savez(file, shape=pictures.shape, **arrays)
+    partial.replace(path)
+
+
 def _load(path: Path) -> dict[str, npt.NDArray[Any]]:
     with np.load(path, allow_pickle=False) as data:
         return dict(data)
-
-
-def _origin(folder: Path, network: Path) -> str:
-    """Return what changes with all that places come from."""
-    limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE)).encode()
-    files = network.read_bytes(), (folder / "annotations.json").read_bytes()
-    return hashlib.sha256(b"".join((limits, *files))).hexdigest()
 
 
 def places_in(shot: Shot, found: Sequence[Found]) -> Iterator[tuple[Box, float, int, Box]]:

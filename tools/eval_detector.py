@@ -35,13 +35,14 @@ from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 from rich.progress import track
 
 from airhilt.boxes import centre, overlap, share_of_smaller
+from airhilt.matching import is_about
 from airhilt.workers.vision.detector import Found, Picture
 from airhilt.workers.vision.engines import VisionEngine, vision_engine
 from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 
 FRAMES_A_MINUTE = 960
 SMALL_PX = 12.0
-STRICT, LOOSE, SMALL = 0.5, 0.3, 0.25
+STRICT, SMALL = 0.5, 0.25
 SIZES_PX = (5.0, 8.0, 12.0, 20.0, 40.0, 80.0, math.inf)
 RANGES_M = (0.0, 100.0, 300.0, 700.0, 1500.0, 3000.0, 6000.0, math.inf)
 VISIBILITIES_M = (0.0, 1500.0, 3000.0, 5000.0, 10_000.0, 20_000.0, math.inf)
@@ -110,8 +111,18 @@ class Judgement:
         }
 
 
+def strictly(body: Body, found: Found) -> bool:
+    """Return whether a box is that of a body, whatever its class, and lies well about it."""
+    return hits(body, found, STRICT)
+
+
+def loosely(body: Body, found: Found) -> bool:
+    """Return whether a box is that of a body, whatever its class, as runs are judged."""
+    return is_about(found.box, body.box)
+
+
 def hits(body: Body, found: Found, least: float) -> bool:
-    """Return whether a box is that of a body, whatever its class."""
+    """Return whether boxes overlap as much, or are about the same where they are small."""
     if body.size_px < SMALL_PX:
         apart = math.dist(centre(body.box), centre(found.box))
         return apart <= 0.5 * body.size_px or overlap(body.box, found.box) >= SMALL
@@ -119,7 +130,7 @@ def hits(body: Body, found: Found, least: float) -> bool:
 
 
 def matched(
-    bodies: Sequence[Body], found: Sequence[Found], least: float
+    bodies: Sequence[Body], found: Sequence[Found], is_of: Callable[[Body, Found], bool]
 ) -> tuple[set[int], set[int]]:
     """Return which bodies are found, and by which boxes; the surest box chooses first."""
     seen: set[int] = set()
@@ -128,7 +139,7 @@ def matched(
         fitting = [
             number
             for number, body in enumerate(bodies)
-            if number not in seen and CLASSES[body.label] == each.label and hits(body, each, least)
+            if number not in seen and CLASSES[body.label] == each.label and is_of(body, each)
         ]
         if fitting:
             best = max(fitting, key=lambda number: overlap(bodies[number].box, each.box))
@@ -155,8 +166,8 @@ def judge(engine: VisionEngine, shots: Sequence[Shot]) -> Judgement:
             for each in surely_found(engine, shot.picture())
             if covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
         ]
-        strict, used = matched(shot.bodies, found, STRICT)
-        loose, _ = matched(shot.bodies, found, LOOSE)
+        strict, used = matched(shot.bodies, found, strictly)
+        loose, _ = matched(shot.bodies, found, loosely)
         judgement.true += sum(shot.bodies[number].counts for number in strict)
         for index, each in enumerate(found):
             if index not in used and not on_faint(shot.bodies, each):
@@ -233,7 +244,7 @@ def _ranges(engine: VisionEngine, frames: Iterator[Any]) -> dict[str, float | No
         found = [each for each in surely_found(engine, frame.colour) if each.label == "airplane"]
         away.append(sighting.range_m)
         pixels.append(body.size_px)
-        seen.append(any(hits(body, each, LOOSE) for each in found))
+        seen.append(any(loosely(body, each) for each in found))
     often = [sum(seen[max(index - 4, 0) : index + 1]) >= 3 for index in range(len(seen))]
     first = next((index for index, found in enumerate(seen) if found), None)
     kept = next((index for index, found in enumerate(often) if found), None)

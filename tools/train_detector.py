@@ -2,21 +2,19 @@
 
     pip install torch onnx
     airhilt dataset export --out data/train --images 10000 --seed 101 --renderer moderngl ...
-    airhilt dataset export --out data/dev --images 700 --seed 201 --renderer moderngl ...
-    python tools/train_detector.py data/train --dev data/dev --out detector
+    python tools/train_detector.py data/train --out detector
 
 It is a small convolutional network that looks for the middles of bodies (X. Zhou et al., Objects
-as Points, arXiv 1904.07850), of one scale at a quarter of the resolution, and needs no
+as Points, arXiv 1904.07850), of one scale at an eighth of the resolution, and needs no
 suppression of overlapping boxes. It learns from tiles: most are cut around a body of some class
 and size, drawn so that rare classes and small bodies come as often as others, and changed in
 scale, colour and sharpness. Bodies that can hardly be seen are neither learnt nor counted as
-background. After training, the threshold is the lowest at which no more than one empty picture of
-the dev folders in 960 has something found in it: 960 are a minute of one camera at 16 Hz. Then
-``tools/train_second_look.py`` makes the second network, and ``tools/calibrate_detector.py`` fits
-what both say.
+background. After training, ``tools/train_second_look.py`` makes the second network, and
+``tools/calibrate_detector.py`` fits what both say and chooses the threshold.
 
 A checkpoint is written every few minutes; the same command goes on from it. Pictures must all be
-of one size; they are kept decoded in ``OUT/pictures.u8``. The same data, seed and versions give
+of one size; they are kept decoded in ``OUT/pictures-<mark>.u8``, where the mark changes with the
+data; files with other marks are not needed any more. The same data, seed and versions give
 the same network, but for the rounding of sums in another order on another machine.
 """
 
@@ -35,14 +33,15 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import onnxruntime
 import torch
 from detector_data import CLASSES, Body, Shot, read_folder
+from detector_scratch import Pictures, contents, decoded, mark_of
 from PIL import Image, ImageFilter
 from torch import Tensor, nn
 from torch.nn import functional
 
 from airhilt.workers.vision.detector import GRID_PX
+from airhilt.workers.vision.embedded import CARD
 
 STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""
@@ -79,7 +78,8 @@ WORTH = (2.0, 0.5, 0.5)
 """Of the losses of scores, places and overlaps."""
 PRIOR = 0.005
 """Score of everything before training."""
-FRAMES_A_MINUTE = 960
+NOT_CALIBRATED = 1.0
+"""The threshold in a card, until tools/calibrate_detector.py chooses one."""
 
 Picture = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
@@ -116,7 +116,7 @@ class Block(nn.Module):
 
 
 class Network(nn.Module):
-    """From pictures, 0 to 255, shape (n, 3, rows, columns), to maps at a quarter of that.
+    """From pictures, 0 to 255, shape (n, 3, rows, columns), to maps at an eighth of that.
 
     The maps are the scores of each class before the sigmoid; how far the middle of a body is from
     that of the cell, right and down, in cells; and the logarithms of its width and height in
@@ -236,22 +236,13 @@ class Tiles:
 
     Parameters
     ----------
-    scratch
-        File for the decoded pictures.
+    pictures
+        Those of the shots, decoded.
     """
 
-    def __init__(self, shots: list[Shot], scratch: Path, seed: int) -> None:
-        self._shots, self._seed = shots, seed
-        rows, columns = shots[0].picture().shape[:2]
-        shape = (len(shots), rows, columns, 3)
-        size = math.prod(shape)
+    def __init__(self, shots: list[Shot], pictures: Pictures, seed: int) -> None:
+        self._shots, self._pictures, self._seed = shots, pictures, seed
         self.mistakes: list[Mistake] = []
-        if not (scratch.is_file() and scratch.stat().st_size == size):
-            pictures = np.memmap(scratch, np.uint8, "w+", shape=shape)
-            for index, shot in enumerate(shots):
-                pictures[index] = shot.picture()
-            pictures.flush()
-        self._pictures = np.memmap(scratch, np.uint8, "r", shape=shape)
         self._found = [
             (index, body)
             for index, shot in enumerate(shots)
@@ -624,35 +615,10 @@ def train(
     return averaged
 
 
-# --- threshold and card -------------------------------------------------------------------
-
-
-def false_scores(shots: list[Shot], path: Path) -> list[float]:
-    """Return the scores of all that a network finds in pictures of nothing, the highest first."""
-    session = onnxruntime.InferenceSession(str(path), providers=["CPUExecutionProvider"])
-    scores: list[float] = []
-    for shot in shots:
-        picture = shot.picture()
-        rows, columns = (-side % GRID_PX for side in picture.shape[:2])
-        padded = np.pad(picture, ((0, rows), (0, columns), (0, 0)), mode="edge")
-        found = session.run(None, {"picture": padded[None]})[0][0]
-        scores += [float(score) for score in found[:, 4] if score > 0.05]
-    return sorted(scores, reverse=True)
-
-
-def threshold_of(shots: list[Shot], path: Path) -> tuple[float, int]:
-    """Return the lowest threshold that the dev pictures allow, and how many of them are empty."""
-    empty = [shot for shot in shots if not shot.bodies]
-    scores = [*false_scores(empty, path), 0.05, 0.05]
-    allowed = len(empty) // FRAMES_A_MINUTE
-    return math.ceil(1000.0 * scores[min(allowed, len(scores) - 1)] + 1.0) / 1000.0, len(empty)
-
-
 def main() -> None:
-    """Train, export, choose the threshold and write the card."""
+    """Train, export and write the card."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", type=Path, metavar="DATA")
-    parser.add_argument("--dev", action="append", required=True, type=Path, metavar="DATA")
     parser.add_argument("--out", required=True, type=Path, metavar="DIR")
     parser.add_argument("--steps", type=int, default=6000, help="batches to train on")
     parser.add_argument("--seed", type=int, default=0)
@@ -664,15 +630,15 @@ def main() -> None:
     shots = [shot for folder in given.folders for shot in read_folder(folder)]
     bodies = sum(body.counts for shot in shots for body in shot.bodies)
     print(f"{len(shots)} pictures with {bodies} bodies", flush=True)
-    tiles = Tiles(shots, given.out / "pictures.u8", given.seed)
+    mark = mark_of(contents(folder) for folder in given.folders)
+    pictures = decoded(shots, given.out / f"pictures-{mark}.u8")
+    tiles = Tiles(shots, pictures, given.seed)
     network = train(tiles, given.steps, given.out / "checkpoint.pt", given.seed, given.start)
-    path = given.out / "detector.onnx"
-    write_onnx(network, path)
-    threshold, empty = threshold_of([s for folder in given.dev for s in read_folder(folder)], path)
+    write_onnx(network, given.out / "detector.onnx")
     card = {
         "name": "AIRHILT embedded detector",
         "classes": list(CLASSES),
-        "threshold": threshold,
+        "threshold": NOT_CALIBRATED,
         "input": "uint8 [1, rows, columns, 3], sRGB, rows and columns multiples of 16",
         "output": "float [1, 50, 6]: left, top, right, bottom, score, class",
         "parameters": sum(p.numel() for p in network.parameters()),
@@ -682,11 +648,12 @@ def main() -> None:
             "steps": given.steps,
             "begun_with": given.start.name if given.start else None,
             "seed": given.seed,
-            "empty_dev_pictures": empty,
         },
     }
-    (given.out / "card.json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
+    path = given.out / CARD
+    path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
     print(json.dumps(card, indent=2))
+    print(f"{path} has no calibration yet: tools/calibrate_detector.py makes it, and the threshold")
 
 
 if __name__ == "__main__":

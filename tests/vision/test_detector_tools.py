@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import sys
 from collections.abc import Iterator
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
 from airhilt.cameras.bodies import BodyState
 from airhilt.cameras.dataset import run_lengths
@@ -108,16 +110,19 @@ class TestMask:
 
 class TestMatching:
     def test_each_body_is_found_once(self, data, judging) -> None:
-        seen, used = judging.matched([body(data)], [found(BOX), found(BOX)], 0.5)
+        seen, used = judging.matched([body(data)], [found(BOX), found(BOX)], judging.strictly)
         assert (seen, used) == ({0}, {0})
 
     def test_another_class_finds_nothing(self, data, judging) -> None:
-        assert judging.matched([body(data)], [found(BOX, "truck")], 0.5) == (set(), set())
+        assert judging.matched([body(data)], [found(BOX, "truck")], judging.strictly) == (
+            set(),
+            set(),
+        )
 
     def test_half_of_a_body_is_not_enough_unless_asked_loosely(self, data, judging) -> None:
         half = found((40.0, 30.0, 49.0, 40.0))
-        assert judging.matched([body(data)], [half], judging.STRICT) == (set(), set())
-        assert judging.matched([body(data)], [half], judging.LOOSE) == ({0}, {0})
+        assert judging.matched([body(data)], [half], judging.strictly) == (set(), set())
+        assert judging.matched([body(data)], [half], judging.loosely) == ({0}, {0})
 
     def test_what_lies_on_a_faint_body_is_not_false(self, data, judging) -> None:
         assert judging.on_faint([body(data, contrast=3.0)], found(BOX))
@@ -154,6 +159,100 @@ class TestPlaces:
     def test_what_hardly_looks_like_anything_is_left_out(self, data, places) -> None:
         faint = [found(BOX, confidence=0.01)]
         assert list(places.places_in(self.shot(data), faint)) == []
+
+
+class FirstNetwork:
+    """Sees something at one place in every picture."""
+
+    asked = 0
+
+    def __init__(self, path: Path) -> None:
+        pass
+
+    def proposed(self, picture: np.ndarray) -> list[Found]:
+        FirstNetwork.asked += 1
+        assert picture.any()
+        return [found(BOX)]
+
+
+def folder_of(path: Path, *levels: int, seed: int = 0) -> Path:
+    """Return a folder of grey pictures with nobody in them."""
+    path.mkdir(parents=True, exist_ok=True)
+    images = []
+    for number, level in enumerate(levels):
+        Image.fromarray(np.full((60, 100, 3), level, dtype=np.uint8)).save(path / f"{number}.png")
+        images.append({"id": number, "file_name": f"{number}.png", "width": 100, "height": 60})
+    document = {"info": {"seed": seed}, "categories": [], "images": images, "annotations": []}
+    (path / "annotations.json").write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+class TestKeptPictures:
+    @pytest.fixture
+    def asking(self, places, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        """Return what asks a first network about folders, and keeps what it says."""
+        monkeypatch.setattr(places, "EmbeddedDetector", FirstNetwork)
+        monkeypatch.setattr(FirstNetwork, "asked", 0)
+        network, scratch = tmp_path / "detector.onnx", tmp_path / "scratch"
+        network.write_bytes(b"one")
+        scratch.mkdir()
+        return lambda folder: places.places_of(folder, network, scratch)
+
+    def test_pictures_are_those_of_the_folder_and_asked_about_once(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        for _ in range(2):
+            known = asking(folder)
+            assert known.pictures[:, 0, 0, 0].tolist() == [50, 90]
+            assert known.picture.tolist() == [0, 1]
+        assert FirstNetwork.asked == 2
+
+    def test_decoding_that_is_broken_off_is_begun_anew(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        second = (folder / "1.png").read_bytes()
+        (folder / "1.png").unlink()
+        with pytest.raises(FileNotFoundError):
+            asking(folder)
+        (folder / "1.png").write_bytes(second)
+        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
+
+    def test_so_it_is_where_answers_are_kept_and_pictures_are_lost(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        asking(folder)
+        (kept,) = (tmp_path / "scratch").glob("*.u8")
+        kept.rename(kept.with_suffix(".partial"))
+        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
+
+    def test_answers_that_are_written_in_part_are_asked_for_anew(
+        self, asking, places, tmp_path, monkeypatch
+    ) -> None:
+        def full(file, **_: object) -> None:
+            file.write(b"PK")
+            raise OSError("no space left on device")
+
+        folder = folder_of(tmp_path / "train", 50)
+        with monkeypatch.context() as broken:
+            broken.setattr(places.np, "savez", full)
+            with pytest.raises(OSError, match="no space"):
+                asking(folder)
+        assert len(asking(folder)) == 1
+
+    def test_other_data_of_the_same_size_is_not_taken_for_it(self, asking, tmp_path) -> None:
+        asking(folder_of(tmp_path / "train", 50, 90, seed=1))
+        again = asking(folder_of(tmp_path / "train", 60, 70, seed=2))
+        assert again.pictures[:, 0, 0, 0].tolist() == [60, 70]
+
+    def test_another_network_is_asked_about_the_same_pictures(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        asking(folder)
+        (tmp_path / "detector.onnx").write_bytes(b"another")
+        asking(folder)
+        assert FirstNetwork.asked == 4
+        assert len(list((tmp_path / "scratch").glob("*.u8"))) == 1
+
+    def test_folders_of_one_name_keep_their_own(self, asking, tmp_path) -> None:
+        one = asking(folder_of(tmp_path / "a" / "train", 50, seed=1))
+        other = asking(folder_of(tmp_path / "b" / "train", 90, seed=2))
+        assert (one.pictures[0, 0, 0, 0], other.pictures[0, 0, 0, 0]) == (50, 90)
 
 
 class TestLessons:
