@@ -14,7 +14,8 @@ from airhilt.messages import Climb, Severity, Turn
 from airhilt.surface.frame import LocalFrame
 from airhilt.units import DEGREE, SECOND_NS
 from airhilt.workers.decision.approach import approach_of
-from airhilt.workers.decision.lookout import Glimpse
+from airhilt.workers.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.workers.decision.lookout import Glimpse, Lookout
 from airhilt.workers.decision.sight import Eye
 
 SEEDS = range(2)
@@ -198,13 +199,29 @@ def test_what_may_stand_on_the_ground_is_not_in_the_air():
     assert encounter.fly().told == []
 
 
+def test_time_goes_on_after_the_last_picture():
+    """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
+    lookout = Lookout()
+    watch = IntruderWatch(IntruderConfig(), "decision", lookout, lambda _: None)
+    camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
+    for step in range(41):
+        lookout.take_detections(camera.detections(step * SECOND_NS // 8))
+    told = [
+        [advisory.severity for advisory in watch.judge(t_ns, t_ns)]
+        for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))
+    ]
+    assert told == [[], 2 * [Severity.CAUTION], [], 2 * [Severity.WARNING]]
+
+
 # --- time to contact ------------------------------------------------------------------------
 
 FRAME = LocalFrame((38.9 * DEGREE, -77.0 * DEGREE))
 
 
-def glimpses_of(closing_m_s, miss_m, left_s, seconds, error_px, roll, seed=1):
-    """Return what a camera sees of something that passes it after a while."""
+def closing_camera(
+    closing_m_s, miss_m, left_s, seconds, error_px=0.0, roll=0.0, seed=1, sizes=(3.0, 11.0, 3.0)
+):
+    """Return a camera, and something that passes it so long after some seconds."""
 
     def at(t_s):
         return (miss_m, closing_m_s * (left_s + seconds - t_s), 1000.0), 0.0
@@ -212,11 +229,16 @@ def glimpses_of(closing_m_s, miss_m, left_s, seconds, error_px, roll, seed=1):
     def look(t_s):
         return (0.0, 0.0, 1000.0), (0.0, 0.02 * math.sin(t_s), roll * math.sin(t_s))
 
-    other = replace(still("airplane", (0.0, 0.0, 0.0), (3.0, 11.0, 3.0)), at=at)
-    camera = Camera(
-        "c", FRAME, look, [other], fov_deg=25.0, width_px=1280, error_px=error_px, seed=seed,
-        smallest_px=0.0,
+    other = replace(still("airplane", (0.0, 0.0, 0.0), sizes), at=at)
+    return Camera(
+        "c", FRAME, look, [other], "AAL123", fov_deg=25.0, width_px=1280, error_px=error_px,
+        seed=seed, smallest_px=0.0,
     )  # fmt: skip
+
+
+def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
+    """Return what such a camera sees."""
+    camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)
     found = [camera.detections(round(k * SECOND_NS / 8)) for k in range(round(8 * seconds) + 1)]
     return [Glimpse.of(f.t_frame_ns, Eye(f.view), f.detections[0].box, 0.9) for f in found]
 
@@ -269,3 +291,25 @@ def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
     approach = approach_of(narrow)
     assert approach.is_growing
     assert approach.time_s == pytest.approx(12.0, rel=0.35)
+
+
+def test_banking_does_not_hide_that_something_nears():
+    """A wing that is as wide in the first picture as in the last has grown: it lies slantwise."""
+    seen = glimpses_of(130.0, 0.0, 5.0, 1.5, roll=45.0 * DEGREE, sizes=(3.0, 11.0, 0.5))
+    assert seen[-1].size_rad[0] < 1.1 * seen[0].size_rad[0]
+    approach = approach_of(seen)
+    assert approach.is_growing
+    assert approach.time_s == pytest.approx(5.0, rel=0.35)
+
+
+@pytest.mark.parametrize("wild", [(0, 2), (2, 3), (12, 20), (22, 24)])
+def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild):
+    """They are of something beside it, that the detector takes for it."""
+    seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.4, 0.0)
+    for number in wild:
+        t_ns, eye, (left, top, right, bottom), *_ = seen[number]
+        beside = (left + 20.0, top + 8.0, right + 20.0, bottom + 8.0)
+        seen[number] = Glimpse.of(t_ns, eye, beside, 0.9)
+    approach = approach_of(seen)
+    assert math.hypot(*approach.turning_rad_s) < 0.01 * DEGREE
+    assert approach.least_miss() < 0.5

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import BlobDetector, background, with_blobs
 
+from airhilt.workers.vision.detector import Found
 from airhilt.workers.vision.gating import Gate
-from airhilt.workers.vision.tiling import OVERLAP_PX, TILE_PX, Tile, tiles_of
+from airhilt.workers.vision.tiling import OVERLAP_PX, TILE_PX, Piece, Tile, merged, tiles_of
 
 
 def test_small_pictures_are_looked_at_in_one_piece() -> None:
@@ -41,6 +42,12 @@ def test_what_is_smaller_than_the_overlap_is_found_once_and_whole(
     flat = np.full((1080, 1920, 3), 100, np.uint8)
     found = Gate(BlobDetector()).look("tower", with_blobs(flat, [("airplane", box)]))
     assert [(one.label, one.box) for one in found] == [("airplane", box)]
+
+
+def test_what_two_tiles_take_for_different_things_is_one() -> None:
+    box, beside = (600.0, 300.0, 640.0, 330.0), (602.0, 300.0, 642.0, 330.0)
+    sure, unsure = Found("airplane", 0.9, box), Found("truck", 0.5, beside)
+    assert merged([Piece(unsure, is_cut=False), Piece(sure, is_cut=False)]) == [sure]
 
 
 def test_different_things_side_by_side_stay_two() -> None:

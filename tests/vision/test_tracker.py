@@ -113,6 +113,31 @@ def test_an_airplane_and_a_bird_that_cross_keep_their_tracks() -> None:
     assert [len(each) for each in told.values()] == [1, 1]
 
 
+def test_an_airplane_that_overtakes_a_bird_of_its_size_unseen_is_still_the_airplane() -> None:
+    """The bird flew ahead as fast; while both were hidden it stopped. Places alone mislead."""
+
+    def scene(t: float) -> list[Found]:
+        airplane = a("airplane", 100 + 40 * t, 180, 16)
+        return [] if 1.0 < t < 1.5 else [airplane, a("bird", 108 + 40 * min(t, 1.0), 180, 16)]
+
+    told = follow(Tracker(), scene, range(33))
+    assert ids(told) == {1, 2}
+    assert [one.found for one in told[-1]] == scene(2.0)
+
+
+def test_what_is_vaguely_expected_does_not_take_what_is_settled() -> None:
+    """What was found once may be anywhere, so that hardly anything is unlikely to be it."""
+
+    def scene(t: float) -> list[Found]:
+        settled = a("truck", 320, 200, 20)
+        if t == 1.0:
+            return [settled, a("truck", 332, 200, 20)]
+        return [a("truck", 324, 200, 20)] if t > 1.0 else [settled]
+
+    told = follow(Tracker(), scene, range(18))
+    assert [[one.track_id for one in each] for each in told[15:]] == [[1], [1, 2], [1]]
+
+
 @settings(max_examples=40, deadline=None)
 @given(
     speed=st.floats(-100.0, 100.0),
@@ -177,6 +202,14 @@ def test_a_thing_is_called_what_it_was_taken_for_most() -> None:
     told = follow(Tracker(), scene, range(16))
     assert {one.found.label for each in told for one in each} == {"airplane"}
     assert ids(told) == {1}
+
+
+def test_one_sure_finding_says_more_about_what_it_is_than_two_unsure_ones() -> None:
+    unsure, sure = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
+    tracker = Tracker()
+    for step, one in enumerate((unsure, sure, unsure)):
+        (told,) = tracker.follow(step * PERIOD_NS, VIEW, [one])
+    assert (told.track_id, told.hits, told.found.label) == (1, 3, "bird")
 
 
 class TestOfWhatIsUnsure:

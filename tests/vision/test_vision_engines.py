@@ -8,9 +8,12 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from pictures import Told, a, background, frame, info
 
 from airhilt.errors import VisionError
+from airhilt.messages import Detections
 from airhilt.workers.reference import reference_worker
+from airhilt.workers.vision.embedded import MODEL, EmbeddedDetector
 from airhilt.workers.vision.engines import vision_engine
 from airhilt.workers.vision.http import HttpDetector
 
@@ -48,6 +51,30 @@ def test_an_onnx_file_that_is_none_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"not a network")
     with pytest.raises(VisionError, match=r"detector yolo: .*broken\.onnx: no ONNX model"):
         vision_engine(f"yolo:{path}")
+
+
+def test_an_onnx_file_with_code_in_its_metadata_is_refused(tmp_path: Path) -> None:
+    path, ran = tmp_path / "model.onnx", tmp_path / "ran"
+    network = MODEL.read_bytes()
+    code = f"open({str(ran)!r}, 'w')".encode()
+    entry = b"\x0a\x05names\x12" + bytes([len(code)]) + code
+    # Field 14 of onnx.ModelProto is metadata_props, of keys and values.
+    assert len(entry) < 128
+    path.write_bytes(network + b"\x72" + bytes([len(entry)]) + entry)
+    with pytest.raises(VisionError, match="'names' is no plain value, and may be code"):
+        vision_engine(f"yolo:{path}")
+    assert not ran.exists()
+
+
+@pytest.mark.parametrize(("times", "expected"), [(0.9, 0), (1.1, 1)])
+def test_what_is_found_below_the_threshold_of_the_card_is_not_told_alone(
+    times: float, expected: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    worker = reference_worker("vision", "embedded")
+    told = Told([a("truck", 320, 100, 40, times * EmbeddedDetector().sure)])
+    monkeypatch.setattr(EmbeddedDetector, "detect", lambda _, picture: told.detect(picture))
+    (output,) = worker.step(0, [info(), frame(background())]).outputs
+    assert len(Detections.model_validate_json(output.payload).detections) == expected
 
 
 def test_yolo_is_kept_from_the_network_and_nothing_else_is(

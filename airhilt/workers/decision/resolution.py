@@ -117,8 +117,8 @@ def _candidates(
     yield ordered(NONE, Manoeuvre(_flight_level_below(lower.altitude_m - missing), rate_m_s))
     turn = Manoeuvre(turn_rad=TURN_DEG * DEGREE)
     yield turn, turn
-    yield turn, NONE
-    yield NONE, turn
+    yield ordered(NONE, turn)
+    yield ordered(turn, NONE)
     yield ordered(
         up_half._replace(turn_rad=TURN_DEG * DEGREE),
         down_half._replace(turn_rad=TURN_DEG * DEGREE),

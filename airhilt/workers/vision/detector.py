@@ -15,6 +15,8 @@ Picture = npt.NDArray[np.uint8]
 """8-bit sRGB, shape (rows, columns, 3)."""
 GRID_PX = 16
 """Strides of networks divide it: what begins at multiples of it is seen as it is in the whole."""
+SAME_OVERLAP = 0.5
+"""Boxes that overlap more (intersection over union) are on one body, whatever it is taken for."""
 
 
 class Found(NamedTuple):

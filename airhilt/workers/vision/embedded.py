@@ -21,7 +21,7 @@ from airhilt.boxes import area, overlap, size_px, within
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.inference import open_network
 from airhilt.messages import Confidence, VisibleClass
-from airhilt.workers.vision.detector import GRID_PX, Found, Picture
+from airhilt.workers.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
 from airhilt.workers.vision.second_look import SecondLook, SecondLookCard
 
 MODEL = Path(__file__).with_name("model") / "detector.onnx"
@@ -37,8 +37,6 @@ REFERENCE_PX = 32.0
 MOST_LOG_ODDS = 30.0
 LEAST_SCORE = 1e-4
 """Scores are taken for no less than it, and for no more than one less it."""
-SAME_OVERLAP = 0.5
-"""Of boxes that a second look has moved onto one body."""
 UNSURE = 0.5
 """Times the threshold: unsure findings are reported too, for what is being followed."""
 

@@ -7,14 +7,13 @@ from itertools import product
 from typing import NamedTuple
 
 from airhilt.boxes import moved, overlap, share_of_smaller
-from airhilt.workers.vision.detector import GRID_PX, Found, Picture
+from airhilt.workers.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
 
 GREATEST_SIDE_PX = 1280
 """Pictures up to this are looked at in one piece."""
 TILE_PX = 640
 OVERLAP_PX = 128
 """What is smaller than this is whole in at least one tile."""
-SAME_OVERLAP = 0.5
 SAME_SHARE = 0.7
 EDGE_PX = 1.0
 
@@ -81,9 +80,9 @@ def merged(pieces: Sequence[Piece]) -> list[Found]:
 
 
 def _is_same(one: Found, other: Found) -> bool:
-    return one.label == other.label and (
-        overlap(one.box, other.box) > SAME_OVERLAP
-        or share_of_smaller(one.box, other.box) > SAME_SHARE
+    """Return whether two are on one body: for pieces of one class less is enough."""
+    return overlap(one.box, other.box) > SAME_OVERLAP or (
+        one.label == other.label and share_of_smaller(one.box, other.box) > SAME_SHARE
     )
 
 

@@ -6,6 +6,7 @@ The package is under the AGPL and no part of AIRHILT; the extra ``yolo`` install
 
 from __future__ import annotations
 
+import ast
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -39,6 +40,8 @@ EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
 """So that it neither loads nor installs nor prints anything; read when it is imported, and when
 it looks for a network."""
+LITERALS = ("args", "imgsz", "kpt_names", "kpt_shape", "names")
+"""Metadata of an ``.onnx`` file that ultralytics takes for Python; versions before 8.4 ran it."""
 
 
 class YoloDetector:
@@ -140,8 +143,23 @@ def _environment(settings: Mapping[str, str]) -> Iterator[None]:
 
 
 def _fixed_sides(path: Path) -> tuple[int, int] | None:
-    """Return rows and columns of the pictures that a network takes; None if it takes any."""
+    """Return rows and columns of the pictures that a network takes; None if it takes any.
+
+    Raises
+    ------
+    VisionError
+        It is none, or there is code in its metadata.
+    """
     session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
+    metadata = session.get_modelmeta().custom_metadata_map
+    for name in LITERALS:
+        try:
+            ast.literal_eval(metadata.get(name, "None"))
+        except (ValueError, SyntaxError, MemoryError, RecursionError):
+            raise VisionError(
+                f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
+                f"expected {EXPECTED}"
+            ) from None
     match session.get_inputs()[0].shape:
         case [_, _, int(rows), int(columns)]:
             return rows, columns
