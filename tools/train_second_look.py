@@ -10,9 +10,10 @@ known, and that is what the second network learns to tell, with the body's class
 for something. Places on bodies that can hardly be seen teach nothing.
 
 It is written beside the first network, as ``second_look.onnx``, and into the card there. Pictures
-are kept decoded beside the answers of the first network in ``SCRATCH/<folder>.u8`` and
-``SCRATCH/<folder>.npz``; both are made again when missing. A checkpoint is written every few
-minutes; the same command goes on from it, also with more folders.
+are kept decoded beside the answers of the first network in ``SCRATCH/<folder>-<mark>.u8`` and
+``SCRATCH/<folder>-<mark>.npz``, where the marks change with what they are made of; both are made
+again when missing. A checkpoint is written every few minutes; the same command goes on from it,
+also with more folders.
 """
 
 from __future__ import annotations
@@ -30,18 +31,18 @@ from detector_lessons import Lessons
 from detector_places import places_of
 from torch import Tensor, nn
 from torch.nn import functional
-from train_detector import batches, followed
+from train_detector import NOT_CALIBRATED, batches, followed
 
 from airhilt.workers.vision.embedded import CARD
 from airhilt.workers.vision.second_look import VIEW_PX
 
 FILE = "second_look.onnx"
-USED_FROM, USED = 0.12, 8
+USED_FROM, USED = 0.15, 8
 """Of the places that are looked at twice: the first score, and how many there are in a picture."""
 WIDTHS = (16, 48, 64)
-NEAR_BLOCKS, WIDE_BLOCKS = (1, 1), (0, 1)
+NEAR_BLOCKS, WIDE_BLOCKS = (1, 2), (0, 1)
 """At half and a quarter of the resolution."""
-LAST = 96
+LAST = 128
 RATE, WARM_UP, DECAY = 2e-3, 200, 1e-2
 BOX_WORTH = 1.0
 ROUND = 250
@@ -246,6 +247,7 @@ def main() -> None:
     card = json.loads(path.read_text(encoding="utf-8"))
     for stale in ("calibration", "false_a_minute", "counted_minutes"):
         card.pop(stale, None)
+    card["threshold"] = NOT_CALIBRATED
     card["second_look"] = {
         "file": FILE,
         "least_score": USED_FROM,
@@ -259,7 +261,7 @@ def main() -> None:
     }
     path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
     print(json.dumps(card["second_look"], indent=2))
-    print(f"{path} has no calibration now: tools/calibrate_detector.py makes it")
+    print(f"{path} has no calibration now: tools/calibrate_detector.py makes it, and the threshold")
 
 
 if __name__ == "__main__":

@@ -97,7 +97,8 @@ def test_a_view_is_as_sharp_as_the_picture_where_its_pixels_are_the_same() -> No
     half = VIEW_PX / 1.7 / 2.0
     box = middle_x - half, middle_y - half, middle_x + half, middle_y + half
     near = views_of(picture, [box])[0, 0]
-    assert np.array_equal(near, picture[45 - 16 : 45 + 16, 80 - 16 : 80 + 16])
+    half_px = VIEW_PX // 2
+    assert np.array_equal(near, picture[45 - half_px : 45 + half_px, 80 - half_px : 80 + half_px])
 
 
 @given(boxes(), boxes())
@@ -133,8 +134,8 @@ def test_a_wide_view_shows_what_is_around() -> None:
     picture[:, 120:] = 255
     # 40 px wide, so that the wide view reaches 100 px to each side of column 60.
     wide = views_of(picture, [(40.0, 35.0, 80.0, 55.0)])[0, 1, :, :, 0]
-    bright = np.flatnonzero(wide[16] > 127)
-    assert bright[0] == pytest.approx(16.0 + 60.0 / (200.0 / VIEW_PX), abs=1.0)
+    bright = np.flatnonzero(wide[VIEW_PX // 2] > 127)
+    assert bright[0] == pytest.approx((0.5 + 60.0 / 200.0) * VIEW_PX, abs=1.0)
 
 
 def place(left: float, top: float, score: float = 0.5) -> Found:

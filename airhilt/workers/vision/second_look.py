@@ -25,11 +25,11 @@ from airhilt.messages import Box, Confidence, VisibleClass
 from airhilt.workers.vision.detector import Found, Picture
 
 EXPECTED = (
-    "a network of tools/train_second_look.py: 'views', uint8 [n, 2, 32, 32, 3], and 'about', "
+    "a network of tools/train_second_look.py: 'views', uint8 [n, 2, 40, 40, 3], and 'about', "
     "float [n, 3], to 'chances', float [n, 1 + classes], and 'moves', float [n, 4]"
 )
 USUAL_PIXELS = 640 * 360
-VIEW_PX = 32
+VIEW_PX = 40
 """Rows and columns of a view."""
 NEAR, LEAST_NEAR_PX = 1.7, 20.0
 """How wide a near view is: times the longest side of the box, and at least."""
