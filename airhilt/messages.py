@@ -279,6 +279,10 @@ class Detections(Message):
     view: CameraView
     detections: tuple[Detection, ...] = ()
     engine: str
+    missed: str = Field(
+        "",
+        description="why the picture could not be looked at, and nothing is known of what is in it",
+    )
 
 
 class Word(BaseModel):

@@ -235,8 +235,14 @@ def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
             f"recall {_percent(vision.recall)} of {vision.sightings}",
             f"{_rate(vision.false_confirmed_per_minute)} confirmed false",
         ]
+    warnings = []
+    if vision.missed:
+        warnings.append(("missed", f"{vision.missed} pictures, the first: {vision.why_missed}"))
+    elif vision.looked_at == 0:
+        warnings.append(("missed", "no picture had been looked at when the run ended"))
     return [
         ("vision", ", ".join(parts)),
+        *warnings,
         *(
             (
                 "first seen",

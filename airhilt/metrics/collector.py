@@ -119,7 +119,7 @@ class Collector:
                 self._take_advisory(message)
             case AdvisoryAudio():
                 self._take_voice(message)
-            case Detections(t_frame_ns=begin, t_ns=end):
+            case Detections(t_frame_ns=begin, t_ns=end, missed=""):
                 self._late("vision", begin, end)
             case Status(modality="voice", state="lost", t_ns=now_ns) if self._unspoken:
                 self._warned(now_ns)

@@ -142,6 +142,8 @@ class Gallery:
                     self._truths[name, truth.seq] = truth
             case ["vision", name] if name in self._lanes:
                 seen = Detections.model_validate_json(logged.data)
+                if seen.missed:
+                    return
                 self._lanes[name].look(seen)
                 if (name, seen.seq) in self._frames:
                     self._seen[name, seen.seq] = seen

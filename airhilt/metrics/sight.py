@@ -59,6 +59,7 @@ class _Counts:
     taken: int = 0
     taken_s: float = 0.0
     latencies_s: list[float] = field(default_factory=list)
+    missed: int = 0
     detections: int = 0
     found: int = 0
     """Detections that are about something."""
@@ -75,6 +76,7 @@ class _Counts:
         self.taken += other.taken
         self.taken_s += other.taken_s
         self.latencies_s += other.latencies_s
+        self.missed += other.missed
         self.detections += other.detections
         self.found += other.found
         self.labelled += other.labelled
@@ -92,6 +94,7 @@ class _Counts:
                 taken=self.taken or None,
                 looked_at=None,
                 dropped=None,
+                missed=None,
                 latency=LatencyStatistics.of([]),
                 detections=None,
                 sightings=None,
@@ -107,6 +110,7 @@ class _Counts:
             taken=self.taken,
             looked_at=len(self.latencies_s),
             dropped=dropped,
+            missed=self.missed,
             latency=LatencyStatistics.of(self.latencies_s),
             detections=self.detections,
             sightings=sum(self.sightings),
@@ -159,6 +163,9 @@ class _Camera:
         truth = self._truths.get(seen.seq)
         if truth is None:
             return []
+        if seen.missed:
+            self._counts.missed += 1
+            return []
         matched = matches(truth.sightings, seen.detections)
         self._counts.latencies_s.append((seen.t_ns - truth.t_frame_ns) / SECOND_NS)
         self._counts.detections += len(matched)
@@ -202,6 +209,7 @@ class Sight:
         self._first: dict[str, FirstDetection] = {}
         self._state: ModalityState = "off"
         self._cause = ""
+        self._why_missed = ""
 
     def take(self, message: Message) -> None:
         """Take in a message about cameras or vision; others are passed over."""
@@ -218,6 +226,7 @@ class Sight:
                 self._state, self._cause = state, cause
 
     def _look(self, seen: Detections) -> None:
+        self._why_missed = self._why_missed or seen.missed
         for first in self._cameras[seen.camera].look(seen):
             self._first.setdefault(first.actor, first)
 
@@ -241,6 +250,7 @@ class Sight:
             **every.statistics(sum(dropped.values()), is_watched).model_dump(),
             state=self._state,
             cause=self._cause,
+            why_missed=self._why_missed,
             cameras=[
                 CameraStatistics(
                     **counted[name].statistics(dropped[name], is_watched).model_dump(), camera=name

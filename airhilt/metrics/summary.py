@@ -132,6 +132,7 @@ class SightStatistics(BaseModel):
     taken: int | None = Field(description="pictures")
     looked_at: int | None = Field(description="pictures of which detections came, empty ones too")
     dropped: int | None = Field(description="pictures that were out of date before their turn")
+    missed: int | None = Field(description="pictures that a detector could not look at")
     latency: LatencyStatistics = Field(description="t_vision - t_frame")
     detections: int | None
     sightings: int | None = Field(
@@ -172,6 +173,7 @@ class VisionStatistics(SightStatistics):
 
     state: ModalityState
     cause: str = Field(description="why it was lost or not evaluated")
+    why_missed: str = Field(description="of the first picture that was; empty if none was")
     cameras: list[CameraStatistics]
     first_detections: list[FirstDetection]
 

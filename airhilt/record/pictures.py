@@ -169,7 +169,7 @@ class KeyPictures:
                 self._sightings[name] = message.sightings
             case CameraFrame(camera=name):
                 self._take_picture(Picture(message, payload, self._sightings.get(name, ())))
-            case Detections():
+            case Detections(missed=""):
                 self._look(message)
             case Status(modality="vision", state=state):
                 self._is_watched = state == "on"

@@ -136,7 +136,7 @@ class VideoRecorder:
                 self._rates_hz[name] = rate_hz
             case CameraFrame():
                 self._take_picture(Picture(message, payload, ()))
-            case Detections(camera=name) if name in self._films:
+            case Detections(camera=name, missed="") if name in self._films:
                 with self._at_its_own_cost(name):
                     self._films[name].look(message)
             case Advisory():

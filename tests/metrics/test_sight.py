@@ -112,6 +112,16 @@ def test_pictures_are_counted_as_taken_looked_at_and_dropped() -> None:
     assert (runway.camera, runway.taken, runway.looked_at, runway.dropped) == ("runway", 1, 1, 0)
 
 
+def test_a_picture_that_a_detector_missed_counts_as_that_and_nothing_else() -> None:
+    watched = Watched().picture(0, sighting(PLANE), by=(found(PLANE),))
+    watched.picture(1, sighting(PLANE), by=None)
+    for why in ("no answer", "no answer again"):
+        watched.sight.take(seen(1).model_copy(update={"missed": why}))
+    numbers = watched.numbers()
+    assert (numbers.looked_at, numbers.missed, numbers.why_missed) == (1, 2, "no answer")
+    assert (numbers.recall, numbers.sightings, numbers.latency.n) == (1.0, 1, 1)
+
+
 def test_vision_latency_is_from_the_exposure_to_the_detections() -> None:
     watched = Watched()
     for seq, late_s in enumerate((0.1, 0.2, 0.6)):
@@ -191,7 +201,9 @@ def test_without_vision_nothing_is_a_zero(state: str, cause: str) -> None:
     sight.take(vision(state, cause))
     numbers = sight.statistics({})
     assert (numbers.state, numbers.cause) == (state, cause)
-    for name, value in numbers.model_dump(exclude={"state", "cause", "latency"}).items():
+    for name, value in numbers.model_dump(
+        exclude={"state", "cause", "why_missed", "latency"}
+    ).items():
         assert value in (None, []), name
     assert (numbers.latency.n, numbers.latency.p50_s) == (0, None)
 

@@ -157,7 +157,7 @@ class TestPictureThatIsWrong:
         )
 
 
-def test_a_picture_that_was_missed_has_no_detections_and_ends_no_track() -> None:
+def test_of_a_picture_that_was_missed_it_is_said_why_and_no_track_ends() -> None:
     class Blinking(Told):
         def __init__(self, *pictures: Sequence[Found]) -> None:
             super().__init__(*pictures)
@@ -171,7 +171,8 @@ def test_a_picture_that_was_missed_has_no_detections_and_ends_no_track() -> None
 
     pictures = [frame(background(seed=seq), seq) for seq in range(4)]
     told = seen(VisionWorker(Blinking([a("truck", 320, 100, 40)])), *pictures)
-    assert [(each.seq, each.detections[0].track_id) for each in told] == [(0, 1), (1, 1), (3, 1)]
+    assert [each.missed for each in told] == ["", "", "detector told: blinked", ""]
+    assert [[one.track_id for one in each.detections] for each in told] == [[1], [1], [], [1]]
     assert told[-1].detections[0].is_confirmed
 
 

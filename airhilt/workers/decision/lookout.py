@@ -199,7 +199,9 @@ class Lookout:
         self.traffic.take_report(report)
 
     def take_detections(self, detections: Detections) -> None:
-        """Take in what was found in a picture."""
+        """Take in what was found in a picture; one that was missed tells nothing."""
+        if detections.missed:
+            return
         t_ns, eye = detections.t_frame_ns, Eye(detections.view)
         self.traffic.learn_ground(detections.view, t_ns)
         followed = self._sightings.setdefault(detections.camera, {})

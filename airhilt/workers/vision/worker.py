@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 
 import numpy as np
 from pydantic import ValidationError
@@ -60,7 +59,7 @@ class VisionWorker:
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Look at the pictures that have arrived.
 
-        Nothing is said of one that the detector has missed.
+        Of one that the detector has missed it is said why.
 
         Raises
         ------
@@ -72,9 +71,8 @@ class VisionWorker:
             if item.key.endswith("/info"):
                 self._meet(item)
                 continue
-            with suppress(PictureMissed):
-                seen = self._look(item)
-                outputs.append(Output(f"vision/{seen.camera}", seen.model_dump_json().encode()))
+            seen = self._look(item)
+            outputs.append(Output(f"vision/{seen.camera}", seen.model_dump_json().encode()))
         return Step(tuple(outputs))
 
     def _meet(self, item: Input) -> None:
@@ -97,28 +95,32 @@ class VisionWorker:
     def _look(self, item: Input) -> Detections:
         header = header_of(item)
         picture = picture_of(header, item.payload, self._infos.get(header.camera))
-        found = self._gate.look(header.camera, picture)
-        mask = self._masks.get(header.camera)
-        if mask is not None:
-            found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
-        tracker = self._trackers.setdefault(header.camera, Tracker(self._sure))
-        return Detections(
+        seen = Detections(
             camera=header.camera,
             seq=header.seq,
             t_frame_ns=header.t_frame_ns,
             view=header.view,
-            detections=tuple(
-                Detection(
-                    label=one.found.label,
-                    confidence=one.found.confidence,
-                    box=one.found.box,
-                    track_id=one.track_id,
-                    hits=one.hits,
-                )
-                for one in tracker.follow(header.t_frame_ns, header.view, found)
-            ),
             engine=self._engine,
         )
+        try:
+            found = self._gate.look(header.camera, picture)
+        except PictureMissed as missed:
+            return seen.model_copy(update={"missed": str(missed)})
+        mask = self._masks.get(header.camera)
+        if mask is not None:
+            found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
+        tracker = self._trackers.setdefault(header.camera, Tracker(self._sure))
+        detections = tuple(
+            Detection(
+                label=one.found.label,
+                confidence=one.found.confidence,
+                box=one.found.box,
+                track_id=one.track_id,
+                hits=one.hits,
+            )
+            for one in tracker.follow(header.t_frame_ns, header.view, found)
+        )
+        return seen.model_copy(update={"detections": detections})
 
 
 def header_of(item: Input) -> CameraFrame:
