@@ -13,15 +13,16 @@ from airhilt.errors import ScenarioError
 FILE = click.Path(path_type=Path, dir_okay=False)
 
 
-@click.group()
+@click.group(
+    epilog="""\b
+Examples:
+  airhilt airport list                      what airports there are
+  airhilt airport show KDCA --out kdca.svg  draw one
+  airhilt airport import KBOS --runways runways.csv --frequencies airport-frequencies.csv
+"""
+)
 def airport() -> None:
-    r"""List, draw and make airports.
-
-    \b
-    airhilt airport list                      what airports there are
-    airhilt airport show KDCA --out kdca.svg  draw one
-    airhilt airport import KBOS --runways runways.csv --frequencies airport-frequencies.csv
-    """
+    """List, draw and make airports."""
 
 
 @airport.command(

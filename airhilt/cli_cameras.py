@@ -14,7 +14,7 @@ from airhilt.errors import CameraError
 @click.command(
     epilog="""\b
 Examples:
-  airhilt render --scenario s01b_nominal --camera runway_01 --at 42.5 --out truck.png
+  airhilt render --scenario s01b_nominal --camera delta_tower --at 90 --boxes --out field.png
   airhilt render --scenario s02a_headon --camera nose-AAL123 --at 60 --renderer moderngl
 """
 )

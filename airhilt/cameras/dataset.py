@@ -206,6 +206,7 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     """Write pictures and the truth about them, and return how many bodies of each class there are.
 
     What there is when it breaks off is complete: the truth about those pictures is written too.
+    Before the first picture nothing is written.
 
     Parameters
     ----------
@@ -226,9 +227,9 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     try:
         if folder.exists() and any(folder.iterdir()):
             raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
-        (folder / "images").mkdir(parents=True, exist_ok=True)
         try:
             for number, picture in enumerate(pictures, start=1):
+                (folder / "images").mkdir(parents=True, exist_ok=True)
                 name = f"images/{number:06}.jpg"
                 buffer = io.BytesIO()
                 Image.fromarray(picture.frame.colour).save(
@@ -241,14 +242,15 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
                         identity = len(annotations) + 1
                         annotations.append(_annotation(identity, number, picture, sighting))
         finally:
-            document = {
-                "info": {"description": "AIRHILT", "version": __version__, **about},
-                "images": images,
-                "annotations": annotations,
-                "categories": [{"id": _category(name), "name": name} for name in CLASSES],
-            }
-            data = json.dumps(document, separators=(",", ":")).encode()
-            replace_file(folder / "annotations.json", data)
+            if images:
+                document = {
+                    "info": {"description": "AIRHILT", "version": __version__, **about},
+                    "images": images,
+                    "annotations": annotations,
+                    "categories": [{"id": _category(name), "name": name} for name in CLASSES],
+                }
+                data = json.dumps(document, separators=(",", ":")).encode()
+                replace_file(folder / "annotations.json", data)
     except OSError as error:
         raise CameraError(
             f"{folder}: cannot be written: {error.strerror}; make room, or choose another --out"

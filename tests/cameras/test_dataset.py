@@ -25,7 +25,7 @@ from airhilt.cameras.dataset import (
 )
 from airhilt.cameras.studio import Frame
 from airhilt.cameras.view import Intrinsics, Pose, View
-from airhilt.errors import CameraError, ScenarioError
+from airhilt.errors import CameraError, RendererError, ScenarioError
 
 pytest.importorskip("moderngl")
 image_module = pytest.importorskip("PIL.Image")
@@ -288,3 +288,14 @@ def test_bad_input_is_named(
     assert answer.returncode == 2
     assert message in answer.stderr
     assert "Traceback" not in answer.stderr
+
+
+def test_an_export_that_fails_before_its_first_picture_leaves_nothing(tmp_path: Path) -> None:
+    def broken() -> Iterator[Picture]:
+        raise RendererError("the renderer open3d needs Open3D")
+        yield
+
+    for _ in range(2):
+        with pytest.raises(RendererError, match="needs Open3D"):
+            export(broken(), tmp_path / "pictures", {})
+    assert not (tmp_path / "pictures").exists()
