@@ -83,7 +83,7 @@ class ProgressLine(Observer):
         wall_s = max(time.monotonic() - self._begun, 1e-6)
         parts = [
             Text(f"{snapshot.t_s:6.1f} of at most {snapshot.duration_s:.0f} s"),
-            Text(f"{snapshot.t_s / wall_s:.0f} x real time"),
+            Text(f"{_factor(snapshot.t_s / wall_s)} x real time"),
         ]
         if snapshot.horizontal_m is not None and snapshot.vertical_m is not None:
             parts.append(
@@ -127,7 +127,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("outcome", summary.outcome),
         (
             "simulated",
-            f"{summary.duration_s:.1f} s, {summary.real_time_factor:.0f} x real time, "
+            f"{summary.duration_s:.1f} s, {_factor(summary.real_time_factor)} x real time, "
             f"{summary.cpu_s:.2f} s of CPU",
         ),
         ("conflict window", window),
@@ -256,6 +256,10 @@ def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
 
 def _rate(per_minute: float | None) -> str:
     return "-" if per_minute is None else f"{per_minute:.2f}/min"
+
+
+def _factor(times: float) -> str:
+    return f"{times:.1f}" if times < 10.0 else f"{times:.0f}"
 
 
 def _percent(share: float | None) -> str:
