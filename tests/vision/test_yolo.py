@@ -101,7 +101,7 @@ def models(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("file", ["yolov10n.pt", "yolov10n.onnx", "fixed.onnx"])
 class TestModel:
     def test_finds_things_with_names_that_are_known(self, models: Path, file: str) -> None:
-        detector, sure, _ = vision_engine(f"yolo:{models / file}")
+        detector, sure = vision_engine(f"yolo:{models / file}")
         found = detector.detect(PICTURE)
         assert found
         assert {one.label for one in found} <= set(LABELS.values())
