@@ -261,8 +261,8 @@ class RemoteStudio:
 COMMAND = (sys.executable, "-P", "-m", "airhilt.cameras.remote")
 """Of the other side; -P: not from the folder in which it happens to start."""
 ENVIRONMENT = {"EGL_PLATFORM": "surfaceless", "OMP_NUM_THREADS": "1", "LP_NUM_THREADS": "2"}
-"""For drivers without a display. While pictures are drawn a run waits for them: two threads are
-better than one, and more hardly help."""
+"""For drivers without a display. While pictures are drawn a run waits for them: two threads draw
+some of them sooner."""
 
 
 def _environment() -> dict[str, str]:

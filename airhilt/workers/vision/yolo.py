@@ -41,7 +41,7 @@ ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOS
 """So that it neither loads nor installs nor prints anything; read when it is imported, and when
 it looks for a network."""
 LITERALS = ("args", "imgsz", "kpt_names", "kpt_shape", "names")
-"""Metadata of an ``.onnx`` file that ultralytics takes for Python; versions before 8.4 ran it."""
+"""Metadata of an ``.onnx`` file that ultralytics takes for Python; some of version 8.3 run it."""
 
 
 class YoloDetector:
