@@ -34,6 +34,9 @@ SMALLEST_PX, LARGEST_PX = 5.0, 250.0
 FAINTEST = 0.03
 """Part of a body's contrast that the air must leave for it to be placed."""
 FARTHEST_M = 20_000.0
+FIELDS_OF_VIEW = (10.0, 75.0)
+"""In degrees. Narrow ones show things as large as parts of bigger pictures do, which are looked at
+tile by tile."""
 TRIES = 15
 """To place a body within a picture; some pictures have no room for one."""
 FIXED_CAMERAS = 6
@@ -152,7 +155,7 @@ class Casting:
         )
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
-        fov = math.exp(draws.uniform(math.log(20.0), math.log(75.0)))
+        fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))
         return Intrinsics(*self._size, fov * DEGREE)
 
     def _fixed(self, name: str, layout: Layout, world: World, draws: np.random.Generator) -> Camera:
@@ -337,9 +340,11 @@ def _place(
         )
         if up < wheels_m + 3.0:
             return None
-        if choice > 0.65:
-            back = math.atan2(camera[0] - east, camera[1] - north)
-            heading = back + float(draws.normal(0.0, 15.0)) * DEGREE
+        if choice > 0.5:
+            # It comes, or is being overtaken.
+            side = 1.0 if choice > 0.65 else -1.0
+            course = math.atan2(side * (camera[0] - east), side * (camera[1] - north))
+            heading = course + float(draws.normal(0.0, 15.0)) * DEGREE
         return (east, north, up), heading
     if sitting.layout is not None and choice < 0.3:
         (east, north), heading = _on_pavement(sitting.layout, draws)

@@ -110,7 +110,7 @@ def test_what_coco_has_no_word_for_stands_beside_it(folder: Path) -> None:
     for image in document["images"]:
         assert image["airport"] is None
         assert 300.0 < image["visibility_m"] <= 30_000.0
-        assert 15.0 < image["horizontal_fov_deg"] < 80.0
+        assert 9.0 < image["horizontal_fov_deg"] < 80.0
         assert 0.0 <= image["solar_time_h"] < 24.0
         assert image["camera_kind"] in ("nose", "tail")
     for annotation in document["annotations"]:
