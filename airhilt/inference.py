@@ -10,7 +10,11 @@ from airhilt.errors import AirhiltError, SpeechError, first_line
 
 
 def open_network(
-    path: Path, subject: str, expected: str, error: type[AirhiltError] = SpeechError
+    path: Path,
+    subject: str,
+    expected: str,
+    error: type[AirhiltError] = SpeechError,
+    threads: int = 1,
 ) -> onnxruntime.InferenceSession:
     """Return the network of an ONNX file.
 
@@ -22,6 +26,8 @@ def open_network(
         What kind of network, at their end.
     error
         Class of what is raised.
+    threads
+        That share the work; they do not change what comes out.
 
     Raises
     ------
@@ -31,7 +37,8 @@ def open_network(
     if not path.is_file():
         raise error(f"{subject}: no such file; expected {expected}")
     options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1
+    options.intra_op_num_threads = threads
+    options.add_session_config_entry("session.intra_op.allow_spinning", "0")
     options.inter_op_num_threads = 1
     options.log_severity_level = 4
     try:

@@ -402,7 +402,7 @@ def detection() -> dict[str, float]:
     """
     from airhilt.workers.vision.embedded import EmbeddedDetector
 
-    stage, detector = Stage(), EmbeddedDetector()
+    stage, detector = Stage(), EmbeddedDetector(threads=1)
     studio = stage.studio("moderngl")
     shown = {
         camera: [studio.shoot([camera], scene, 0)[0].colour for scene in stage.scene()]

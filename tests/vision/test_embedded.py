@@ -12,9 +12,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from airhilt.boxes import overlap
 from airhilt.errors import VisionError
 from airhilt.workers.asr import ctc
 from airhilt.workers.vision.embedded import MODEL, Calibration, EmbeddedDetector
+from airhilt.workers.vision.tiling import Tile
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +86,23 @@ def test_in_an_even_picture_there_is_nothing(detector) -> None:
 def test_the_same_picture_gives_the_same_answer(detector, airliner) -> None:
     picture, _ = airliner
     assert detector.detect(picture) == EmbeddedDetector().detect(picture.copy())
+
+
+def test_threads_change_nothing_of_the_answer(detector, airliner) -> None:
+    assert EmbeddedDetector(threads=1).detect(airliner[0]) == detector.detect(airliner[0])
+
+
+def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(detector, airliner) -> None:
+    picture, (left, top, right, bottom) = airliner
+    rows, columns = picture.shape[:2]
+    whole = Tile(0, 0, rows, columns)
+    assert detector.detect_in(picture, whole) == detector.detect(picture)
+    window = Tile(*(max(round(side) // 16 * 16 - 64, 0) for side in (top, left)), 176, 240)
+    found = detector.detect_in(picture, window)[0]
+    assert found.label == "airplane"
+    assert overlap(found.box, (left, top, right, bottom)) > 0.5
+    outside = Tile(0, 0, 96, 96)
+    assert all(one.label != "airplane" for one in detector.detect_in(picture, outside))
 
 
 def test_the_surest_come_first_and_none_is_below_the_threshold(airliner) -> None:

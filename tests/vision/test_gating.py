@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import COLOURS, Blob, BlobDetector, background, with_blobs
 
+from airhilt.boxes import area, moved, shared_area
+from airhilt.messages import Box
+from airhilt.workers.vision.changes import MARGIN_PX, changed_blocks, windows_about
 from airhilt.workers.vision.detector import Found, Picture, PictureMissed
-from airhilt.workers.vision.gating import Gate, has_changed
-from airhilt.workers.vision.tiling import tiles_of
+from airhilt.workers.vision.gating import Gate
+from airhilt.workers.vision.tiling import Tile, tiles_of
 
 BIG = 1920, 1080
 
@@ -120,4 +125,93 @@ def test_one_pixel_in_an_odd_corner_is_a_change_from_two_levels_on(
     before = np.full((361, 645, 3), 9, np.uint8)
     after = before.copy()
     after[360, 644, 2] = level
-    assert has_changed(before, after) is expected
+    changed = changed_blocks(before, after)
+    assert changed[-1, -1] == expected
+    assert changed.sum() == int(expected)
+
+
+# --- windows, of detectors that see parts ---------------------------------------------------
+
+
+class PartBlobDetector(BlobDetector):
+    """Sees parts of pictures too."""
+
+    def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+        found = self.detect(part.of(picture))
+        return [one._replace(box=moved(one.box, part.left, part.top)) for one in found]
+
+
+def places(found: Sequence[Found]) -> set[tuple[str, Box]]:
+    return {(one.label, one.box) for one in found}
+
+
+def test_only_a_window_about_a_small_change_is_looked_at() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), with_blobs(background(), [("truck", (20, 20, 50, 40))])
+    gate.look("tower", scene)
+    found = gate.look("tower", with_blobs(scene, [("airplane", (400, 200, 430, 210))]))
+    assert {one.label for one in found} == {"airplane", "truck"}
+    rows, columns = detector.asked[-1]
+    assert 10 + 2 * MARGIN_PX <= rows < 180
+    assert 30 + 2 * MARGIN_PX <= columns < 220
+
+
+def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), with_blobs(background(), [("airplane", (100, 100, 300, 120))])
+    gate.look("tower", scene)
+    lit = scene.copy()
+    lit[90, 110] = 255
+    assert places(gate.look("tower", lit)) == {("airplane", (100.0, 100.0, 300.0, 120.0))}
+    assert detector.asked[-1][1] >= 200
+
+
+def test_all_is_looked_at_where_windows_would_hold_most_of_it() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), background()
+    gate.look("tower", scene)
+    gate.look("tower", with_blobs(scene, [("truck", (k, k, k + 9, k + 9)) for k in (9, 320)]))
+    gate.look("tower", np.flip(scene, axis=1))
+    assert detector.asked[0] == detector.asked[-1] == (360, 640)
+
+
+@settings(max_examples=60, deadline=None)
+@given(scenes=st.lists(BLOBS, min_size=2, max_size=5), still=BLOBS)
+def test_windows_find_what_a_look_at_everything_finds(
+    scenes: list[list[Blob]], still: list[Blob]
+) -> None:
+    gate = Gate(PartBlobDetector())
+    for blobs in scenes:
+        picture = with_blobs(background(), [*still, *blobs])
+        assert places(gate.look("tower", picture)) == places(BlobDetector().detect(picture))
+
+
+@given(
+    changed=st.sets(st.tuples(st.integers(0, 22), st.integers(0, 39)), max_size=12),
+    boxes=st.lists(
+        st.builds(
+            lambda left, top, wide, high: (left, top, min(left + wide, 640.0), top + high),
+            st.floats(0.0, 600.0), st.floats(0.0, 300.0), st.floats(1.0, 200.0),
+            st.floats(1.0, 60.0),
+        ),
+        max_size=4,
+    ),
+)  # fmt: skip
+def test_windows_hold_changes_and_cut_nothing_that_was_there(
+    changed: set[tuple[int, int]], boxes: list[Box]
+) -> None:
+    blocks = np.zeros((23, 40), dtype=bool)
+    for row, column in changed:
+        blocks[row, column] = True
+    windows = windows_about(blocks, boxes, 360, 640)
+    held = np.zeros((360, 640), dtype=int)
+    for window in windows:
+        window.of(held)[...] += 1
+    assert held.max(initial=0) <= 1
+    assert all(
+        held[16 * row : 16 * row + 16, 16 * column : 16 * column + 16].all()
+        for row, column in changed
+    )
+    for box in boxes:
+        shared = [shared_area(box, window.box) for window in windows]
+        assert max(shared, default=0.0) in (0.0, pytest.approx(area(box)))

@@ -28,8 +28,8 @@ from airhilt.errors import RendererError, first_line
 
 BINDINGS = "open3d.cpu.pybind"
 SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
-THREADS = 1
-"""Of a cast: runs share a machine with each other."""
+THREADS = 2
+"""Of a cast: while pictures are drawn a run waits for them."""
 Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]

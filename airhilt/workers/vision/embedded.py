@@ -17,12 +17,13 @@ import numpy as np
 import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.boxes import area, overlap, size_px, within
+from airhilt.boxes import area, moved, overlap, size_px, within
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.inference import open_network
 from airhilt.messages import Confidence, VisibleClass
 from airhilt.workers.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
 from airhilt.workers.vision.second_look import SecondLook, SecondLookCard
+from airhilt.workers.vision.tiling import Tile
 
 MODEL = Path(__file__).with_name("model") / "detector.onnx"
 CARD = "card.json"
@@ -37,6 +38,8 @@ REFERENCE_PX = 32.0
 MOST_LOG_ODDS = 30.0
 LEAST_SCORE = 1e-4
 """Scores are taken for no less than it, and for no more than one less it."""
+THREADS = 2
+"""While a picture is looked at, a run waits: two threads look sooner."""
 UNSURE = 0.5
 """Times the threshold: unsure findings are reported too, for what is being followed."""
 
@@ -88,6 +91,8 @@ class EmbeddedDetector:
         ONNX file, with its ``card.json`` beside it.
     threshold
         Confidence below which nothing is reported; None: `UNSURE` times the card's.
+    threads
+        That share the work.
 
     Attributes
     ----------
@@ -102,7 +107,9 @@ class EmbeddedDetector:
 
     name = "embedded"
 
-    def __init__(self, path: Path | None = None, threshold: float | None = None) -> None:
+    def __init__(
+        self, path: Path | None = None, threshold: float | None = None, threads: int = THREADS
+    ) -> None:
         file = path or MODEL
         card = _card(file.with_name(CARD))
         self._classes = card.classes
@@ -112,18 +119,34 @@ class EmbeddedDetector:
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._subject = f"detector {file}"
-        self._network = open_network(file, self._subject, EXPECTED, VisionError)
+        self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject)
         self._second_look = (
             None
             if card.second_look is None
-            else SecondLook(card.second_look, file.parent, card.classes)
+            else SecondLook(card.second_look, file.parent, card.classes, threads)
         )
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""
+        return self._told(picture, self.proposed(picture))
+
+    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+        """Return what is in a part of a picture; see `airhilt.workers.vision.gating.SeesParts`.
+
+        The first network was trained on tiles no smaller than 96 pixels, and takes parts of that
+        size as it takes a whole; the second look has all of the picture.
+        """
+        proposed = self.proposed(part.of(picture))
+        return self._told(
+            picture,
+            [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed],
+        )
+
+    def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
         found = [
-            one._replace(confidence=self._confidence(one)) for one in self.uncalibrated(picture)
+            one._replace(confidence=self._confidence(one))
+            for one in self._judged(picture, proposed)
         ]
         told = sorted(
             (one for one in found if one.confidence >= self._threshold),
@@ -141,11 +164,13 @@ class EmbeddedDetector:
         VisionError
             A network has failed, or this is no picture.
         """
-        found = self.proposed(picture)
+        return self._judged(picture, self.proposed(picture))
+
+    def _judged(self, picture: Picture, proposed: list[Found]) -> list[Found]:
         if self._second_look is None:
-            return found
+            return proposed
         rows, columns = picture.shape[:2]
-        places = self._second_look.places(found, rows * columns)
+        places = self._second_look.places(proposed, rows * columns)
         judged = self._second_look.judge(picture, places)
         inside = [one._replace(box=within(one.box, columns, rows)) for one in judged]
         return [one for one in inside if area(one.box) > 0.0]

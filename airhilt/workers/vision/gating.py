@@ -2,26 +2,40 @@
 
 A camera that stands still sees the same background in every picture, and in the air pictures are
 often the same to the bit though the camera has moved. Each tile of a picture is compared with what
-was there when it was last looked at, and what was found in it stays until a pixel has changed. So
-the answers are those of a look at everything, but for changes too faint to count.
+was there when it was last looked at, and what was found in it stays until a pixel has changed.
+Then all of the tile is looked at again, or, by a detector that sees parts of a picture as well as
+the whole, windows about the changes, if they are small.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol, runtime_checkable
 
-import numpy as np
-
-from airhilt.workers.vision.detector import Detector, Found, Picture
+from airhilt.boxes import centre, overlap, shared_area
+from airhilt.messages import Box
+from airhilt.workers.vision.changes import changed_blocks, windows_about
+from airhilt.workers.vision.detector import SAME_OVERLAP, Detector, Found, Picture
 from airhilt.workers.vision.tiling import Tile, merged, pieces_of, tiles_of
 
-LEAST_CHANGE = 2
-"""Levels of 255 by which a pixel must change."""
-ROWS_AT_ONCE = 16
+MOST_IN_WINDOWS = 0.5
+"""Part of a tile: where there is more in windows, all of it is looked at."""
+
+
+@runtime_checkable
+class SeesParts(Detector, Protocol):
+    """A detector that finds in a part of a picture what it would in the whole, or nearly so."""
+
+    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+        """Return what is in a part of a picture, with boxes as they are in the picture.
+
+        It raises what `Detector.detect` does.
+        """
+        ...
 
 
 class _Looked(NamedTuple):
-    """What a tile was like when it was last looked at."""
+    """What a tile was like when its parts were last looked at."""
 
     pixels: Picture
     found: tuple[Found, ...]
@@ -59,19 +73,45 @@ class Gate:
         """Return what is in a tile, with boxes as they are in it."""
         pixels = tile.of(picture)
         last = self._looked.get((camera, tile))
-        if last is None or has_changed(last.pixels, pixels):
-            kept = pixels.copy()
-            last = _Looked(kept, tuple(self._detector.detect(kept)))
-            self._looked[camera, tile] = last
-        return last.found
+        looked = self._anew(pixels) if last is None else self._again(last, pixels)
+        self._looked[camera, tile] = looked
+        return looked.found
+
+    def _anew(self, pixels: Picture) -> _Looked:
+        kept = pixels.copy()
+        return _Looked(kept, tuple(self._detector.detect(kept)))
+
+    def _again(self, last: _Looked, pixels: Picture) -> _Looked:
+        blocks = changed_blocks(last.pixels, pixels)
+        if not blocks.any():
+            return last
+        detector, (rows, columns) = self._detector, pixels.shape[:2]
+        if not isinstance(detector, SeesParts):
+            return self._anew(pixels)
+        windows = windows_about(blocks, [one.box for one in last.found], rows, columns)
+        if sum(each.height * each.width for each in windows) > MOST_IN_WINDOWS * rows * columns:
+            return self._anew(pixels)
+        seen = [
+            one
+            for window in windows
+            for one in detector.detect_in(pixels, window)
+            if window.holds(centre(one.box))
+        ]
+        kept = last.pixels.copy()
+        for window in windows:
+            window.of(kept)[...] = window.of(pixels)
+        return _Looked(kept, tuple(_together(last.found, seen, windows)))
 
 
-def has_changed(before: Picture, after: Picture) -> bool:
-    """Return whether any pixel has changed by `LEAST_CHANGE` or more."""
-    for first in range(0, len(before), ROWS_AT_ONCE):
-        one, other = before[first : first + ROWS_AT_ONCE], after[first : first + ROWS_AT_ONCE]
-        if not np.array_equal(one, other):
-            change = np.maximum(one, other) - np.minimum(one, other)
-            if change.max() >= LEAST_CHANGE:
-                return True
-    return False
+def _together(
+    before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
+) -> list[Found]:
+    """Return what is seen in windows and what was outside of them before, the surest first."""
+    boxes: list[Box] = [window.box for window in windows]
+    others = [
+        one
+        for one in before
+        if not any(shared_area(one.box, box) for box in boxes)
+        and not any(overlap(one.box, other.box) > SAME_OVERLAP for other in seen)
+    ]
+    return sorted((*seen, *others), key=lambda found: -found.confidence)

@@ -64,6 +64,8 @@ class SecondLook:
         Where the card lies.
     classes
         In the order of the network's chances.
+    threads
+        That share the work.
 
     Raises
     ------
@@ -71,11 +73,17 @@ class SecondLook:
         The file is missing, or is not what it must be.
     """
 
-    def __init__(self, card: SecondLookCard, folder: Path, classes: Sequence[VisibleClass]) -> None:
+    def __init__(
+        self,
+        card: SecondLookCard,
+        folder: Path,
+        classes: Sequence[VisibleClass],
+        threads: int = 1,
+    ) -> None:
         path = folder / card.file
         self._card, self._classes = card, classes
         self._subject = f"second look {path}, which the card beside it names"
-        self._network = open_network(path, self._subject, EXPECTED, VisionError)
+        self._network = open_network(path, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject, len(classes))
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:

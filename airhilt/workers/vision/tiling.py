@@ -7,6 +7,7 @@ from itertools import product
 from typing import NamedTuple
 
 from airhilt.boxes import moved, overlap, share_of_smaller
+from airhilt.messages import Box
 from airhilt.workers.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
 
 GREATEST_SIDE_PX = 1280
@@ -29,6 +30,16 @@ class Tile(NamedTuple):
     def of(self, picture: Picture) -> Picture:
         """Return its pixels."""
         return picture[self.top : self.top + self.height, self.left : self.left + self.width]
+
+    @property
+    def box(self) -> Box:
+        """About all of it."""
+        return self.left, self.top, self.left + self.width, self.top + self.height
+
+    def holds(self, place: tuple[float, float]) -> bool:
+        """Return whether a place, column and row, is in it."""
+        column, row = place
+        return 0.0 <= column - self.left < self.width and 0.0 <= row - self.top < self.height
 
 
 class Piece(NamedTuple):
