@@ -44,7 +44,7 @@ from airhilt.messages import CONFIRMED_HITS, CameraView
 from airhilt.sim.streams import stream
 from airhilt.surface.frame import LocalFrame
 from airhilt.units import seconds_to_ns
-from airhilt.workers.vision.detector import Found, Picture
+from airhilt.workers.vision.detector import Found, Picture, once
 from airhilt.workers.vision.embedded import (
     CARD,
     LEAST_SCORE,
@@ -53,7 +53,6 @@ from airhilt.workers.vision.embedded import (
     UNSURE,
     Calibration,
     EmbeddedDetector,
-    once,
 )
 from airhilt.workers.vision.tracker import Tracker
 from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share

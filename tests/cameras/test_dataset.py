@@ -5,9 +5,11 @@ from __future__ import annotations
 import errno
 import hashlib
 import json
+import math
 import os
 import sys
 from collections.abc import Callable, Iterator
+from itertools import product
 from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Any
@@ -23,9 +25,11 @@ from airhilt.cameras.dataset import (
     run_lengths,
     scenario_pictures,
 )
+from airhilt.cameras.dataset_scenes import EN_ROUTE, Casting, cast
 from airhilt.cameras.studio import Frame
 from airhilt.cameras.view import Intrinsics, Pose, View
 from airhilt.errors import CameraError, RendererError, ScenarioError
+from airhilt.units import DEGREE
 
 pytest.importorskip("moderngl")
 image_module = pytest.importorskip("PIL.Image")
@@ -122,6 +126,32 @@ def test_what_coco_has_no_word_for_stands_beside_it(folder: Path) -> None:
     assert [category["name"] for category in document["categories"]] == [
         "airplane", "truck", "bird", "deer", "coyote"
     ]  # fmt: skip
+
+
+def test_lenses_are_narrow_and_wide_and_aircraft_come_and_are_overtaken() -> None:
+    casting, draws = Casting([EN_ROUTE], SIZE), np.random.default_rng(1)
+    sittings = [casting.sitting(number, draws) for number in range(5)]
+    fields_deg = [
+        camera.intrinsics.horizontal_fov_rad / DEGREE
+        for sitting in sittings
+        for camera in sitting.cameras.values()
+    ]
+    assert min(fields_deg) < 14.0
+    assert max(fields_deg) > 50.0
+    turned: list[float] = []
+    for sitting, camera in product(sittings, sittings[0].cameras):
+        for _ in range(8):
+            bodies = {body.actor: body for body in cast(sitting, camera, draws, 0.0)}
+            at = sitting.cameras[camera].view(bodies).pose.position_m
+            for actor, body in bodies.items():
+                if sitting.models[actor].aircraft is not None and "carrier" not in actor:
+                    bearing = math.atan2(body.east_m - at[0], body.north_m - at[1])
+                    turned.append(math.remainder(body.heading_rad - bearing, math.tau))
+    away = np.abs(turned)
+    assert len(away) > 300
+    # Of courses at random a sixth would be within 30 degrees.
+    assert (away < math.radians(30.0)).mean() > 0.18
+    assert (away > math.radians(150.0)).mean() > 0.3
 
 
 def test_nothing_is_said_about_the_aircraft_that_carries_the_camera(folder: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,9 @@ from hypothesis import strategies as st
 from airhilt.boxes import overlap
 from airhilt.errors import VisionError
 from airhilt.workers.asr import ctc
+from airhilt.workers.vision.detector import Found
 from airhilt.workers.vision.embedded import MODEL, Calibration, EmbeddedDetector
+from airhilt.workers.vision.second_look import SecondLook
 from airhilt.workers.vision.tiling import Tile
 
 
@@ -92,7 +95,9 @@ def test_threads_change_nothing_of_the_answer(detector, airliner) -> None:
     assert EmbeddedDetector(threads=1).detect(airliner[0]) == detector.detect(airliner[0])
 
 
-def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(detector, airliner) -> None:
+def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
+    detector, airliner, monkeypatch
+) -> None:
     picture, (left, top, right, bottom) = airliner
     rows, columns = picture.shape[:2]
     whole = Tile(0, 0, rows, columns)
@@ -101,6 +106,18 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(detector, airlin
     found = detector.detect_in(picture, window)[0]
     assert found.label == "airplane"
     assert overlap(found.box, (left, top, right, bottom)) > 0.5
+    # The second look has all of the picture, so what it sees of the body is no less.
+    looked_at: list[tuple[int, ...]] = []
+    judge = SecondLook.judge
+
+    def note(self: SecondLook, shown: np.ndarray, places: Sequence[Found]) -> list[Found]:
+        looked_at.append(shown.shape)
+        return judge(self, shown, places)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(SecondLook, "judge", note)
+        detector.detect_in(picture, window)
+    assert looked_at == [picture.shape]
     outside = Tile(0, 0, 96, 96)
     assert all(one.label != "airplane" for one in detector.detect_in(picture, outside))
 

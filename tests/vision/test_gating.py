@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 import pytest
@@ -86,6 +87,16 @@ def test_a_faint_change_counts_once_it_has_added_up() -> None:
     assert len(detector.asked) == 2
 
 
+def test_a_faint_change_counts_too_where_windows_elsewhere_were_looked_at() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), background()
+    gate.look("tower", scene)
+    for step in (1, 2):
+        scene[300, 600] += 1
+        gate.look("tower", with_blobs(scene, [("truck", (10, 10, 10 + step, 20))]))
+    assert len(detector.asked) == 1 + 1 + 2
+
+
 def test_cameras_do_not_know_of_each_other() -> None:
     detector = BlobDetector()
     gate = Gate(detector)
@@ -166,24 +177,69 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
     assert detector.asked[-1][1] >= 200
 
 
-def test_all_is_looked_at_where_windows_would_hold_most_of_it() -> None:
+@pytest.mark.parametrize(("wide", "is_whole"), [(180, False), (400, True)])
+def test_all_is_looked_at_where_windows_would_hold_most_of_it(wide: int, is_whole: bool) -> None:
     detector = PartBlobDetector()
     gate, scene = Gate(detector), background()
     gate.look("tower", scene)
-    gate.look("tower", with_blobs(scene, [("truck", (k, k, k + 9, k + 9)) for k in (9, 320)]))
-    gate.look("tower", np.flip(scene, axis=1))
-    assert detector.asked[0] == detector.asked[-1] == (360, 640)
+    gate.look("tower", with_blobs(scene, [("truck", (100, 5, 100 + wide, 355))]))
+    assert (detector.asked[-1] == (360, 640)) == is_whole
 
 
-@settings(max_examples=60, deadline=None)
+def test_at_the_edges_of_a_picture_windows_are_no_smaller() -> None:
+    for row, column in product((0, 22), (0, 39)):
+        blocks = np.zeros((23, 40), dtype=bool)
+        blocks[row, column] = True
+        window = windows_about(blocks, [], 360, 640)[0]
+        # The last row of blocks is half in the picture.
+        assert min(window.height, window.width) >= 80
+        assert window.holds((16.0 * column + 8.0, min(16.0 * row + 8.0, 359.0)))
+
+
+def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
+    class FarReaching(PartBlobDetector):
+        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+            _, top, right, bottom = part.box
+            inner = right - 30.0, top, right + 20.0, bottom
+            outer = right - 20.0, top, right + 30.0, bottom
+            return [Found("bird", 0.4, inner), Found("truck", 0.9, outer)]
+
+    gate, scene = Gate(FarReaching()), background()
+    gate.look("tower", scene)
+    found = gate.look("tower", with_blobs(scene, [("bird", (300, 100, 306, 104))]))
+    assert [one.label for one in found] == ["bird"]
+
+
+def test_the_surest_of_all_windows_and_of_what_was_there_come_first() -> None:
+    gate, scene = Gate(PartBlobDetector()), background()
+    still = with_blobs(scene, [("truck", (300, 40, 330, 60))])
+    gate.look("tower", still)
+    ends = [("bird", (60, 60, 66, 64)), ("airplane", (560, 300, 566, 304))]
+    found = gate.look("tower", with_blobs(still, ends))
+    assert len(found) == 3
+    assert [one.confidence for one in found] == sorted(
+        (one.confidence for one in found), reverse=True
+    )
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1400, 200), (645, 361)])
+@settings(max_examples=30, deadline=None)
 @given(scenes=st.lists(BLOBS, min_size=2, max_size=5), still=BLOBS)
 def test_windows_find_what_a_look_at_everything_finds(
-    scenes: list[list[Blob]], still: list[Blob]
+    size: tuple[int, int], scenes: list[list[Blob]], still: list[Blob]
 ) -> None:
     gate = Gate(PartBlobDetector())
     for blobs in scenes:
-        picture = with_blobs(background(), [*still, *blobs])
-        assert places(gate.look("tower", picture)) == places(BlobDetector().detect(picture))
+        picture = with_blobs(background(*size), [*still, *blobs])
+        found = places(gate.look("tower", picture))
+        assert found == places(Gate(BlobDetector()).look("tower", picture))
+
+
+def test_a_body_that_stood_unseen_between_two_windows_is_not_told_in_halves() -> None:
+    """Windows that touch are one."""
+    blocks = np.zeros((23, 40), dtype=bool)
+    blocks[10, 4] = blocks[10, 4 + 2 * MARGIN_PX // 16 + 1] = True
+    assert len(windows_about(blocks, [], 360, 640)) == 1
 
 
 @given(

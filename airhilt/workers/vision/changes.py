@@ -17,7 +17,9 @@ from airhilt.workers.vision.tiling import Tile
 LEAST_CHANGE = 2
 """Levels of 255 by which a pixel must change."""
 MARGIN_PX = 48
-"""Between a change and the edges of the window about it; less where the picture ends."""
+"""Between a change and the edges of the window about it, unless the picture ends there."""
+MARGIN_BLOCKS = MARGIN_PX // GRID_PX - 1
+"""Of that, about what is next to a change."""
 
 Blocks = npt.NDArray[np.bool_]
 """Squares of `GRID_PX`, shape (down, across)."""
@@ -40,21 +42,21 @@ def changed_blocks(before: Picture, after: Picture) -> Blocks:
 
 
 def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int) -> list[Tile]:
-    """Return windows about all changes, on the grid, none of which shares a pixel with another.
+    """Return windows about all changes, on the grid, none of which touches another.
 
     Each of the boxes, those of what was there before, lies in a window with all that it has, or
-    in none.
+    in none. At the edges of the picture windows are no smaller than elsewhere.
     """
     parts = ndimage.find_objects(ndimage.label(ndimage.binary_dilation(blocks, NEXT_TO))[0])
-    waiting = [
-        _about([(across.start * GRID_PX, down.start * GRID_PX, across.stop * GRID_PX,
-                 down.stop * GRID_PX)], MARGIN_PX - GRID_PX)
-        for down, across in parts
-    ]  # fmt: skip
+    waiting: list[Box] = []
+    for down, across in parts:
+        left, right = _inside(across, blocks.shape[1])
+        top, bottom = _inside(down, blocks.shape[0])
+        waiting.append((left, top, right, bottom))
     windows: list[Box] = []
     while waiting:
         window = waiting.pop()
-        met = [other for other in windows if shared_area(window, other)]
+        met = [other for other in windows if shared_area(_about([window], 1.0), other)]
         cut = [box for box in boxes if 0.0 < shared_area(window, box) < area(box)]
         if met or cut:
             windows = [other for other in windows if other not in met]
@@ -62,6 +64,13 @@ def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int)
         else:
             windows.append(window)
     return [_tile(window, rows, columns) for window in windows]
+
+
+def _inside(changed: slice, blocks: int) -> tuple[float, float]:
+    """Return where a window begins and ends along a side of so many blocks, in pixels."""
+    first, end = changed.start - MARGIN_BLOCKS, changed.stop + MARGIN_BLOCKS
+    back, on = max(end - blocks, 0), max(-first, 0)
+    return max(first - back, 0) * GRID_PX, min(end + on, blocks) * GRID_PX
 
 
 def _about(boxes: Sequence[Box], margin_px: float = 0.0) -> Box:

@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.boxes import overlap
 from airhilt.errors import VisionError
 from airhilt.messages import Box, VisibleClass
 
@@ -50,3 +51,12 @@ class Detector(Protocol):
             It has failed for good.
         """
         ...
+
+
+def once(found: Sequence[Found]) -> list[Found]:
+    """Return each thing once: of boxes on the same, of whatever class, that which comes first."""
+    kept: list[Found] = []
+    for each in found:
+        if not any(overlap(each.box, other.box) > SAME_OVERLAP for other in kept):
+            kept.append(each)
+    return kept

@@ -17,11 +17,11 @@ import numpy as np
 import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.boxes import area, moved, overlap, size_px, within
+from airhilt.boxes import area, moved, size_px, within
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.inference import open_network
 from airhilt.messages import Confidence, VisibleClass
-from airhilt.workers.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
+from airhilt.workers.vision.detector import GRID_PX, Found, Picture, once
 from airhilt.workers.vision.second_look import SecondLook, SecondLookCard
 from airhilt.workers.vision.tiling import Tile
 
@@ -134,8 +134,8 @@ class EmbeddedDetector:
     def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
         """Return what is in a part of a picture; see `airhilt.workers.vision.gating.SeesParts`.
 
-        The first network was trained on tiles no smaller than 96 pixels, and takes parts of that
-        size as it takes a whole; the second look has all of the picture.
+        The first network was trained on tiles of 96 to 288 pixels. The second look has all of the
+        picture.
         """
         proposed = self.proposed(part.of(picture))
         return self._told(
@@ -217,15 +217,6 @@ class EmbeddedDetector:
                 f"{len(self._classes)} of its {CARD}, from 0"
             )
         return self._classes[index]
-
-
-def once(found: Sequence[Found]) -> list[Found]:
-    """Return each thing once: of boxes on the same, of whatever class, that which comes first."""
-    kept: list[Found] = []
-    for each in found:
-        if not any(overlap(each.box, other.box) > SAME_OVERLAP for other in kept):
-            kept.append(each)
-    return kept
 
 
 def _card(path: Path) -> Card:

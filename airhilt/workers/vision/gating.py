@@ -12,10 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
-from airhilt.boxes import centre, overlap, shared_area
-from airhilt.messages import Box
+from airhilt.boxes import centre, shared_area
 from airhilt.workers.vision.changes import changed_blocks, windows_about
-from airhilt.workers.vision.detector import SAME_OVERLAP, Detector, Found, Picture
+from airhilt.workers.vision.detector import Detector, Found, Picture, once
 from airhilt.workers.vision.tiling import Tile, merged, pieces_of, tiles_of
 
 MOST_IN_WINDOWS = 0.5
@@ -107,11 +106,7 @@ def _together(
     before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
 ) -> list[Found]:
     """Return what is seen in windows and what was outside of them before, the surest first."""
-    boxes: list[Box] = [window.box for window in windows]
-    others = [
-        one
-        for one in before
-        if not any(shared_area(one.box, box) for box in boxes)
-        and not any(overlap(one.box, other.box) > SAME_OVERLAP for other in seen)
+    outside = [
+        one for one in before if not any(shared_area(one.box, window.box) for window in windows)
     ]
-    return sorted((*seen, *others), key=lambda found: -found.confidence)
+    return once(sorted((*seen, *outside), key=lambda found: -found.confidence))
