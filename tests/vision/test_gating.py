@@ -222,6 +222,21 @@ def test_the_surest_of_all_windows_and_of_what_was_there_come_first() -> None:
     )
 
 
+def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
+    class Wide(PartBlobDetector):
+        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+            column = part.left + part.width / 2.0
+            return [Found("truck", column / 1000.0, (column - 250.0, 100.0, column + 250.0, 200.0))]
+
+    gate, scene = Gate(Wide()), background()
+    gate.look("tower", scene)
+    both = [("bird", (260, 150, 262, 152)), ("bird", (388, 150, 390, 152))]
+    blocks = changed_blocks(scene, with_blobs(scene, both))
+    assert len(windows_about(blocks, [], 360, 640)) == 2
+    found = gate.look("tower", with_blobs(scene, both))
+    assert [one.confidence > 0.325 for one in found] == [True]
+
+
 @pytest.mark.parametrize("size", [(640, 360), (1400, 200), (645, 361)])
 @settings(max_examples=30, deadline=None)
 @given(scenes=st.lists(BLOBS, min_size=2, max_size=5), still=BLOBS)
