@@ -1,5 +1,5 @@
 """``python -m airhilt``."""
 
-from airhilt.cli import main
+from airhilt.cli.main import main
 
 main()

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.positions import Position, RunwayIdent, TaxiwayName
+from airhilt.geodesy.positions import Position, RunwayIdent, TaxiwayName
 
 
 class _Command(BaseModel):

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from airhilt.cameras import RENDERER, RendererName
-from airhilt.radio.speech import Sound
+from airhilt.assistant.reference import ASR, DETECTOR, TTS, AssistantName
 from airhilt.record import Loss
 from airhilt.scenario.models import Topology
+from airhilt.sensors.cameras import RENDERER, RendererName
+from airhilt.sensors.radio.backend import Sound
 from airhilt.sim import LatencySpec
 from airhilt.workers.pool import Participant
-from airhilt.workers.reference import ASR, DETECTOR, TTS, AssistantName
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import click
 import pytest
 from pydantic import TypeAdapter
 
-from airhilt.cli import cli
+from airhilt.cli.main import cli
 from airhilt.messages import json_schemas
 from airhilt.scenario import Scenario, parse
 from airhilt.scenario.models import Camera, Perturbation, RadioLine

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import doctor
-from airhilt.doctor import Finding, examine
-from airhilt.workers.vision import embedded
+from airhilt.assistant.vision import embedded
+from airhilt.cli import doctor
+from airhilt.cli.doctor import Finding, examine
 
 
 @pytest.fixture(autouse=True)

@@ -13,7 +13,6 @@ from typing import Any
 
 import pytest
 
-from airhilt.cosim import run
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.messages import (
     ActorTruth,
@@ -26,11 +25,12 @@ from airhilt.messages import (
     RunwayTruth,
     Severity,
 )
-from airhilt.metrics import report
-from airhilt.metrics.lanes import Spells
-from airhilt.metrics.report import write_report
 from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder
+from airhilt.report import report
+from airhilt.report.report import write_report
+from airhilt.report.timelines import Spells
+from airhilt.run.simulation import run
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 

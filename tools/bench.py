@@ -35,12 +35,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from airhilt.cameras import RendererName
-    from airhilt.cameras.bodies import BodyState
-    from airhilt.cameras.studio import Studio
+    from airhilt.assistant.vision.detector import Picture
     from airhilt.metrics.summary import Summary
     from airhilt.scenario import Scenario
-    from airhilt.workers.vision.detector import Picture
+    from airhilt.sensors.cameras import RendererName
+    from airhilt.sensors.cameras.scene.bodies import BodyState
+    from airhilt.sensors.cameras.scene_renderer import Studio
 
 ROUNDS = 5
 
@@ -70,10 +70,10 @@ def best(measure: Callable[[], float], rounds: int = ROUNDS) -> float:
 def headon() -> dict[str, float]:
     """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
     from airhilt import load, run
-    from airhilt.actors import build_cast
-    from airhilt.preparation import TICK_S
+    from airhilt.run.setup import TICK_S
     from airhilt.scenario import realise
-    from airhilt.scenario.geometry import Setting
+    from airhilt.world.actors import build_cast
+    from airhilt.world.site import Setting
 
     scenario = load("s02a_headon")
     factors, whole, bare = [], [], []
@@ -167,8 +167,8 @@ def terminal() -> dict[str, float]:
 def airport_scenario() -> Scenario:
     """Return five arrivals, five departures and ten taxiing aircraft among twenty vehicles."""
     from airhilt.scenario import Scenario
-    from airhilt.surface.airport import load_airport
-    from airhilt.surface.layout import Layout
+    from airhilt.world.surface.airport import load_airport
+    from airhilt.world.surface.layout import Layout
 
     layout = Layout(load_airport("KDCA"))
     stands, holds = list(layout.stands), ["A", "D", "E", "F", "N"]
@@ -246,7 +246,7 @@ def calls() -> tuple[list[str], tuple[str, ...]]:
     """
     from airhilt import load
     from airhilt.library import names
-    from airhilt.radio.phraseology import Instruction, say
+    from airhilt.phraseology import Instruction, say
 
     callsigns = ("AAL123", "DAL456", "BAW38", "DLH4AB", "UAL1200", "N172SP", "G-ABCD", "OPS1")
     told = [
@@ -277,7 +277,7 @@ def calls() -> tuple[list[str], tuple[str, ...]]:
 
 def phraseology() -> dict[str, float]:
     """Read calls, in the time of one core that it takes."""
-    from airhilt.radio.phraseology import parse_call
+    from airhilt.phraseology import parse_call
 
     said, callsigns = calls()
 
@@ -318,9 +318,9 @@ except KeyboardInterrupt:
 def speech() -> dict[str, float]:
     """Compare a run with sound, its voices cached, with one without, turn by turn."""
     from airhilt import run
-    from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
-    from airhilt.radio.voices.wav import read_wav
-    from airhilt.workers.asr.engines import asr_engine
+    from airhilt.assistant.asr.engines import asr_engine
+    from airhilt.audio.wav import read_wav
+    from airhilt.voices.engine import SAMPLE_RATE_HZ
 
     engine = asr_engine("embedded")
 
@@ -362,8 +362,8 @@ def render() -> dict[str, float]:
     """
     import numpy as np
 
-    from airhilt.cameras import RENDERERS
-    from airhilt.cameras.bodies import BodyState
+    from airhilt.sensors.cameras import RENDERERS
+    from airhilt.sensors.cameras.scene.bodies import BodyState
 
     stage = Stage()
     numbers = np.random.default_rng(0).random((640 * 360, 6), dtype=np.float32)
@@ -401,8 +401,8 @@ def detection() -> dict[str, float]:
     the CPU time of a picture, the mean of a second, in the best second, of a look at all of it and
     (``gated``) as a run looks, at what has changed; and how many places are looked at twice.
     """
-    from airhilt.workers.vision.embedded import EmbeddedDetector
-    from airhilt.workers.vision.gating import Gate
+    from airhilt.assistant.vision.embedded import EmbeddedDetector
+    from airhilt.assistant.vision.gating import Gate
 
     stage, detector = Stage(), EmbeddedDetector(threads=1)
     studio = stage.studio("moderngl")
@@ -440,11 +440,11 @@ class Stage:
 
     def __init__(self) -> None:
         from airhilt import load
-        from airhilt.cameras.bodies import Model, aircraft_model, vehicle_model
-        from airhilt.cameras.mounts import Camera, Mount, cameras_of
-        from airhilt.cameras.stage import light_of, world_of
-        from airhilt.cameras.view import Intrinsics, Pose
-        from airhilt.scenario.geometry import Setting
+        from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of
+        from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, vehicle_model
+        from airhilt.sensors.cameras.scene.builder import light_of, world_of
+        from airhilt.sensors.cameras.view import Intrinsics, Pose
+        from airhilt.world.site import Setting
 
         scenario = load("s01b_nominal")
         self._setting = Setting.of(scenario)
@@ -463,7 +463,7 @@ class Stage:
 
     def studio(self, renderer: RendererName) -> Studio:
         """Return a studio with both cameras."""
-        from airhilt.cameras.studio import Studio
+        from airhilt.sensors.cameras.scene_renderer import Studio
 
         return Studio(self._world, self._light, self._models, self._cameras, renderer)
 
@@ -481,9 +481,9 @@ class Stage:
     def _body(
         self, actor: str, along_m: float, up_m: float, turned: float, shape: str
     ) -> BodyState:
-        from airhilt.cameras.bodies import BodyState
-        from airhilt.cameras.mounts import frame_of
-        from airhilt.positions import RunwayPosition
+        from airhilt.geodesy.positions import RunwayPosition
+        from airhilt.sensors.cameras.mounts import frame_of
+        from airhilt.sensors.cameras.scene.bodies import BodyState
 
         assert self._setting.layout is not None
         course = self._setting.layout.runway("01").course_rad
@@ -495,7 +495,7 @@ class Stage:
 def frames() -> dict[str, float]:
     """Take 10,000 pictures in the process of its own, and ask for its memory on the way."""
     from airhilt import load
-    from airhilt.cameras.remote import RemoteStudio
+    from airhilt.sensors.cameras.renderer_process import RemoteStudio
 
     scenario = load("s01b_nominal")
     scene = [[bodies[0]._replace(actor="AAL123")] for bodies in Stage().scene()]
@@ -515,8 +515,8 @@ def watched_landing() -> Scenario:
     """Return a minute of a landing before a tower, a runway, a nose and a tail camera."""
     from airhilt import load
     from airhilt.scenario import Scenario
-    from airhilt.surface.airport import load_airport
     from airhilt.units import DEGREE, FOOT
+    from airhilt.world.surface.airport import load_airport
 
     document = load("s01b_nominal").model_dump(mode="json")
     document |= {"name": "watched", "duration_s": 60.0, "end_when": [], "cameras": []}

@@ -22,9 +22,9 @@ from eval_asr import noise_alone, rosters_for, spoken
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from airhilt.radio.channel import VhfChannel
-from airhilt.radio.profiles import PROFILES
-from airhilt.workers.asr.ctc import Ctc
+from airhilt.assistant.asr.ctc import Ctc
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.channel import VhfChannel
 
 MOST_TALKATIVE = 0.005
 """Of transmissions without speech, the share that may give words."""

@@ -5,7 +5,7 @@ r"""Fit a detector's confidences, and count its false detections in minutes of c
     python tools/calibrate_detector.py --seed 501 --airport LSZH --airport en_route
 
 With folders of ``airhilt dataset export`` it fits how likely a finding is to be true by score,
-size and class (see `airhilt.workers.vision.embedded.Calibration`), and writes that into the
+size and class (see `airhilt.assistant.vision.embedded.Calibration`), and writes that into the
 ``card.json`` beside the network, with the lowest threshold that gives at most one false detection
 a minute for each kind of camera. Without folders it only counts.
 
@@ -34,18 +34,8 @@ from eval_detector import loosely, matched, on_faint
 from rich.progress import track
 from scipy import optimize
 
-from airhilt.cameras import RENDERERS, RendererName
-from airhilt.cameras.bodies import BodyState
-from airhilt.cameras.dataset import studio_of
-from airhilt.cameras.dataset_scenes import Casting, Sitting, cast
-from airhilt.cameras.rig import view_message
-from airhilt.cameras.studio import Studio
-from airhilt.messages import CONFIRMED_HITS, CameraView
-from airhilt.sim.streams import stream
-from airhilt.surface.frame import LocalFrame
-from airhilt.units import seconds_to_ns
-from airhilt.workers.vision.detector import Found, Picture, once
-from airhilt.workers.vision.embedded import (
+from airhilt.assistant.vision.detector import Found, Picture, once
+from airhilt.assistant.vision.embedded import (
     CARD,
     LEAST_SCORE,
     MODEL,
@@ -54,8 +44,18 @@ from airhilt.workers.vision.embedded import (
     Calibration,
     EmbeddedDetector,
 )
-from airhilt.workers.vision.tracker import Tracker
-from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.assistant.vision.tracker import Tracker
+from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.messages import CONFIRMED_HITS, CameraView
+from airhilt.sensors.cameras import RENDERERS, RendererName
+from airhilt.sensors.cameras.dataset.coco import studio_of
+from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting, cast
+from airhilt.sensors.cameras.scene.bodies import BodyState
+from airhilt.sensors.cameras.scene_renderer import Studio
+from airhilt.sensors.cameras.sensor import view_message
+from airhilt.sim.streams import stream
+from airhilt.units import seconds_to_ns
 
 RATE_HZ = 16.0
 SPEEDS_M_S = {"ground": 8.0, "air": 75.0}

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 from detector_places import Places
 
-from airhilt.boxes import centre, sides, size_px
+from airhilt.assistant.vision.refiner import about, moves_to, views_of
+from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box
-from airhilt.workers.vision.second_look import about, moves_to, views_of
 
 BATCH, OF_BODIES = 256, 0.35
 """Places in a batch, and the part of them that are bodies."""

@@ -15,11 +15,11 @@ from detector_scratch import Pictures, contents, decoded, mark_of
 from eval_detector import on_faint
 from rich.progress import track
 
-from airhilt.boxes import centre, overlap, size_px
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.embedded import EmbeddedDetector
+from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.imaging.boxes import centre, overlap, size_px
 from airhilt.messages import Box
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.embedded import EmbeddedDetector
-from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 
 LEAST_SCORE, MOST = 0.03, 20
 """Of the places that are learnt from: the score that the first network gives, and how many there

@@ -22,11 +22,11 @@ from pathlib import Path
 import jiwer
 import numpy as np
 
-from airhilt.radio.channel import VhfChannel
-from airhilt.radio.phraseology import parse_call
-from airhilt.radio.profiles import PROFILES
-from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.workers.asr.engines import asr_engine
+from airhilt.assistant.asr.engines import asr_engine
+from airhilt.phraseology import parse_call
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.channel import VhfChannel
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
 MISLEADING_DB = 10.0

@@ -34,11 +34,11 @@ from typing import Any
 from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 from rich.progress import track
 
-from airhilt.boxes import centre, overlap, share_of_smaller
-from airhilt.matching import is_about
-from airhilt.workers.vision.detector import Found, Picture
-from airhilt.workers.vision.engines import VisionEngine, vision_engine
-from airhilt.workers.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.assistant.vision.detector import Found, Picture
+from airhilt.assistant.vision.engines import VisionEngine, vision_engine
+from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.imaging.boxes import centre, overlap, share_of_smaller
+from airhilt.imaging.matching import is_about
 
 FRAMES_A_MINUTE = 960
 SMALL_PX = 12.0
@@ -273,9 +273,9 @@ def _steps() -> list[float]:
 def _shoot(
     renderer: str, world: Any, light: Any, camera: Any, bodies: Callable[[float], list[Any]]
 ) -> Iterator[Any]:
-    from airhilt.cameras import RENDERERS
-    from airhilt.cameras.bodies import aircraft_model
-    from airhilt.cameras.studio import Studio
+    from airhilt.sensors.cameras import RENDERERS
+    from airhilt.sensors.cameras.scene.bodies import aircraft_model
+    from airhilt.sensors.cameras.scene_renderer import Studio
 
     models = {"737": aircraft_model("737"), "own": aircraft_model("737")}
     chosen = next(known for known in RENDERERS if known == renderer)
@@ -288,8 +288,8 @@ def _shoot(
 
 
 def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
-    from airhilt.cameras.stage import air_and_sun
     from airhilt.scenario.models import Daylight, Weather
+    from airhilt.sensors.cameras.scene.builder import air_and_sun
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=solar_time_h)
     return air_and_sun(Weather(visibility_m=10_000.0), day, latitude_rad, en_route)
@@ -297,12 +297,12 @@ def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
 
 def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     """Yield pictures of a camera beside the threshold of Zürich's runway 14."""
-    from airhilt.cameras.bodies import BodyState
-    from airhilt.cameras.mounts import Camera
-    from airhilt.cameras.view import Intrinsics, Pose
-    from airhilt.cameras.world import airport_world
-    from airhilt.surface.airport import load_airport
-    from airhilt.surface.layout import Layout
+    from airhilt.sensors.cameras.mounts import Camera
+    from airhilt.sensors.cameras.scene.bodies import BodyState
+    from airhilt.sensors.cameras.scene.landscape import airport_world
+    from airhilt.sensors.cameras.view import Intrinsics, Pose
+    from airhilt.world.surface.airport import load_airport
+    from airhilt.world.surface.layout import Layout
 
     layout = Layout(load_airport("LSZH"))
     light = _light(layout.frame.origin[0], solar_time_h, False)
@@ -324,10 +324,10 @@ def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
 
 def _before_nose_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     """Yield pictures from the nose of an aircraft at 1000 m, above open country."""
-    from airhilt.cameras.bodies import BodyState, aircraft_model
-    from airhilt.cameras.mounts import Camera, station_mount
-    from airhilt.cameras.view import Intrinsics
-    from airhilt.cameras.world import open_country
+    from airhilt.sensors.cameras.mounts import Camera, station_mount
+    from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
+    from airhilt.sensors.cameras.scene.landscape import open_country
+    from airhilt.sensors.cameras.view import Intrinsics
 
     light = _light(math.radians(47.0), solar_time_h, True)
     mount = station_mount("nose", "own", "nose", {"own": aircraft_model("737")})

@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from airhilt.surface.airport import (
+from airhilt.world.surface.airport import (
     Airport,
     Building,
     Camera,
@@ -22,11 +22,11 @@ from airhilt.surface.airport import (
     Tower,
     Water,
 )
-from airhilt.surface.draft import Draft, write_airport
-from airhilt.surface.magnetism import SOURCE as MAGNETIC_SOURCE
-from airhilt.surface.magnetism import magnetic_variation, with_magnetic_headings
-from airhilt.surface.ourairports import CREDIT, read_frequencies, read_runways
-from airhilt.surface.path import Local
+from airhilt.world.surface.draft import Draft, write_airport
+from airhilt.world.surface.magnetism import SOURCE as MAGNETIC_SOURCE
+from airhilt.world.surface.magnetism import magnetic_variation, with_magnetic_headings
+from airhilt.world.surface.ourairports import CREDIT, read_frequencies, read_runways
+from airhilt.world.surface.path import Local
 
 REFERENCE = ReferencePoint(lat_deg=38.8521, lon_deg=-77.0377)
 EPOCH = 2025.0

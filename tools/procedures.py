@@ -14,7 +14,10 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
-from airhilt.flight import (
+from airhilt.geodesy.local_frame import onward
+from airhilt.geodesy.plane import Plane
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+from airhilt.world.flight import (
     Aircraft,
     AircraftState,
     AircraftType,
@@ -22,13 +25,10 @@ from airhilt.flight import (
     InitialCondition,
     load_aircraft_type,
 )
-from airhilt.flight.procedures.final import Final
-from airhilt.flight.state import OnGround
-from airhilt.surface.frame import onward
-from airhilt.surface.path import Local
-from airhilt.surface.plane import Plane
-from airhilt.surface.runway import Place, RunwayEnd
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.state import OnGround
+from airhilt.world.surface.path import Local
+from airhilt.world.surface.runway import Place, RunwayEnd
 
 TYPES = ("737", "B747", "c172p", "c310")
 TICK_S = 0.05

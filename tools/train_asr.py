@@ -3,7 +3,7 @@
 A TDNN-CTC network (temporal convolutions with residuals) whose units are the words of
 `asr_corpus`, so that it can give no word that aviators do not use. Noise and levels vary anew
 each time an utterance is seen: they are mixed as mel powers, which costs next to nothing. The
-last part of the training adds calls that really went through `airhilt.radio.channel`.
+last part of the training adds calls that really went through `airhilt.sensors.radio.channel`.
 
     python tools/train_asr.py prepare build/asr/train     (as often as there are new shards)
     python tools/train_asr.py train build/asr --minutes 90
@@ -27,9 +27,9 @@ import torch
 from asr_corpus import Talk
 from torch import Tensor, nn
 
-from airhilt.radio.channel import VhfChannel
-from airhilt.radio.profiles import PROFILES
-from airhilt.workers.asr.features import BINS, FLOOR, mel_power
+from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.channel import VhfChannel
 
 STRIDE = 6
 """Frames of features to one of the output: 60 ms."""

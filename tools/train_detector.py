@@ -40,8 +40,8 @@ from PIL import Image, ImageFilter
 from torch import Tensor, nn
 from torch.nn import functional
 
-from airhilt.workers.vision.detector import GRID_PX
-from airhilt.workers.vision.embedded import CARD
+from airhilt.assistant.vision.detector import GRID_PX
+from airhilt.assistant.vision.embedded import CARD
 
 STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""

@@ -6,7 +6,7 @@
 ``tools/train_detector.py`` makes the network that sees a whole picture. Here it is asked what it
 makes of pictures; whether a body of `airhilt dataset export` is at each place that it names is
 known, and that is what the second network learns to tell, with the body's class and box (see
-`airhilt.workers.vision.second_look`). Of what is nothing it is shown most often what it has taken
+`airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
 for something. Places on bodies that can hardly be seen teach nothing.
 
 It is written beside the first network, as ``second_look.onnx``, and into the card there. Pictures
@@ -33,8 +33,8 @@ from torch import Tensor, nn
 from torch.nn import functional
 from train_detector import NOT_CALIBRATED, batches, followed
 
-from airhilt.workers.vision.embedded import CARD
-from airhilt.workers.vision.second_look import VIEW_PX
+from airhilt.assistant.vision.embedded import CARD
+from airhilt.assistant.vision.refiner import VIEW_PX
 
 FILE = "second_look.onnx"
 USED_FROM, USED = 0.15, 8

@@ -7,11 +7,11 @@ import re
 import time
 from collections.abc import Callable, Sequence
 
-from airhilt.bus.exchange import FOREIGN, RUN
+from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
-from airhilt.bus.workers import RemoteWorker
 from airhilt.errors import BusError
 from airhilt.messages import WORKER_NAME, WorkerDescription
+from airhilt.run.router import FOREIGN, RUN
 
 RESERVED = (RUN, FOREIGN)
 """Publishers in the log that are no workers."""

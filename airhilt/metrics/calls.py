@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript, Transmission
 from airhilt.metrics.summary import RadioStatistics
 from airhilt.metrics.words import Score, recognition, score
-from airhilt.radio.phraseology import parse_call
+from airhilt.phraseology import parse_call
 
 TEXT = "text"
 """Engine of transcripts that nobody has recognised: the words of a call without sound."""

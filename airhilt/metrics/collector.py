@@ -21,10 +21,8 @@ from airhilt.messages import (
     Transcript,
 )
 from airhilt.metrics.calls import TEXT, RadioCalls
-from airhilt.metrics.monitor import ConflictMonitor, Pair, PairTruth
+from airhilt.metrics.detection_scores import Sight
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.runways import IncursionCategory, RunwayMonitor
-from airhilt.metrics.sight import Sight
 from airhilt.metrics.summary import (
     ClosestApproach,
     LatencyStatistics,
@@ -37,6 +35,8 @@ from airhilt.scenario.models import AircraftActor, Scenario, VehicleActor, Wildl
 from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import SECOND_NS
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
+from airhilt.world.truth.runways import IncursionCategory, RunwayMonitor
 
 JUSTIFIED_WITHIN_S = 300.0
 """An alert about other traffic is no nuisance if that traffic will really lose separation within

@@ -6,9 +6,9 @@ import bisect
 from collections.abc import Mapping, Sequence
 
 from airhilt.commands import AltitudeCommand
+from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import ScriptedCommand
-from airhilt.surveillance.kinematics import VerticalProfile
 from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.messages import Modality, ModalityState, Severity
-from airhilt.metrics.runways import IncursionCategory
+from airhilt.world.truth.runways import IncursionCategory
 
 Stage = str
 

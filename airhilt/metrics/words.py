@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from airhilt.metrics.summary import RecognitionStatistics
-from airhilt.radio.phraseology import DIGITS, LETTERS, Call, parse_call
-from airhilt.radio.phraseology.numbers import TEENS, TENS
-from airhilt.radio.phraseology.words import PAIRS, SPELLINGS
-from airhilt.workers.asr.canonical import canonical
+from airhilt.phraseology import DIGITS, LETTERS, Call, parse_call
+from airhilt.phraseology.canonical import canonical
+from airhilt.phraseology.numbers import TEENS, TENS
+from airhilt.phraseology.words import PAIRS, SPELLINGS
 
 SLOTS = (
     "action",

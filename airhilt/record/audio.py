@@ -10,9 +10,9 @@ import hashlib
 from contextlib import suppress
 from pathlib import Path
 
+from airhilt.audio.wav import encode_wav, from_pcm, read_wav, to_pcm
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import AdvisoryAudio, Message, Transmission
-from airhilt.radio.voices.wav import encode_wav, from_pcm, read_wav, to_pcm
 
 
 def audio_file(folder: Path, message: Transmission | AdvisoryAudio) -> Path:

@@ -14,9 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
-from airhilt.boxes import size_px
 from airhilt.errors import RendererError, disk_failed
-from airhilt.matching import matches
+from airhilt.imaging.boxes import size_px
+from airhilt.imaging.matching import matches
 from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,

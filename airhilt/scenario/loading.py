@@ -24,10 +24,8 @@ from airhilt.commands import (
     VehicleCommand,
 )
 from airhilt.errors import AirhiltError, ScenarioError, first_problem
-from airhilt.flight import AircraftType, load_aircraft_type
-from airhilt.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
-from airhilt.radio.frequency import channel_spacing_khz
-from airhilt.scenario.geometry import Setting, distance_m
+from airhilt.geodesy.local_frame import onward
+from airhilt.geodesy.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
 from airhilt.scenario.models import (
     Airborne,
     AircraftActor,
@@ -47,13 +45,15 @@ from airhilt.scenario.models import (
     WildlifeActor,
 )
 from airhilt.scenario.perturbation import Draw, PathError, locate, realise
-from airhilt.surface.frame import onward
-from airhilt.surface.kinds import load_kind
-from airhilt.surface.runway import Place
+from airhilt.scenario.vhf_channels import channel_spacing_khz
 from airhilt.units import FOOT
+from airhilt.world.flight import AircraftType, load_aircraft_type
+from airhilt.world.site import Setting, distance_m
+from airhilt.world.surface.kinds import load_kind
+from airhilt.world.surface.runway import Place
 
 if TYPE_CHECKING:
-    from airhilt.surface.layout import Layout
+    from airhilt.world.surface.layout import Layout
 
 GREATEST_LATITUDE_DEG = 75.0
 MAXIMUM_BYTES = 20_000_000

@@ -8,15 +8,9 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from airhilt.commands import AircraftCommand, Command, VehicleCommand, WildlifeCommand
-from airhilt.lenses import FieldOfView, SidePx
-from airhilt.positions import (
-    Bearing,
-    GeodeticPosition,
-    Position,
-    RunwayIdent,
-    TaxiwayName,
-)
-from airhilt.radio import profiles
+from airhilt.geodesy.positions import Bearing, GeodeticPosition, Position, RunwayIdent, TaxiwayName
+from airhilt.imaging.lenses import FieldOfView, SidePx
+from airhilt.scenario import radio_profiles as profiles
 
 Callsign = Annotated[str, Field(pattern=r"^[A-Z0-9]{2,8}$", examples=["AAL123"])]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,40}$")]

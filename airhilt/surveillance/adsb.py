@@ -10,14 +10,14 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from airhilt.messages import AdsbReport, EmitterCategory
-from airhilt.surveillance import cpr
-from airhilt.surveillance.kinematics import (
+from airhilt.geodesy.relative_motion import (
     WGS84_SEMI_MAJOR_M,
     Kinematics,
     curvature_radii_m,
     relative,
 )
+from airhilt.messages import AdsbReport, EmitterCategory
+from airhilt.surveillance import cpr
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS, bearing_degrees
 
 POSITION_INTERVAL_S = (0.4, 0.6)

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from airhilt.surveillance.kinematics import Relative
+from airhilt.geodesy.relative_motion import Relative
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 Alert = Literal["tcas_ta", "tcas_ra"]

@@ -21,17 +21,8 @@ from airhilt.messages import (
     Transcript,
     WorkerDescription,
 )
-from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
-from airhilt.sim import (
-    Director,
-    Endpoint,
-    Input,
-    LatencySpec,
-    Output,
-    Policy,
-    Server,
-    StepRecord,
-)
+from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
+from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 
 @dataclass(frozen=True)

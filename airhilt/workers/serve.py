@@ -9,7 +9,7 @@ from typing import Any
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.frames import pack, unpack
+from airhilt.bus.multipart import pack, unpack
 from airhilt.bus.session import ROOT, connect_client
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply

@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from airhilt.actors.advised import Advised
-from airhilt.actors.performer import Reaction, Unable
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.world.actors.actor import Reaction, Unable
+from airhilt.world.actors.advisory_delivery import Advised
 
 
 class Crew:

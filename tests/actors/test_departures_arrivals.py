@@ -9,17 +9,17 @@ from functools import cache
 import pytest
 from pydantic import TypeAdapter
 
-from airhilt.actors.crew import Crew
-from airhilt.actors.performer import Unable
-from airhilt.actors.reactions import Person
 from airhilt.commands import Command
-from airhilt.flight import load_aircraft_type
+from airhilt.geodesy.positions import RunwayPosition
 from airhilt.messages import Advisory, CancelTakeoff, Evidence, GoAround, HoldPosition, Severity
-from airhilt.positions import RunwayPosition
 from airhilt.scenario import load
-from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import Reactions
 from airhilt.units import FOOT, KNOT
+from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.crew import Crew
+from airhilt.world.actors.reactions import Person
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.site import Setting
 
 B737 = load_aircraft_type("737")
 COMMAND = TypeAdapter(Command)

@@ -8,12 +8,12 @@ import pytest
 from pydantic import TypeAdapter
 
 from airhilt import load
-from airhilt.actors import Performer, Unable, build_cast
-from airhilt.actors.cues import Cues
 from airhilt.commands import Command
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
-from airhilt.scenario.geometry import Setting, distance_m
 from airhilt.units import KNOT
+from airhilt.world.actors import Performer, Unable, build_cast
+from airhilt.world.actors.triggers import Cues
+from airhilt.world.site import Setting, distance_m
 
 COMMAND = TypeAdapter(Command)
 

@@ -10,14 +10,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.actors.ground import FinalApproach, exit_for, hold_beside, shortened, taxi_path
-from airhilt.actors.performer import Unable
 from airhilt.commands import TaxiCommand
-from airhilt.positions import RunwayPosition
+from airhilt.geodesy.local_frame import onward
+from airhilt.geodesy.positions import RunwayPosition
 from airhilt.scenario import load
-from airhilt.scenario.geometry import Setting, beside, distance_m
-from airhilt.surface.frame import onward
 from airhilt.units import KNOT
+from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.ground_paths import (
+    FinalApproach,
+    exit_for,
+    hold_beside,
+    shortened,
+    taxi_path,
+)
+from airhilt.world.site import Setting, beside, distance_m
 
 
 @cache

@@ -4,8 +4,8 @@ import dataclasses
 
 import pytest
 
-from airhilt.actors.listening import TAU_ASR, Listener, commands_of
-from airhilt.radio.phraseology import Instruction, parse_call
+from airhilt.phraseology import Instruction, parse_call
+from airhilt.world.actors.listening import TAU_ASR, Listener, commands_of
 
 ON_FREQUENCY = ("AAL123", "DAL456")
 SAID = "American one two three, climb and maintain flight level three three zero."

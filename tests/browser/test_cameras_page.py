@@ -14,13 +14,13 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "run"))
 from camera_run import camera_run, passing
 from devtools import Page
 
-from airhilt import cosim
-from airhilt.cameras import RendererName
 from airhilt.errors import RendererError
-from airhilt.metrics.report import write_report
 from airhilt.options import Options
 from airhilt.record import RunFolder
+from airhilt.report.report import write_report
+from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import RendererName
 
 pytest.importorskip("PIL")
 pytestmark = pytest.mark.browser

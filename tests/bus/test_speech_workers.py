@@ -14,12 +14,12 @@ import pytest
 from processes import ActsAt, process
 
 from airhilt import run
+from airhilt.audio.wav import decode_wav, read_wav, to_pcm, write_wav
 from airhilt.bus import free_endpoint
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Message, Transcript, Transmission
-from airhilt.radio.voices.wav import decode_wav, read_wav, to_pcm, write_wav
 from airhilt.record import RunFolder, read_log
-from airhilt.replay import replay
+from airhilt.run.replay import replay
 from airhilt.scenario import Scenario
 
 HASHING_RECOGNISER = """

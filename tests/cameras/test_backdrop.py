@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from airhilt.cameras.backdrop import KEPT_PX, SOON_PX, Backdrop
-from airhilt.cameras.mesh import Mesh
-from airhilt.cameras.renderers import Part, Samples
-from airhilt.cameras.view import Intrinsics, Pose, View, Window
+from airhilt.sensors.cameras.renderers import Part, Samples
+from airhilt.sensors.cameras.scene.background import KEPT_PX, SOON_PX, Backdrop
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
+from airhilt.shapes.mesh import Mesh
 
 LENS = Intrinsics(320, 180, math.radians(60.0))
 HIGH_M = 3000.0
@@ -85,7 +85,7 @@ def test_what_would_be_drawn_soon_is_drawn_with_the_first(
 ) -> None:
     def drawn(soon_px: float) -> tuple[int, int]:
         """Return how often it draws on a way, and how many rows in all."""
-        monkeypatch.setattr("airhilt.cameras.backdrop.SOON_PX", soon_px)
+        monkeypatch.setattr("airhilt.sensors.cameras.scene.background.SOON_PX", soon_px)
         flying = Backdrop(plain, samples=1)
         plain.windows.clear()
         for step in range(120):

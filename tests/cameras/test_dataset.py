@@ -18,17 +18,17 @@ import numpy as np
 import pytest
 
 from airhilt import load
-from airhilt.cameras.dataset import (
+from airhilt.errors import CameraError, RendererError, ScenarioError
+from airhilt.sensors.cameras.dataset.coco import (
     Picture,
     export,
     random_pictures,
     run_lengths,
     scenario_pictures,
 )
-from airhilt.cameras.dataset_scenes import EN_ROUTE, Casting, cast
-from airhilt.cameras.studio import Frame
-from airhilt.cameras.view import Intrinsics, Pose, View
-from airhilt.errors import CameraError, RendererError, ScenarioError
+from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, cast
+from airhilt.sensors.cameras.scene_renderer import Frame
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.units import DEGREE
 
 pytest.importorskip("moderngl")

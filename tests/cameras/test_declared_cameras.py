@@ -8,11 +8,11 @@ import math
 import pytest
 
 from airhilt import load
-from airhilt.cameras.view import Intrinsics
 from airhilt.errors import ScenarioError
 from airhilt.scenario import Scenario, parse
 from airhilt.scenario.models import Camera
-from airhilt.surface.airport import Camera as AirportCamera
+from airhilt.sensors.cameras.view import Intrinsics
+from airhilt.world.surface.airport import Camera as AirportCamera
 
 
 def with_cameras(*changes: dict[str, object]) -> Scenario:

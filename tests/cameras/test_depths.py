@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.cameras import RendererName
-from airhilt.cameras.light import Light
-from airhilt.cameras.mesh import Colour, Mesh, box, join
-from airhilt.cameras.renderers import Samples, open_renderer
-from airhilt.cameras.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras.renderers import Samples, open_renderer
+from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.shapes.mesh import Colour, Mesh, box, join
 
 for package in ("open3d", "moderngl"):
     pytest.importorskip(package)

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.cameras.light import Light
-from airhilt.cameras.mesh import Mesh
-from airhilt.cameras.renderers import Part
-from airhilt.cameras.renderers.opengl import ModernGLRenderer
-from airhilt.cameras.view import Intrinsics, Pose, View, Window
+from airhilt.sensors.cameras.renderers import Part
+from airhilt.sensors.cameras.renderers.opengl import ModernGLRenderer
+from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
+from airhilt.shapes.mesh import Mesh
 
 moderngl = pytest.importorskip("moderngl")
 

@@ -16,18 +16,18 @@ import numpy as np
 import pytest
 
 from airhilt import load
-from airhilt.actors import build_cast
-from airhilt.cameras import remote
-from airhilt.cameras.bodies import BodyState, state_of
-from airhilt.cameras.mounts import frame_of
-from airhilt.cameras.remote import RemoteStudio, probe
-from airhilt.cameras.renderers import raycasting, require_renderer
-from airhilt.cameras.still import TICK_S, still, write_png
-from airhilt.cameras.studio import Frame
-from airhilt.cameras.view import Intrinsics, Pose, View
 from airhilt.errors import CameraError, RendererError
 from airhilt.scenario import Scenario
-from airhilt.scenario.geometry import Setting
+from airhilt.sensors.cameras import renderer_process as remote
+from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.renderer_process import RemoteStudio, probe
+from airhilt.sensors.cameras.renderers import raycasting, require_renderer
+from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
+from airhilt.sensors.cameras.scene_renderer import Frame
+from airhilt.sensors.cameras.snapshot import TICK_S, still, write_png
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.world.actors import build_cast
+from airhilt.world.site import Setting
 
 pytest.importorskip("moderngl")
 

@@ -9,17 +9,22 @@ import numpy as np
 import pytest
 
 from airhilt import load
-from airhilt.boxes import size_px
-from airhilt.cameras import RENDERERS, RendererName
-from airhilt.cameras.bodies import BodyState, aircraft_model, animal_model, vehicle_model
-from airhilt.cameras.mounts import Camera, Mount, cameras_of, frame_of
-from airhilt.cameras.stage import light_of, world_of
-from airhilt.cameras.studio import Frame, Studio
-from airhilt.cameras.view import Intrinsics, Pose
 from airhilt.errors import CameraError
-from airhilt.positions import RunwayPosition
-from airhilt.scenario.geometry import Setting
+from airhilt.geodesy.positions import RunwayPosition
+from airhilt.imaging.boxes import size_px
+from airhilt.sensors.cameras import RENDERERS, RendererName
+from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
+from airhilt.sensors.cameras.scene.bodies import (
+    BodyState,
+    aircraft_model,
+    animal_model,
+    vehicle_model,
+)
+from airhilt.sensors.cameras.scene.builder import light_of, world_of
+from airhilt.sensors.cameras.scene_renderer import Frame, Studio
+from airhilt.sensors.cameras.view import Intrinsics, Pose
 from airhilt.units import DEGREE
+from airhilt.world.site import Setting
 
 for package in ("open3d", "moderngl"):
     pytest.importorskip(package)

@@ -12,21 +12,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt import load
-from airhilt.actors import build_cast
-from airhilt.actors.performer import Performer
-from airhilt.cameras.bodies import BodyState
-from airhilt.cameras.masks import Mask
-from airhilt.cameras.outline import Box
-from airhilt.cameras.rig import CameraRig, Exposures, angles_of, view_message
-from airhilt.cameras.studio import Frame, Sighting
-from airhilt.cameras.view import Intrinsics, Pose, View, attitude
 from airhilt.errors import RendererError
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.imaging.masks import Mask
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
 from airhilt.scenario import Scenario
-from airhilt.scenario.geometry import Setting
+from airhilt.sensors.cameras.scene.bodies import BodyState
+from airhilt.sensors.cameras.scene.projected_box import Box
+from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
+from airhilt.sensors.cameras.sensor import CameraRig, Exposures, angles_of, view_message
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View, attitude
 from airhilt.sim import Director, Priority, Virtual
-from airhilt.surface.frame import LocalFrame
 from airhilt.units import DEGREE, SECOND_NS
+from airhilt.world.actors import build_cast
+from airhilt.world.actors.actor import Performer
+from airhilt.world.site import Setting
 
 LENS = Intrinsics(64, 36, 0.8)
 

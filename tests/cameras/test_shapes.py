@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.cameras.bodies import Model, aircraft_model, animal_model, vehicle_model
-from airhilt.cameras.mesh import Mesh
+from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, animal_model, vehicle_model
+from airhilt.shapes.mesh import Mesh
 
 MODELS = [
     *map(aircraft_model, ("737", "B747", "c172p", "c310")),

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from airhilt.cameras.mesh import Floats
-from airhilt.cameras.renderers.tiles import Tiles
-from airhilt.cameras.view import NEAR_M, Intrinsics, Pose, View, Window
+from airhilt.sensors.cameras.renderers.tiles import Tiles
+from airhilt.sensors.cameras.view import NEAR_M, Intrinsics, Pose, View, Window
+from airhilt.shapes.mesh import Floats
 
 VIEW = View(Intrinsics(160, 90, math.radians(60.0)), Pose.of((5.0, -3.0, 40.0), 0.4, -0.1, 0.05))
 

@@ -8,13 +8,13 @@ import math
 import numpy as np
 import pytest
 
-from airhilt.cameras.masks import mask_of, runs_of
-from airhilt.cameras.mesh import box
-from airhilt.cameras.outline import Outline
-from airhilt.cameras.rain import rain_visibility_m
-from airhilt.cameras.sun import sun_direction
-from airhilt.cameras.view import Intrinsics, Pose, View
 from airhilt.errors import CameraError
+from airhilt.imaging.masks import mask_of, runs_of
+from airhilt.sensors.cameras.scene.projected_box import Outline
+from airhilt.sensors.cameras.scene.rain import rain_visibility_m
+from airhilt.sensors.cameras.scene.sun import sun_direction
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.shapes.mesh import box
 
 LENS = Intrinsics(640, 360, math.radians(60.0))
 

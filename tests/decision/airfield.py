@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from projected import Body, Camera
 
+from airhilt.assistant.decision import DecisionWorker
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import (
     Advisory,
     AirportBriefing,
@@ -19,12 +21,10 @@ from airhilt.messages import (
     Transcript,
     VisibleClass,
 )
-from airhilt.scenario.geometry import Site
 from airhilt.sim import Input
-from airhilt.surface.frame import LocalFrame
 from airhilt.surveillance.adsb import Receiver, Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
-from airhilt.workers.decision import DecisionWorker
+from airhilt.world.site import Site
 
 FIELD = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
 ELEVATION_M = 5.0

@@ -10,14 +10,14 @@ import numpy as np
 from geographiclib.geodesic import Geodesic
 from projected import Body, Camera, Place
 
+from airhilt.assistant.decision import DecisionWorker
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, VisibleClass
-from airhilt.scenario.geometry import Site
 from airhilt.sim import Input
-from airhilt.surface.frame import LocalFrame
 from airhilt.surveillance.adsb import Receiver, Transponder
-from airhilt.surveillance.kinematics import relative
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
-from airhilt.workers.decision import DecisionWorker
+from airhilt.world.site import Site
 
 CENTRE = (38.9, -77.0)
 FRAME = LocalFrame((CENTRE[0] * DEGREE, CENTRE[1] * DEGREE))

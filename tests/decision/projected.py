@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from airhilt.cameras.view import Intrinsics, Pose, View
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import CameraView, Detection, Detections, VisibleClass
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.sim import Input
-from airhilt.surface.frame import LocalFrame
 from airhilt.units import DEGREE, SECOND_NS
 
 Place = tuple[float, float, float]

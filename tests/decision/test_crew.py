@@ -6,15 +6,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.actors.crew import Crew
-from airhilt.actors.reactions import Person
 from airhilt.commands import AltitudeCommand, SpeedCommand, TrackCommand
-from airhilt.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
+from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.positions import GeodeticPosition
-from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.actors.crew import Crew
+from airhilt.world.actors.reactions import Person
+from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
+from airhilt.world.site import Setting
 
 CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
 

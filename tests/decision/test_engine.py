@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 from encounters import Encounter, Flight, head_on
 
+from airhilt.assistant.decision import DecisionWorker
+from airhilt.assistant.decision.tracks import Track
 from airhilt.messages import AdsbReport, Briefing, Climb, MaintainLevel, Severity, Turn
 from airhilt.sim import Input
-from airhilt.workers.decision import DecisionWorker
-from airhilt.workers.decision.tracks import Track
 
 CREWS = ("AAL123", "DAL456")
 

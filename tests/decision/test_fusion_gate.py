@@ -2,10 +2,10 @@
 
 import pytest
 
+from airhilt.assistant.decision import DecisionConfig, DecisionWorker
+from airhilt.assistant.decision.fusion import PATIENCE_NS, FusionGate
 from airhilt.messages import Status, Transcript, Transmission
 from airhilt.units import SECOND_NS
-from airhilt.workers.decision import DecisionConfig, DecisionWorker
-from airhilt.workers.decision.fusion import PATIENCE_NS, FusionGate
 
 END_NS = 5_000_000_000
 

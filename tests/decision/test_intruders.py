@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from projected import AIRLINER, CESSNA, FLOCK, Camera, still
 
+from airhilt.assistant.decision.approach import approach_of
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.assistant.decision.line_of_sight import Eye
+from airhilt.assistant.decision.visual_tracks import Glimpse, Lookout
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import Climb, Severity, Turn
-from airhilt.surface.frame import LocalFrame
 from airhilt.units import DEGREE, SECOND_NS
-from airhilt.workers.decision.approach import approach_of
-from airhilt.workers.decision.intruders import IntruderConfig, IntruderWatch
-from airhilt.workers.decision.lookout import Glimpse, Lookout
-from airhilt.workers.decision.sight import Eye
 
 SEEDS = range(2)
 MEET_S = 34.0

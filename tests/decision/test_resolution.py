@@ -3,11 +3,11 @@
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from airhilt.assistant.decision.resolution import resolve
+from airhilt.assistant.decision.tracks import Track
+from airhilt.geodesy.relative_motion import Minima, relative, time_to_loss_s
 from airhilt.messages import Climb, MaintainLevel, Turn
-from airhilt.surveillance.kinematics import Minima, relative, time_to_loss_s
 from airhilt.units import FOOT, NAUTICAL_MILE
-from airhilt.workers.decision.resolution import resolve
-from airhilt.workers.decision.tracks import Track
 
 STANDARD = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 INFRINGED = Minima(5 * NAUTICAL_MILE, 850 * FOOT)

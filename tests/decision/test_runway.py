@@ -22,14 +22,14 @@ from airfield import (
 from hypothesis import given
 from hypothesis import strategies as st
 
+from airhilt.assistant.decision import DecisionConfig, DecisionWorker
+from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, opposite, way_through
+from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.messages import Severity, Transcript
-from airhilt.radio.phraseology import parse_call
+from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
-from airhilt.workers.decision import DecisionConfig, DecisionWorker
-from airhilt.workers.decision.aerodrome import Aerodrome, Vector, opposite, way_through
-from airhilt.workers.decision.clearances import Clearances
-from airhilt.workers.decision.escalation import Escalation
-from airhilt.workers.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 
 SEEDS = range(3)
 CALLS = ("AAL123", "DAL456", "OPS1", "ATC")

@@ -17,9 +17,9 @@ from airfield import (
 )
 from projected import AIRLINER, DEER, FLOCK, TRUCK, Body, Camera, standing, still
 
+from airhilt.assistant.decision.ladder import fused_severity
 from airhilt.messages import Severity
 from airhilt.units import DEGREE
-from airhilt.workers.decision.ladder import fused_severity
 
 SEEDS = range(3)
 LANDS_S = 70.0

@@ -8,10 +8,17 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from projected import Body, Camera, standing, still
 
-from airhilt.surface.frame import LocalFrame
+from airhilt.assistant.decision.aerodrome import Vector
+from airhilt.assistant.decision.line_of_sight import (
+    BOX_ERROR_PX,
+    Eye,
+    Ray,
+    Sightline,
+    Spot,
+    meeting,
+)
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.units import DEGREE
-from airhilt.workers.decision.aerodrome import Vector
-from airhilt.workers.decision.sight import BOX_ERROR_PX, Eye, Ray, Sightline, Spot, meeting
 
 FRAME = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
 CUBE = (2.0, 2.0, 2.0)

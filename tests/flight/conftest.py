@@ -8,16 +8,16 @@ from collections.abc import Callable, Iterator
 import pytest
 from geographiclib.geodesic import Geodesic
 
-from airhilt.flight import (
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
+from airhilt.world.flight import (
     Aircraft,
     AircraftState,
     Atmosphere,
     InitialCondition,
     load_aircraft_type,
 )
-from airhilt.flight.state import OnGround
-from airhilt.surface.runway import Place, RunwayEnd
-from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
+from airhilt.world.flight.state import OnGround
+from airhilt.world.surface.runway import Place, RunwayEnd
 
 CRUISE = {"737": (35_000, 260), "B747": (35_000, 270), "c172p": (5_000, 95), "c310": (6_000, 150)}
 """Altitude (ft) and calibrated airspeed (kt)."""

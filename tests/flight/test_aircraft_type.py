@@ -6,7 +6,7 @@ import pytest
 
 from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.flight import load_aircraft_type
+from airhilt.world.flight import load_aircraft_type
 
 
 @pytest.fixture

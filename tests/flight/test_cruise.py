@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from airhilt.flight import Atmosphere, InitialCondition
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
+from airhilt.world.flight import Atmosphere, InitialCondition
 
 GALE = Atmosphere(wind_north_m_s=20.0, wind_east_m_s=-16.0)
 """50 kt."""

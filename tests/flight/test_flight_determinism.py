@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from airhilt import library
-from airhilt.flight import Atmosphere
+from airhilt.world.flight import Atmosphere
 
 AIR = Atmosphere(wind_north_m_s=5.0, turbulence_wind_at_20ft_m_s=15.0, turbulence_severity=4)
 PROGRAM = """

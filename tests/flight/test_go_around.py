@@ -2,8 +2,8 @@
 
 import pytest
 
-from airhilt.flight import Atmosphere
 from airhilt.units import DEGREE, FOOT, KNOT, wrap_angle
+from airhilt.world.flight import Atmosphere
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 

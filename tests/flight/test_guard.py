@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from airhilt.flight.guard import Guard
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.flight.guard import Guard
 
 
 def test_flying_into_the_ground_ends_with_ground_contact(in_cruise, states):

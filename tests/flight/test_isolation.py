@@ -9,8 +9,8 @@ import jsbsim
 import pytest
 
 from airhilt import library
-from airhilt.flight import ModelError
-from airhilt.flight.model import load_model
+from airhilt.world.flight import ModelError
+from airhilt.world.flight.model import load_model
 
 PROGRAM = """
 import os, sys, tempfile

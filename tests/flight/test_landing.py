@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from airhilt.flight import Atmosphere
-from airhilt.flight.procedures.final import Final
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.procedures.final import Final
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 TOUCHDOWN_ZONE_M = 3_000 * FOOT

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from airhilt.flight import Atmosphere
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
+from airhilt.world.flight import Atmosphere
 
 CLIMBS = {"737": (2_000, 1_500), "B747": (2_000, 1_500), "c172p": (500, 500), "c310": (500, 1_000)}
 """Feet, and feet per minute."""

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 from geographiclib.geodesic import Geodesic
 
-from airhilt.flight import Atmosphere
-from airhilt.flight.route import legs_through
 from airhilt.units import DEGREE, wrap_angle
+from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.route import legs_through
 
 EARTH = Geodesic.WGS84
 

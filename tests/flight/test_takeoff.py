@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from airhilt.flight import Atmosphere
-from airhilt.flight.procedures.final import Final
 from airhilt.units import DEGREE, FOOT, KNOT
+from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.procedures.final import Final
 
 COURSE = 10.0
 CLIMB_TO_M = 300.0

@@ -5,9 +5,9 @@ import math
 import pytest
 from shapely import LineString, Point
 
-from airhilt.flight import Atmosphere
-from airhilt.surface.plane import Plane
+from airhilt.geodesy.plane import Plane
 from airhilt.units import DEGREE, KNOT
+from airhilt.world.flight import Atmosphere
 
 COURSE = 10.0
 RADIUS_M = 30.0

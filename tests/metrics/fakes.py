@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from airhilt.flight import AircraftState, AircraftType, load_aircraft_type
-from airhilt.metrics.monitor import ConflictMonitor
-from airhilt.scenario.geometry import Site
-from airhilt.surface.mover import Dimensions, carried_on
-from airhilt.surveillance.kinematics import Minima
+from airhilt.geodesy.relative_motion import Minima
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.flight import AircraftState, AircraftType, load_aircraft_type
+from airhilt.world.mover import Dimensions, carried_on
+from airhilt.world.site import Site
+from airhilt.world.truth.conflicts import ConflictMonitor
 
 MINIMA = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 EARTH_RADIUS_M = 6_378_137.0

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from airhilt.audio.wav import to_pcm, write_wav
 from airhilt.messages import (
     AdvisoryAudio,
     HearingTruth,
@@ -15,7 +16,6 @@ from airhilt.messages import (
     Transcript,
     Transmission,
 )
-from airhilt.radio.voices.wav import to_pcm, write_wav
 from airhilt.record import LogWriter, RunFolder, RunInfo
 from airhilt.record.audio import audio_file
 from airhilt.record.folder import RunOptions

@@ -17,10 +17,10 @@ from sightings import vision
 sys.path.insert(0, str(Path(__file__).parents[1] / "run"))
 from camera_run import camera_run
 
-from airhilt.metrics import gallery
-from airhilt.metrics.gallery import MOST_SPANS, Spans
-from airhilt.metrics.report import write_report
 from airhilt.record import LogWriter, RunFolder, read_log
+from airhilt.report import camera_section as gallery
+from airhilt.report.camera_section import MOST_SPANS, Spans
+from airhilt.report.report import write_report
 from airhilt.units import SECOND_NS
 
 pytest.importorskip("PIL")

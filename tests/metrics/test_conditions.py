@@ -6,12 +6,12 @@ import pytest
 from fakes import Performing, Rolling, Straight, Watch
 from pydantic import TypeAdapter
 
-from airhilt.metrics.conditions import ConditionCompiler
-from airhilt.metrics.runways import RunwayMonitor
 from airhilt.scenario.models import Condition
-from airhilt.surface.airport import load_airport
-from airhilt.surface.layout import Layout
 from airhilt.units import SECOND_NS
+from airhilt.world.surface.airport import load_airport
+from airhilt.world.surface.layout import Layout
+from airhilt.world.truth.conditions import ConditionCompiler
+from airhilt.world.truth.runways import RunwayMonitor
 
 
 class Case:

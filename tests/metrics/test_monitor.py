@@ -7,10 +7,10 @@ from fakes import MINIMA, Rolling, Straight, Watch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.metrics.monitor import profile_of
-from airhilt.scenario.geometry import Site
-from airhilt.surveillance.kinematics import Minima, VerticalProfile
+from airhilt.geodesy.relative_motion import Minima, VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.site import Site
+from airhilt.world.truth.conflicts import profile_of
 
 
 def head_on(seconds=60.0, speed=250.0, **second):

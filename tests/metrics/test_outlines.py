@@ -10,9 +10,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely import Polygon, affinity, union_all
 
-from airhilt.flight import load_aircraft_type
-from airhilt.metrics.outline import gap, radius_m
 from airhilt.units import FOOT
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.truth.outlines import gap, radius_m
 
 LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
 

@@ -130,5 +130,5 @@ def test_a_transcript_of_a_call_that_nobody_made_counts_for_nothing():
 
 
 def test_a_run_without_speech_does_not_load_what_compares_words():
-    code = "import sys, airhilt.cosim; sys.exit('jiwer' in sys.modules)"
+    code = "import sys, airhilt.run.simulation; sys.exit('jiwer' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -15,9 +15,9 @@ import pytest
 from radio_folder import RadioFolder, busy_radio
 
 from airhilt.messages import Event
-from airhilt.metrics import sounds
-from airhilt.metrics.report import write_report
 from airhilt.record import LogWriter
+from airhilt.report import sounds
+from airhilt.report.report import write_report
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
@@ -121,7 +121,7 @@ def test_sound_of_something_else_is_not_played(radio: RadioFolder) -> None:
 def test_a_radio_with_more_calls_than_can_be_shown_says_so(
     radio: RadioFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("airhilt.metrics.report.MOST_CALLS", 2)
+    monkeypatch.setattr("airhilt.report.report.MOST_CALLS", 2)
     for number in range(5):
         radio.call(f"call{number}", 2.0 * number, "Roger", sound=False)
     page = shown(radio.close())

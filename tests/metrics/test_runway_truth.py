@@ -8,13 +8,13 @@ from functools import cache
 
 import pytest
 
-from airhilt.flight import load_aircraft_type
 from airhilt.messages import RunwayTruth
-from airhilt.metrics.runways import RunwayMonitor
-from airhilt.surface.airport import load_airport
-from airhilt.surface.layout import Layout
-from airhilt.surface.mover import Dimensions, SurfaceState
 from airhilt.units import FOOT, KNOT, SECOND_NS
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.mover import Dimensions, SurfaceState
+from airhilt.world.surface.airport import load_airport
+from airhilt.world.surface.layout import Layout
+from airhilt.world.truth.runways import RunwayMonitor
 
 B737 = load_aircraft_type("737")
 CAR = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)

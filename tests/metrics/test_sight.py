@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from sightings import found, frame, info, seen, sighting, truth, vision
 
-from airhilt.matching import matches
+from airhilt.imaging.matching import matches
 from airhilt.messages import Detection, SightingTruth
-from airhilt.metrics.sight import Sight, must_be_found
+from airhilt.metrics.detection_scores import Sight, must_be_found
 from airhilt.metrics.summary import VisionStatistics
 
 PLANE = (40.0, 30.0, 70.0, 40.0)

@@ -5,7 +5,9 @@ from fakes import Straight, Watch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from airhilt.cli.progress import print_summary
 from airhilt.commands import AltitudeCommand
+from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
@@ -17,20 +19,18 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.metrics.collector import Collector, pair_of
-from airhilt.metrics.outline import Gap
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.runways import Incursion
 from airhilt.metrics.summary import LatencyStatistics, severest
-from airhilt.progress import print_summary
-from airhilt.radio.phraseology.say import speak_callsign
-from airhilt.radio.script import planned_ends_ns
-from airhilt.radio.speech import Text
+from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario import load
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
-from airhilt.surveillance.kinematics import VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.world.truth.outlines import Gap
+from airhilt.world.truth.runways import Incursion
 
 SCENARIO = load("s02a_headon")
 FIRST, SECOND = (actor.callsign for actor in SCENARIO.actors[:2])

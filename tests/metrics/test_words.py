@@ -5,7 +5,7 @@ from collections import Counter
 import pytest
 
 from airhilt.metrics.words import align, in_words, recognition, score, slots_of
-from airhilt.radio.phraseology import parse_call
+from airhilt.phraseology import parse_call
 
 ROSTER = ("AAL123", "DAL456", "N123AB")
 

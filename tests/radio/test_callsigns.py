@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.radio.phraseology import AIRLINES, TELEPHONY, parse_call, tokens
+from airhilt.phraseology import AIRLINES, TELEPHONY, parse_call, tokens
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLOW4")

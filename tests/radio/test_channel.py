@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from airhilt.audio.wav import from_pcm
 from airhilt.errors import SpeechError
-from airhilt.radio.bus import OnAir, Utterance
-from airhilt.radio.channel import Background, Channel, Other, VhfChannel, active
-from airhilt.radio.profiles import PROFILES
-from airhilt.radio.sound import Spoken
-from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.radio.voices.espeak import Espeak
-from airhilt.radio.voices.wav import from_pcm
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.audio_radio import Spoken
+from airhilt.sensors.radio.channel import Background, Channel, Other, VhfChannel, active
+from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.voices.espeak import Espeak
 
 
 @cache

@@ -3,7 +3,7 @@
 import pytest
 
 from airhilt.errors import ScenarioError
-from airhilt.radio.frequency import channel_spacing_khz
+from airhilt.scenario.vhf_channels import channel_spacing_khz
 
 
 @pytest.mark.parametrize("name", [118_000, 118_025, 118_050, 118_075, 121_500, 136_975])

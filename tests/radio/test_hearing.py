@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from airhilt.radio.hearing import (
+from airhilt.sensors.radio.hearing import (
     CONFUSED_WITH,
     UNDERSTOOD_HALF_DB,
     HearingModel,

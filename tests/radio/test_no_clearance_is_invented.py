@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.radio.phraseology import CLEARANCES, LETTERS, TELEPHONY, parse_call, tokens
-from airhilt.radio.phraseology.numbers import SOUNDS
+from airhilt.phraseology import CLEARANCES, LETTERS, TELEPHONY, parse_call, tokens
+from airhilt.phraseology.numbers import SOUNDS
 
 KNOWN = ("AAL123", "DAL456", "N172SP", "OPS1", "BAW38")
 ACTED_ON = 0.8

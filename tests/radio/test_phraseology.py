@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.radio.phraseology import DIGITS, Instruction, Wind, parse_call, tokens
+from airhilt.phraseology import DIGITS, Instruction, Wind, parse_call, tokens
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 

@@ -7,22 +7,22 @@ from types import SimpleNamespace
 import pytest
 
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
-from airhilt.radio.hearing import Heard, HearingModel
-from airhilt.radio.loop import (
+from airhilt.scenario import load
+from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.models import Scenario
+from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.conversation import (
     MOST_REPEATS,
     REPEAT_AFTER_S,
     REPEAT_SPREAD_S,
     TRANSCRIPT_PATIENCE_S,
     RadioLoop,
 )
-from airhilt.radio.speech import Text
-from airhilt.radio.stations import Stations
-from airhilt.scenario import load
-from airhilt.scenario.failures import as_it_happens
-from airhilt.scenario.geometry import Setting, Site
-from airhilt.scenario.models import Scenario
+from airhilt.sensors.radio.hearing import Heard, HearingModel
+from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
+from airhilt.world.site import Setting, Site
 
 TOWER, KHZ = "Washington Centre", 134_325
 CLIMB = {"action": "altitude", "altitude_ft": 33000}

@@ -2,10 +2,10 @@
 
 import pytest
 
-from airhilt.radio.script import RadioScript, planned_ends_ns
-from airhilt.radio.speech import Text
 from airhilt.scenario.failures import HappeningLine
 from airhilt.scenario.models import RadioLine, TimeReached
+from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.script import RadioScript, planned_ends_ns
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.radio.phraseology import TELEPHONY, Action, Instruction, Wind, parse_call, tokens
-from airhilt.radio.phraseology.say import (
+from airhilt.phraseology import TELEPHONY, Action, Instruction, Wind, parse_call, tokens
+from airhilt.phraseology.say import (
     speak_abbreviated,
     speak_altitude,
     speak_callsign,

@@ -12,8 +12,11 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 from oracle import BlankStudio, Oracle
 
-from airhilt import cosim, load, team, vision
+from airhilt import load
 from airhilt.options import Options
+from airhilt.run import cameras as vision
+from airhilt.run import participants as team
+from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
 
 

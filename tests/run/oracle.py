@@ -16,12 +16,10 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from airhilt import cosim, load, team, vision
-from airhilt.cameras.bodies import BodyState, model_of
-from airhilt.cameras.masks import Mask
-from airhilt.cameras.mounts import cameras_of
-from airhilt.cameras.outline import Outline
-from airhilt.cameras.studio import Frame, Sighting
+from airhilt import load
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.tracker import Tracker
+from airhilt.imaging.masks import Mask
 from airhilt.messages import (
     CameraFrame,
     CameraView,
@@ -34,13 +32,18 @@ from airhilt.messages import (
 )
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
+from airhilt.run import cameras as vision
+from airhilt.run import participants as team
+from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
-from airhilt.scenario.geometry import Setting
+from airhilt.sensors.cameras.mounts import cameras_of
+from airhilt.sensors.cameras.scene.bodies import BodyState, model_of
+from airhilt.sensors.cameras.scene.projected_box import Outline
+from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.tracker import Tracker
+from airhilt.world.site import Setting
 
 SMALLEST_PX = 8.0
 LEAST_TRANSMISSION = 0.15

@@ -12,15 +12,15 @@ import pytest
 from camera_run import camera_run, passing
 from oracle import BlankStudio
 
-from airhilt.cameras.studio import Frame
-from airhilt.cosim import Result, run
+from airhilt.cli.progress import print_summary
 from airhilt.errors import AirhiltError, RendererError, RunFolderError, VideoError
 from airhilt.options import Options
-from airhilt.progress import print_summary
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName
-from airhilt.replay import replay
+from airhilt.run.replay import replay
+from airhilt.run.simulation import Result, run
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.units import SECOND_NS
 
 pytest.importorskip("PIL")

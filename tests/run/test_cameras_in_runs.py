@@ -11,15 +11,16 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load, vision
-from airhilt.cameras import RendererName
-from airhilt.cosim import Observer, Snapshot, run
+from airhilt import load
 from airhilt.errors import AirhiltError, RendererError, RunStopped
 from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
 from airhilt.record import Logged, read_log
-from airhilt.replay import replay
+from airhilt.run import cameras as vision
+from airhilt.run.replay import replay
+from airhilt.run.simulation import Observer, Snapshot, run
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import RendererName
 from airhilt.units import SECOND_NS
 
 pytest.importorskip("moderngl")

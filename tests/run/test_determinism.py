@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from airhilt import run
-from airhilt.replay import replay
+from airhilt.run.replay import replay
 from airhilt.scenario import Scenario
 
 

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-import airhilt.cosim
+import airhilt.run.simulation
 from airhilt import run
 from airhilt.errors import RunFolderError
 from airhilt.messages import Clock
 from airhilt.record import LatencyLog, LogWriter, RunFolder, read_log
-from airhilt.replay import replay
+from airhilt.run.replay import replay
 from airhilt.scenario import Scenario
 from airhilt.sim import StepRecord
 
@@ -48,7 +48,7 @@ def test_a_disk_that_fills_up_stops_the_run_and_keeps_what_it_has(
                 raise RunFolderError("latency.jsonl: cannot be written any more")
             super().step(record)
 
-    monkeypatch.setattr(airhilt.cosim, "LatencyLog", FillsUp)
+    monkeypatch.setattr(airhilt.run.simulation, "LatencyLog", FillsUp)
     with pytest.raises(RunFolderError, match="cannot be written any more"):
         run(encounter, out=tmp_path / "run", latency="fixed")
     monkeypatch.undo()

@@ -9,16 +9,16 @@ from pathlib import Path
 import pytest
 
 from airhilt import load
-from airhilt.cosim import Observer, Snapshot, run
+from airhilt.audio.wav import read_wav
 from airhilt.messages import HearingTruth, SpokenTruth, Status, Transcript, Transmission
 from airhilt.options import Options
-from airhilt.radio.voices.engine import SAMPLE_RATE_HZ
-from airhilt.radio.voices.wav import read_wav
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import audio_file
-from airhilt.replay import replay
+from airhilt.run.replay import replay
+from airhilt.run.simulation import Observer, Snapshot, run
 from airhilt.scenario.models import Scenario, StuckMicrophone
 from airhilt.units import SECOND_NS
+from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 DURATION_S = 75.0
 QUIET = Options(latency="fixed", assistant="none", speech=False)

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from airhilt import run
-from airhilt.cosim import Observer, Snapshot
+from airhilt.audio.wav import read_wav, to_pcm
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
-from airhilt.radio.voices.wav import read_wav, to_pcm
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import AudioRecorder, audio_file, recorded_pcm
-from airhilt.replay import replay
+from airhilt.run.replay import replay
+from airhilt.run.simulation import Observer, Snapshot
 from airhilt.scenario import Scenario
 
 FULL = Path("/dev/full")

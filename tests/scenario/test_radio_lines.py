@@ -9,11 +9,11 @@ import pytest
 from pydantic import TypeAdapter
 
 from airhilt.errors import ScenarioError
-from airhilt.radio.profiles import PROFILES
 from airhilt.scenario import load, parse
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import as_it_happens
 from airhilt.scenario.models import Failure
+from airhilt.scenario.radio_profiles import PROFILES
 
 DOCUMENT = load("s01a_nominal").model_dump(mode="json")
 FAILURES = TypeAdapter(tuple[Failure, ...])

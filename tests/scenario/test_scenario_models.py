@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from airhilt.positions import GeodeticPosition, Position, RelativePosition
-from airhilt.scenario import Scenario, geometry, load
+from airhilt.geodesy.positions import GeodeticPosition, Position, RelativePosition
+from airhilt.scenario import Scenario, load
 from airhilt.scenario.models import AircraftActor, Condition, EnRouteScene
 from airhilt.units import DEGREE, NAUTICAL_MILE
+from airhilt.world import site as geometry
 
 bearings = st.floats(0.0, 360.0)
 positions = st.builds(

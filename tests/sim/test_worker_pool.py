@@ -7,13 +7,7 @@ from functools import partial
 import pytest
 
 from airhilt.errors import WorkerError
-from airhilt.messages import (
-    AdvisoryAudio,
-    InputSpec,
-    Transcript,
-    Transmission,
-    WorkerDescription,
-)
+from airhilt.messages import AdvisoryAudio, InputSpec, Transcript, Transmission, WorkerDescription
 from airhilt.sim import Director, Input, Output, Priority, Virtual, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from airhilt.assistant.asr.engine import Recognised
+from airhilt.assistant.asr.worker import AsrWorker
+from airhilt.audio.wav import to_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Briefing, RosterEntry, Transcript, Transmission, Word
-from airhilt.radio.voices.engine import Audio
-from airhilt.radio.voices.wav import to_pcm
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.asr.engine import Recognised
-from airhilt.workers.asr.worker import AsrWorker
+from airhilt.voices.engine import Audio
 from airhilt.workers.pool import parse_output, policy_of
 
 

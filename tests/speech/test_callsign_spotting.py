@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from airhilt.workers.asr.ctc import Emission, best_path, with_callsign
-from airhilt.workers.asr.spotting import Spotter, spoken_forms
+from airhilt.assistant.asr.ctc import Emission, best_path, with_callsign
+from airhilt.assistant.asr.spotting import Spotter, spoken_forms
 
 WORDS = [
     "american", "climb", "delta", "eight", "five", "four", "golf", "niner", "november", "one",

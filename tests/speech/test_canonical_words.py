@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airhilt.workers.asr.canonical import canonical
+from airhilt.phraseology.canonical import canonical
 
 
 def written(text: str) -> str:

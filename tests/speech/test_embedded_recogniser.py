@@ -14,14 +14,14 @@ import jiwer
 import numpy as np
 import pytest
 
-import airhilt.workers.asr.ctc
+import airhilt.assistant.asr.ctc
+from airhilt.assistant.asr.ctc import FILES, Calibration, Ctc, best_path
+from airhilt.assistant.asr.engines import asr_engine
 from airhilt.errors import SpeechError
-from airhilt.radio.channel import Other, VhfChannel
-from airhilt.radio.profiles import PROFILES
-from airhilt.radio.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.radio.voices.espeak import Espeak
-from airhilt.workers.asr.ctc import FILES, Calibration, Ctc, best_path
-from airhilt.workers.asr.engines import asr_engine
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.channel import Other, VhfChannel
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.voices.espeak import Espeak
 
 DATA = Path(__file__).parents[1] / "data"
 TINY = DATA / "tiny_recogniser"
@@ -298,7 +298,7 @@ def test_it_gives_only_its_own_words_and_confidences_between_0_and_1(embedded: C
 
 
 def _embedded_words() -> list[str]:
-    folder = Path(airhilt.workers.asr.ctc.__file__).parent / "model"
+    folder = Path(airhilt.assistant.asr.ctc.__file__).parent / "model"
     return (folder / "words.txt").read_text(encoding="utf-8").split()
 
 
@@ -319,7 +319,7 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
     spoken = said_by(*CALLS[0])
     audio = np.tile(np.concatenate([spoken, silence(0.5)]), 1 + 65 * SAMPLE_RATE_HZ // len(spoken))
     by_windows = embedded.posteriors(audio)
-    monkeypatch.setattr(airhilt.workers.asr.ctc, "WINDOW_STEPS", len(audio))
+    monkeypatch.setattr(airhilt.assistant.asr.ctc, "WINDOW_STEPS", len(audio))
     assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
 
 

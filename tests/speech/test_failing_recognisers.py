@@ -12,13 +12,13 @@ from pathlib import Path
 
 import pytest
 
-import airhilt.workers.asr.http
+import airhilt.assistant.asr.http
 from airhilt import run
-from airhilt.cosim import Observer, Result
+from airhilt.audio.wav import decode_wav
 from airhilt.errors import RunStopped
 from airhilt.messages import Transcript
-from airhilt.radio.voices.wav import decode_wav
 from airhilt.record import read_log
+from airhilt.run.simulation import Observer, Result
 from airhilt.scenario import Scenario
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -79,8 +79,8 @@ def transcripts(result: Result) -> list[Transcript]:
 def test_a_service_that_fails_is_the_loss_of_speech_and_of_nothing_else(
     kind: str, short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    impatient = functools.partial(airhilt.workers.asr.http.HttpAsr, timeout_s=0.3)
-    monkeypatch.setattr(airhilt.workers.asr.http, "HttpAsr", impatient)
+    impatient = functools.partial(airhilt.assistant.asr.http.HttpAsr, timeout_s=0.3)
+    monkeypatch.setattr(airhilt.assistant.asr.http, "HttpAsr", impatient)
     failing, said = FAILING[kind]
     observer = Notices()
     with failing() as url:

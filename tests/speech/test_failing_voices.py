@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from airhilt import run
-from airhilt.cosim import Observer, Result
+from airhilt.audio.wav import encode_wav
 from airhilt.errors import RunStopped, SpeechError
 from airhilt.messages import SpokenTruth, Transmission
-from airhilt.radio.learned_channel import LearnedChannel
-from airhilt.radio.voices.wav import encode_wav
 from airhilt.record import read_log
-from airhilt.replay import replay
+from airhilt.run.replay import replay
+from airhilt.run.simulation import Observer, Result
 from airhilt.scenario import Scenario
+from airhilt.sensors.radio.learned_channel import LearnedChannel
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from services import answering, nobody, service

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
-from airhilt.radio.voices.engine import VoiceSpec
-from airhilt.radio.voices.flite import VOICES, Flite
+from airhilt.voices.engine import VoiceSpec
+from airhilt.voices.flite import VOICES, Flite
 
 needs_flite = pytest.mark.skipif(
     shutil.which("flite") is None, reason="no flite on PATH: apt install flite"

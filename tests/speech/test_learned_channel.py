@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
-from airhilt.radio.channel import Other, active
-from airhilt.radio.learned_channel import LearnedChannel
+from airhilt.sensors.radio.channel import Other, active
+from airhilt.sensors.radio.learned_channel import LearnedChannel
 
 CHANNELS = Path(__file__).parents[1] / "data" / "channels"
 

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from airhilt.audio.wav import read_wav, to_pcm, write_wav
 from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
-from airhilt.radio.listen import listen
-from airhilt.radio.voices.wav import read_wav, to_pcm, write_wav
 from airhilt.record import LogWriter, RunFolder, RunInfo
 from airhilt.record.folder import RunOptions
+from airhilt.record.tape import listen
 
 TOWER_KHZ = 118_300
 SECOND = 1_000_000_000

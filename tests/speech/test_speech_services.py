@@ -13,11 +13,11 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from airhilt.assistant.asr.http import HttpAsr
+from airhilt.audio.wav import decode_wav, encode_wav
 from airhilt.errors import SpeechError
-from airhilt.radio.voices.engine import VoiceSpec
-from airhilt.radio.voices.http import HttpTts
-from airhilt.radio.voices.wav import decode_wav, encode_wav
-from airhilt.workers.asr.http import HttpAsr
+from airhilt.voices.engine import VoiceSpec
+from airhilt.voices.http import HttpTts
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from services import (

@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
+from airhilt.assistant.tts import TtsWorker
+from airhilt.audio.wav import from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
-from airhilt.radio.voices.engine import Audio, VoiceSpec
-from airhilt.radio.voices.wav import from_pcm
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.tts import TtsWorker
+from airhilt.voices.engine import Audio, VoiceSpec
 
 sys.path.insert(0, str(Path(__file__).parent))
 from voices import Tone

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from airhilt.radio.voices.cache import CachedTts, user_cache_folder
-from airhilt.radio.voices.engine import VoiceSpec
+from airhilt.voices.cache import CachedTts, user_cache_folder
+from airhilt.voices.engine import VoiceSpec
 
 sys.path.insert(0, str(Path(__file__).parent))
 from voices import Tone

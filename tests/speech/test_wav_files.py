@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from airhilt.audio.wav import from_pcm, read_wav, to_pcm, write_wav
 from airhilt.errors import SpeechError
-from airhilt.radio.voices.wav import from_pcm, read_wav, to_pcm, write_wav
 
 TONE = np.sin(np.arange(1_600) / 5).astype(np.float32) * np.float32(0.5)
 

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
+from airhilt.assistant.asr.whisper import MODEL_FILES, Whisper
 from airhilt.errors import SpeechError
-from airhilt.radio.voices.espeak import Espeak
-from airhilt.workers.asr.whisper import MODEL_FILES, Whisper
+from airhilt.voices.espeak import Espeak
 
 MODEL = Path(__file__).parents[1] / "data" / "tiny_whisper"
 INSTALLED = importlib.util.find_spec("faster_whisper") is not None

@@ -6,7 +6,7 @@ import hashlib
 
 import numpy as np
 
-from airhilt.radio.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import Audio, VoiceSpec
 
 
 class Tone:

@@ -12,9 +12,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from airhilt.errors import ScenarioError
-from airhilt.surface.airport import load_airport
-from airhilt.surface.chart import as_svg, draw
-from airhilt.surface.layout import Layout
+from airhilt.world.surface.airport import load_airport
+from airhilt.world.surface.chart import as_svg, draw
+from airhilt.world.surface.layout import Layout
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 FOLDER = Path(__file__).parent / "ourairports"
@@ -80,7 +80,7 @@ def test_help_shows_examples(airhilt_command: Cli, command: tuple[str, ...]) -> 
 
 def test_help_does_not_wait_for_the_geometry_libraries() -> None:
     code = (
-        "import sys, airhilt.cli; "
+        "import sys, airhilt.cli.main; "
         "print([name for name in ('shapely', 'networkx', 'pygeomag') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

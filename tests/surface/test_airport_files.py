@@ -13,11 +13,11 @@ from shapely import Point
 
 from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.surface.airport import load_airport, read_airport
-from airhilt.surface.draft import as_text
-from airhilt.surface.importer import import_airport
-from airhilt.surface.layout import Layout
 from airhilt.units import FOOT
+from airhilt.world.surface.airport import load_airport, read_airport
+from airhilt.world.surface.draft import as_text
+from airhilt.world.surface.importer import import_airport
+from airhilt.world.surface.layout import Layout
 
 ROOT = Path(__file__).parents[2]
 RUNWAYS = Path(__file__).parent / "ourairports" / "runways.csv"

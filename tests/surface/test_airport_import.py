@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from airhilt.errors import ScenarioError
-from airhilt.surface.airport import Airport, read_airport
-from airhilt.surface.draft import write_airport
-from airhilt.surface.importer import import_airport
-from airhilt.surface.layout import Layout
-from airhilt.surface.ourairports import HOLD_DISTANCE_FAA_M
+from airhilt.world.surface.airport import Airport, read_airport
+from airhilt.world.surface.draft import write_airport
+from airhilt.world.surface.importer import import_airport
+from airhilt.world.surface.layout import Layout
+from airhilt.world.surface.ourairports import HOLD_DISTANCE_FAA_M
 
 FOLDER = Path(__file__).parent / "ourairports"
 RUNWAYS, FREQUENCIES = FOLDER / "runways.csv", FOLDER / "airport-frequencies.csv"

@@ -9,7 +9,7 @@ from geographiclib.geodesic import Geodesic
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.surface.frame import LocalFrame, distance_and_azimuth, onward
+from airhilt.geodesy.local_frame import LocalFrame, distance_and_azimuth, onward
 
 latitudes = st.floats(-80.0, 80.0)
 longitudes = st.floats(-180.0, 180.0)

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from airhilt.errors import ScenarioError
-from airhilt.surface import kinds
-from airhilt.surface.kinds import kind_names, load_kind
-from airhilt.surface.mover import Creature, Driven
-from airhilt.surface.plane import Plane
+from airhilt.geodesy.plane import Plane
+from airhilt.world.mover import Creature, Driven
+from airhilt.world.surface import kinds
+from airhilt.world.surface.kinds import kind_names, load_kind
 
 GUIDE = Path(__file__).parents[2] / "docs" / "actors.md"
 HERE = (math.radians(38.8521), math.radians(-77.0377))

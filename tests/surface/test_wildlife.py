@@ -10,12 +10,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from airhilt.surface.kinds import load_kind
-from airhilt.surface.mover import SurfaceState
-from airhilt.surface.plane import Plane
-from airhilt.surface.runway import Place
-from airhilt.surface.wildlife import GREATEST_SPREAD_RAD, Animal, flock_aloft
+from airhilt.geodesy.plane import Plane
 from airhilt.units import wrap_angle
+from airhilt.world.mover import SurfaceState
+from airhilt.world.surface.kinds import load_kind
+from airhilt.world.surface.runway import Place
+from airhilt.world.surface.wildlife import GREATEST_SPREAD_RAD, Animal, flock_aloft
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6

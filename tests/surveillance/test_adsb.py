@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.scenario.geometry import Site
+from airhilt.geodesy.relative_motion import relative
 from airhilt.surveillance.adsb import (
     NACP_95_PERCENT_M,
     STATIONARY_AFTER_NS,
@@ -19,8 +19,8 @@ from airhilt.surveillance.adsb import (
     movement_kt,
     quantise,
 )
-from airhilt.surveillance.kinematics import relative
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.site import Site
 
 EVERYWHERE = 500.0 * NAUTICAL_MILE
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 import pytest
 
 from airhilt import load
-from airhilt.flight import AircraftState
-from airhilt.scenario.geometry import Setting
 from airhilt.scenario.models import AircraftActor, Scenario
+from airhilt.sensors.adsb import AdsbSensor
 from airhilt.sim import Director, Priority, Virtual, parse_latency
-from airhilt.surface.mover import carried_on
-from airhilt.surveillance.sensor import AdsbSensor
 from airhilt.units import DEGREE, SECOND_NS
+from airhilt.world.flight import AircraftState
+from airhilt.world.mover import carried_on
+from airhilt.world.site import Setting
 
 STATE = AircraftState(
     latitude_rad=38.9 * DEGREE, longitude_rad=-77.0 * DEGREE, altitude_m=10_668.0,

@@ -8,7 +8,7 @@ from geographiclib.geodesic import Geodesic
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from airhilt.surveillance.kinematics import (
+from airhilt.geodesy.relative_motion import (
     Minima,
     Relative,
     VerticalProfile,

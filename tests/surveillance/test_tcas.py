@@ -2,8 +2,8 @@
 
 import pytest
 
+from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
-from airhilt.surveillance.kinematics import Relative
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 HIGH = 35_000 * FOOT

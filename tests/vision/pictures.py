@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy import ndimage
 
+from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.messages import Box, CameraFrame, CameraInfo, CameraView, VisibleClass
 from airhilt.sim import Input
-from airhilt.workers.vision.detector import Found, Picture
 
 COLOURS: dict[VisibleClass, tuple[int, int, int]] = {
     "airplane": (255, 0, 0),

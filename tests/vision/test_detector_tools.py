@@ -15,10 +15,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from airhilt.cameras.bodies import BodyState
-from airhilt.cameras.dataset import run_lengths
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.embedded import Calibration
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.embedded import Calibration
+from airhilt.sensors.cameras.dataset.coco import run_lengths
+from airhilt.sensors.cameras.scene.bodies import BodyState
 
 TOOLS = Path(__file__).parents[2] / "tools"
 BOX = (40.0, 30.0, 60.0, 40.0)

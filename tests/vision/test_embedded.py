@@ -13,13 +13,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.boxes import overlap
+from airhilt.assistant.asr import ctc
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.embedded import MODEL, Calibration, EmbeddedDetector
+from airhilt.assistant.vision.refiner import SecondLook
+from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
-from airhilt.workers.asr import ctc
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.embedded import MODEL, Calibration, EmbeddedDetector
-from airhilt.workers.vision.second_look import SecondLook
-from airhilt.workers.vision.tiling import Tile
+from airhilt.imaging.boxes import overlap
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +33,13 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     pytest.importorskip("moderngl")
     import datetime
 
-    from airhilt.cameras.bodies import BodyState, aircraft_model
-    from airhilt.cameras.mounts import Camera
-    from airhilt.cameras.stage import air_and_sun
-    from airhilt.cameras.studio import Studio
-    from airhilt.cameras.view import Intrinsics, Pose
-    from airhilt.cameras.world import open_country
     from airhilt.scenario.models import Daylight, Weather
+    from airhilt.sensors.cameras.mounts import Camera
+    from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
+    from airhilt.sensors.cameras.scene.builder import air_and_sun
+    from airhilt.sensors.cameras.scene.landscape import open_country
+    from airhilt.sensors.cameras.scene_renderer import Studio
+    from airhilt.sensors.cameras.view import Intrinsics, Pose
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=10.0)
     light = air_and_sun(Weather(visibility_m=20_000.0), day, 0.8, True)

@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import COLOURS, Blob, BlobDetector, background, with_blobs
 
-from airhilt.boxes import area, moved, shared_area
+from airhilt.assistant.vision.changes import MARGIN_PX, changed_blocks, windows_about
+from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.assistant.vision.gating import Gate
+from airhilt.assistant.vision.tiling import Tile, tiles_of
+from airhilt.imaging.boxes import area, moved, shared_area
 from airhilt.messages import Box
-from airhilt.workers.vision.changes import MARGIN_PX, changed_blocks, windows_about
-from airhilt.workers.vision.detector import Found, Picture, PictureMissed
-from airhilt.workers.vision.gating import Gate
-from airhilt.workers.vision.tiling import Tile, tiles_of
 
 BIG = 1920, 1080
 

@@ -21,9 +21,9 @@ from services import (
     service,
 )
 
+from airhilt.assistant.vision.detector import Found, PictureMissed
+from airhilt.assistant.vision.http import HttpDetector, encode_png
 from airhilt.errors import VisionError
-from airhilt.workers.vision.detector import Found, PictureMissed
-from airhilt.workers.vision.http import HttpDetector, encode_png
 
 PICTURE = with_blobs(background(65, 33), [("airplane", (10, 10, 30, 20))])
 TRUCK = {"label": "truck", "confidence": 0.5, "box": [1, 2, 30, 20]}

@@ -13,12 +13,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.boxes import centre, size_px
-from airhilt.errors import VisionError
-from airhilt.messages import Box, VisibleClass
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.embedded import MODEL, EmbeddedDetector, once
-from airhilt.workers.vision.second_look import (
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.embedded import MODEL, EmbeddedDetector, once
+from airhilt.assistant.vision.refiner import (
     VIEW_PX,
     SecondLook,
     SecondLookCard,
@@ -27,6 +24,9 @@ from airhilt.workers.vision.second_look import (
     refined,
     views_of,
 )
+from airhilt.errors import VisionError
+from airhilt.imaging.boxes import centre, size_px
+from airhilt.messages import Box, VisibleClass
 
 CLASSES = tuple(json.loads(MODEL.with_name("card.json").read_text())["classes"])
 ROWS, COLUMNS = 90, 160

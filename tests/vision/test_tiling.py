@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import BlobDetector, background, with_blobs
 
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.gating import Gate
-from airhilt.workers.vision.tiling import OVERLAP_PX, TILE_PX, Piece, Tile, merged, tiles_of
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.gating import Gate
+from airhilt.assistant.vision.tiling import OVERLAP_PX, TILE_PX, Piece, Tile, merged, tiles_of
 
 
 def test_small_pictures_are_looked_at_in_one_piece() -> None:

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pictures import PERIOD_NS, a, camera_view
 
-from airhilt.cameras.view import Intrinsics, Pose, View
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.tracker import Tracked, Tracker
 from airhilt.messages import CameraView
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.units import SECOND_NS
-from airhilt.workers.vision.detector import Found
-from airhilt.workers.vision.tracker import Tracked, Tracker
 
 VIEW = camera_view()
 Scene = Callable[[float], list[Found]]

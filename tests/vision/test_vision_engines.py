@@ -10,12 +10,12 @@ from types import SimpleNamespace
 import pytest
 from pictures import Told, a, background, frame, info
 
+from airhilt.assistant.reference import reference_worker
+from airhilt.assistant.vision.embedded import MODEL, EmbeddedDetector
+from airhilt.assistant.vision.engines import vision_engine
+from airhilt.assistant.vision.http import HttpDetector
 from airhilt.errors import VisionError
 from airhilt.messages import Detections
-from airhilt.workers.reference import reference_worker
-from airhilt.workers.vision.embedded import MODEL, EmbeddedDetector
-from airhilt.workers.vision.engines import vision_engine
-from airhilt.workers.vision.http import HttpDetector
 
 
 @pytest.mark.parametrize("name", ["", "yolo", "yolo:", "opencv", "ftp://127.0.0.1/", "Embedded"])

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from pictures import BlobDetector, Told, a, background, camera_view, frame, info, with_blobs
 
-from airhilt.cameras.masks import runs_of
+from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.assistant.vision.worker import VisionWorker
 from airhilt.errors import VisionError
+from airhilt.imaging.masks import runs_of
 from airhilt.messages import Detection, Detections
 from airhilt.sim import Input
 from airhilt.workers.pool import parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, WorkerLost
-from airhilt.workers.vision.detector import Found, Picture, PictureMissed
-from airhilt.workers.vision.worker import VisionWorker
 
 EMPTY = background()
 TRUCK = with_blobs(EMPTY, [("truck", (100, 200, 130, 220))])

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from pictures import background
 
+from airhilt.assistant.vision.engines import vision_engine
+from airhilt.assistant.vision.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
 from airhilt.errors import VisionError
-from airhilt.workers.vision.engines import vision_engine
-from airhilt.workers.vision.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
 
 INSTALLED = importlib.util.find_spec("ultralytics") is not None
 pytestmark = [

@@ -1,0 +1,1 @@
+"""The assistant under test: the reference workers."""

@@ -1,0 +1,214 @@
+"""The embedded recogniser: a network that knows the words of aviation and no others.
+
+It is a connectionist temporal classification model (Graves et al., ICML 2006) in ONNX, trained
+by ``tools/train_asr.py``. Its words are those that a call can have, so that noise does not become
+fluent sentences; and where its best guess is poor it says nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from airhilt.assistant.asr.engine import Recognised
+from airhilt.assistant.asr.features import BINS, mel_power, normalised
+from airhilt.assistant.asr.spotting import Spotted, Spotter
+from airhilt.errors import SpeechError, first_line, first_problem
+from airhilt.messages import Confidence
+from airhilt.onnx import open_network
+from airhilt.voices.engine import Audio
+
+FILES = ("ctc.onnx", "words.txt", "card.json")
+EXPECTED = "a network of tools/train_asr.py: features [1, n, 64] to logits [1, n / 6, words + 1]"
+LEAST_SAMPLES = 1_600
+"""A tenth of a second: less holds no word."""
+STEP_FRAMES = 6
+"""Frames of features to a step of posteriors: 60 ms."""
+WINDOW_STEPS = 500
+"""So many at a time are asked of the network, so that a microphone that is stuck for ten minutes
+takes little memory: half a minute."""
+CONTEXT_STEPS = 80
+"""What the network sees on both sides of a window: more than any step of it looks at, so that
+windows change nothing."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """From a posterior to how often it is right: a logistic curve over its log-odds."""
+
+    slope: float
+    offset: float
+
+    def __call__(self, posterior: float) -> float:
+        """Return the share of guesses with this posterior that are right."""
+        bounded = min(max(posterior, 1e-6), 1.0 - 1e-6)
+        log_odds = float(np.log(bounded / (1.0 - bounded)))
+        return float(1.0 / (1.0 + np.exp(-(self.slope * log_odds + self.offset))))
+
+
+class Card(BaseModel):
+    """What `Ctc` reads of ``card.json``."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
+    word_calibration: Calibration
+    """Of the highest posterior of a word."""
+    call_calibration: Calibration
+    """Of the product of the confidences of a call's words."""
+    least_word_confidence: Confidence
+    """Words below it are left out."""
+    least_surest_word: Confidence
+    """Nobody speaks in a transmission whose surest word is below it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Emission:
+    """One word of a path."""
+
+    unit: int
+    posterior: float
+    begin: int
+    """Step at which it begins."""
+
+
+class Ctc:
+    """Recognises with the embedded model, or another of its kind.
+
+    Parameters
+    ----------
+    folder
+        Holds ``ctc.onnx``, ``words.txt`` (a word a line) and ``card.json``; None is the model
+        that ships with AIRHILT.
+
+    Raises
+    ------
+    SpeechError
+        A file is missing, or they do not fit together.
+    """
+
+    name = "embedded"
+
+    def __init__(self, folder: Path | None = None) -> None:
+        where = folder or Path(__file__).parent / "model"
+        missing = [name for name in FILES if not (where / name).is_file()]
+        if missing:
+            raise SpeechError(
+                f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
+                f"{', '.join(FILES)}, as tools/train_asr.py writes them"
+            )
+        self._words = (where / "words.txt").read_text(encoding="utf-8", errors="replace").split()
+        try:
+            card = Card.model_validate_json((where / "card.json").read_bytes())
+        except ValidationError as error:
+            raise SpeechError(
+                f"recogniser {self.name}: {where / 'card.json'} is no model card: "
+                f"{first_problem(error)}; expected it as tools/train_asr.py writes it"
+            ) from None
+        self._word, self._call = card.word_calibration, card.call_calibration
+        self._least = card.least_word_confidence
+        self._least_surest = card.least_surest_word
+        self._roster: tuple[tuple[str, ...], Spotter] | None = None
+        network = where / "ctc.onnx"
+        self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
+        units = self._trial(network)
+        if units != len(self._words) + 1:
+            raise SpeechError(
+                f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
+                f"units apart, words.txt has {len(self._words)}; expected one unit more than words"
+            )
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        """Return the words of a call; see `AsrEngine.recognise`."""
+        if len(audio) < LEAST_SAMPLES:
+            return Recognised("", (), 1.0)
+        if not np.isfinite(audio).all():
+            raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
+        words = [
+            (self._words[step.unit - 1], self._word(step.posterior))
+            for step in self.path(self.posteriors(audio), callsigns)
+        ]
+        surest = max((confidence for _, confidence in words), default=0.0)
+        kept = tuple(each for each in words if each[1] >= self._least)
+        if not kept or surest < self._least_surest:
+            return Recognised("", (), 1.0 - surest)
+        whole = float(np.prod([confidence for _, confidence in words]))
+        return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
+
+    def path(self, posteriors: NDArray[np.float32], callsigns: Sequence[str]) -> list[Emission]:
+        """Return the words of the likeliest path, with the callsign of the roster that is in it."""
+        path = best_path(posteriors)
+        spotted = self._spotter(tuple(callsigns)).spot(posteriors)
+        return path if spotted is None else with_callsign(path, spotted)
+
+    def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
+        if self._roster is None or self._roster[0] != callsigns:
+            self._roster = (callsigns, Spotter(self._words, callsigns))
+        return self._roster[1]
+
+    def posteriors(self, audio: Audio) -> NDArray[np.float32]:
+        """Return the posterior of the blank and of each word, shape (steps of 60 ms, units)."""
+        features = normalised(mel_power(audio))
+        steps = -(-len(features) // STEP_FRAMES)
+        windows = [self._window(features, begin) for begin in range(0, steps, WINDOW_STEPS)]
+        return np.concatenate(windows)
+
+    def _trial(self, network: Path) -> int:
+        """Return how many units the network tells apart.
+
+        Raises
+        ------
+        SpeechError
+            It is a network of another kind.
+        """
+        features = np.zeros((1, 2 * STEP_FRAMES + 1, BINS), np.float32)
+        try:
+            shape = self._session.run(None, {"features": features})[0].shape
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
+            found = first_line(error)
+        else:
+            if len(shape) == 3 and shape[:2] == (1, 3):
+                return int(shape[2])
+            found = f"it makes {list(shape)} of {list(features.shape)}"
+        raise SpeechError(
+            f"recogniser {self.name}: {network} is of another kind: {found}; expected {EXPECTED}"
+        )
+
+    def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
+        """Return the posteriors of the window that begins at a step."""
+        first = max(begin - CONTEXT_STEPS, 0)
+        last = begin + WINDOW_STEPS + CONTEXT_STEPS
+        seen = features[first * STEP_FRAMES : last * STEP_FRAMES]
+        logits = self._session.run(None, {"features": seen[None]})[0][0]
+        logits = logits[begin - first : begin - first + WINDOW_STEPS]
+        weights = np.exp(logits - logits.max(axis=1, keepdims=True))
+        return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
+
+
+def best_path(posteriors: NDArray[np.float32]) -> list[Emission]:
+    """Return the words of the likeliest path, each with its highest posterior."""
+    units = posteriors.argmax(axis=1)
+    peaks = posteriors.max(axis=1)
+    changes = np.flatnonzero(np.diff(units)) + 1
+    bounds = [0, *changes.tolist(), len(units)]
+    return [
+        Emission(int(units[begin]), float(peaks[begin:end].max()), begin)
+        for begin, end in pairwise(bounds)
+        if units[begin] != 0
+    ]
+
+
+def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
+    """Return a path with a callsign in the place of what is in it there."""
+    if spotted.loss == 0.0:
+        return list(path)
+    posterior = float(np.exp(-spotted.loss))
+    return [
+        *(each for each in path if each.begin < spotted.begin),
+        *(Emission(unit, posterior, spotted.begin) for unit in spotted.units),
+        *(each for each in path if each.begin >= spotted.end),
+    ]

@@ -1,0 +1,47 @@
+"""What every engine of speech recognition does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from airhilt.voices.engine import Audio
+
+
+@dataclass(frozen=True, slots=True)
+class Recognised:
+    """The words of one transmission."""
+
+    text: str
+    """Empty when nothing was said."""
+    words: tuple[tuple[str, float], ...]
+    """The words of `text` one by one with their confidences; empty if the engine has none."""
+    confidence: float
+    """In [0, 1], of the whole; of an empty one, that nothing was said."""
+
+
+class AsrEngine(Protocol):
+    """Turns the audio of one transmission into words."""
+
+    @property
+    def name(self) -> str:
+        """Short name, in transcripts and tables."""
+        ...
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        """Return what was said.
+
+        Parameters
+        ----------
+        audio
+            One transmission, 16 kHz.
+        callsigns
+            Of the roster: who may be on the frequency.
+
+        Raises
+        ------
+        airhilt.errors.SpeechError
+            The engine has failed.
+        """
+        ...

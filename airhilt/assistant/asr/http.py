@@ -1,0 +1,80 @@
+"""A recogniser behind an address: WAV goes there, ``{text, confidence?, words?}`` comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from airhilt.assistant.asr.engine import Recognised
+from airhilt.audio.wav import encode_wav
+from airhilt.errors import SpeechError, first_problem
+from airhilt.messages import Confidence, Word
+from airhilt.phraseology.canonical import canonical
+from airhilt.services import HttpService
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+
+TIMEOUT_S = 30.0
+MAXIMUM_BYTES = 1_000_000
+"""Of one answer."""
+WORDS_PER_S = 10.0
+"""Of audio, at most, and as many more in all: twice what people say who talk fast."""
+LETTERS_PER_WORD = 20
+"""A text has at most so many for each word that it may have."""
+
+
+class _Answer(BaseModel):
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
+    text: str
+    confidence: Confidence | None = None
+    words: tuple[Word, ...] = ()
+
+
+class HttpAsr:
+    """Asks a service that answers POST requests with 16 kHz, mono, 16-bit WAV.
+
+    Its ``words``, if it has any, are ``{text, confidence}`` each. Without ``confidence`` that is
+    the mean of theirs, and without them it is 1: the service is taken at its word.
+    """
+
+    name = "http"
+
+    def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
+        self._service = HttpService("ASR http", url, timeout_s, MAXIMUM_BYTES, SpeechError)
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:  # noqa: ARG002
+        """Return what the service makes of the audio; nothing is asked of no audio."""
+        if not audio.size:
+            return Recognised("", (), 1.0)
+        answer = self._parse(self._service.post(encode_wav(audio), "audio/wav"))
+        self._require_sayable(answer, len(audio) / SAMPLE_RATE_HZ)
+        if answer.words:
+            words = canonical((word.text, word.confidence) for word in answer.words)
+            text = " ".join(word for word, _ in words)
+        else:
+            words = ()
+            text = " ".join(word for word, _ in canonical([(answer.text, 1.0)]))
+        confidence = answer.confidence
+        if confidence is None:
+            confidence = float(np.mean([certainty for _, certainty in words])) if words else 1.0
+        return Recognised(text, words, confidence)
+
+    def _require_sayable(self, answer: _Answer, duration_s: float) -> None:
+        most = int(WORDS_PER_S * (1.0 + duration_s))
+        for text in (answer.text, " ".join(word.text for word in answer.words)):
+            count = len(text.split())
+            if count > most or len(text) > most * LETTERS_PER_WORD:
+                raise self._service.error(
+                    f"answered {count} words ({len(text)} letters) to {duration_s:.1f} s of audio",
+                    f"at most {most} words, more than anybody says in that time",
+                )
+
+    def _parse(self, data: bytes) -> _Answer:
+        try:
+            return _Answer.model_validate_json(data)
+        except ValidationError as error:
+            raise self._service.error(
+                f"answered {data[:60]!r}: {first_problem(error)}",
+                'JSON such as {"text": "...", "confidence": 0.9}',
+            ) from None

@@ -1,0 +1,156 @@
+"""Whisper, by faster-whisper: any model that CTranslate2 has converted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from airhilt.assistant.asr.engine import Recognised
+from airhilt.errors import SpeechError, first_line
+from airhilt.phraseology.canonical import canonical
+from airhilt.phraseology.telephony import TELEPHONY
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+
+MODEL_FILES = ("config.json", "model.bin", "tokenizer.json")
+"""Of a folder that CTranslate2's converter made from Whisper with ``--copy_files
+tokenizer.json preprocessor_config.json``. Without tokenizer.json, faster-whisper would look for
+one on the network."""
+VOCABULARIES = ("vocabulary.json", "vocabulary.txt")
+"""One of them is there too."""
+LANGUAGE = "en"
+LEAST_SPEECH_S = 0.3
+"""Less than that is no call: two syllables."""
+SPEECH_PROBABILITY = 0.35
+"""Of the voice activity detector (Silero VAD, which comes with faster-whisper), below its usual
+0.5: a call lost in noise is worse than noise that the model looks at."""
+NO_SPEECH_PROBABILITY = 0.6
+"""Whisper's own opinion that there is none (openai/whisper, `no_speech_threshold`)."""
+LEAST_LOG_PROBABILITY = -1.0
+"""Mean of a segment, below which that opinion counts (openai/whisper, `logprob_threshold`)."""
+BEAMS = 5
+
+
+class Whisper:
+    """Recognises with a Whisper model, offline if it is a folder.
+
+    Noise alone gives nothing: a detector of voice activity is asked first, then the model itself
+    whether there is speech. It begins with the roster's callsigns as hot words. Confidence is the
+    mean of the words', and no better than the model's.
+
+    Parameters
+    ----------
+    model
+        A folder, or the name of a model of the Hugging Face hub.
+
+    Raises
+    ------
+    SpeechError
+        The package or files of the model are missing, or do not load.
+    """
+
+    def __init__(self, model: str) -> None:
+        folder = Path(model)
+        if folder.is_dir():
+            _require_files(folder)
+        elif folder.exists() or folder.is_absolute() or model.startswith("."):
+            raise SpeechError(f"ASR whisper: {model}: no folder; expected {_expected()}")
+        self.name = f"whisper:{folder.resolve().name if folder.is_dir() else model}"
+        try:
+            from faster_whisper.vad import get_speech_timestamps
+
+            from airhilt.assistant.asr.windows import WindowedModel
+        except ImportError as error:
+            raise SpeechError(
+                "ASR whisper: the package faster-whisper is missing or does not load "
+                f"({first_line(error)}); install it with `pip install airhilt[whisper]`"
+            ) from None
+        self._speech_of: Any = get_speech_timestamps
+        try:
+            self._model: Any = WindowedModel(model, compute_type="auto")
+        except Exception as error:  # the network's, the disk's, CTranslate2's
+            raise SpeechError(
+                f"ASR whisper: {model}: does not load: {first_line(error)}; expected "
+                f"{_expected()}, or the name of a model that can be downloaded"
+            ) from None
+        _require_features(model, self._model)
+
+    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
+        """Return what was said; nothing if nobody speaks."""
+        if not np.isfinite(audio).all():
+            raise SpeechError("ASR whisper: audio that is not finite; expected [-1, 1]")
+        if self._speech_s(audio) < LEAST_SPEECH_S:
+            return Recognised("", (), 1.0)
+        try:
+            segments, _ = self._model.transcribe(
+                audio,
+                language=LANGUAGE,
+                beam_size=BEAMS,
+                temperature=0.0,
+                condition_on_previous_text=False,
+                no_speech_threshold=NO_SPEECH_PROBABILITY,
+                log_prob_threshold=LEAST_LOG_PROBABILITY,
+                word_timestamps=True,
+                hotwords=", ".join(map(_as_written, callsigns)) or None,
+            )
+            found = list(segments)
+        except (RuntimeError, ValueError) as error:
+            raise SpeechError(f"ASR whisper: {self.name} failed: {first_line(error)}") from None
+        words = canonical(
+            (word.word, _probability(word.probability))
+            for segment in found
+            for word in segment.words or ()
+        )
+        if not words:
+            return Recognised("", (), 1.0)
+        by_word = float(np.mean([confidence for _, confidence in words]))
+        by_model = min(_probability(math.exp(segment.avg_logprob)) for segment in found)
+        return Recognised(" ".join(word for word, _ in words), words, min(by_word, by_model))
+
+    def _speech_s(self, audio: Audio) -> float:
+        if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
+            return 0.0
+        spells = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
+        return float(sum(spell["end"] - spell["start"] for spell in spells)) / SAMPLE_RATE_HZ
+
+
+def _as_written(callsign: str) -> str:
+    """Return a callsign as Whisper writes it: American 123."""
+    designator, flight = callsign[:3], callsign[3:]
+    if designator in TELEPHONY and flight[:1].isdigit():
+        return f"{TELEPHONY[designator].title()} {flight}"
+    return callsign
+
+
+def _probability(number: float) -> float:
+    return min(max(float(number), 0.0), 1.0)
+
+
+def _expected() -> str:
+    return f"a folder with {', '.join(MODEL_FILES)} and {' or '.join(VOCABULARIES)}"
+
+
+def _require_files(folder: Path) -> None:
+    missing = [name for name in MODEL_FILES if not (folder / name).is_file()]
+    if not any((folder / name).is_file() for name in VOCABULARIES):
+        missing.append(" or ".join(VOCABULARIES))
+    if missing:
+        raise SpeechError(
+            f"ASR whisper: {folder}: without {', '.join(missing)}; expected {_expected()}, as "
+            "`ct2-transformers-converter --copy_files tokenizer.json preprocessor_config.json` "
+            "makes it"
+        )
+
+
+def _require_features(name: str, model: Any) -> None:
+    """Check that the model's input is what will be computed for it."""
+    bands = len(model.feature_extractor.mel_filters)
+    if bands != model.model.n_mels:
+        raise SpeechError(
+            f"ASR whisper: {name}: the model takes {model.model.n_mels} mel bands, and not the "
+            f"{bands} of its preprocessor_config.json; expected that file as it came with the "
+            "model (without it, 80)"
+        )

@@ -1,0 +1,262 @@
+"""The airport as the briefing charts it: runways in local metres, and where the tower separates."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from airhilt.assistant.decision.tracks import Track
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.messages import AirportBriefing, GeodeticPoint, RunwayBriefing
+from airhilt.surveillance.adsb import NACP_95_PERCENT_M
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+from airhilt.world.surface.runway import Place
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    from shapely import LineString, Polygon
+
+ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
+ZONE_HEIGHT_M = 2500.0 * FOOT
+"""The airspace of a tower: class D reaches up to 2,500 ft above the airport (FAA AIM, 3-2-5), by
+custom within some 5 NM."""
+SURELY_INSIDE = 1.25
+"""Times the 95 % error of its position: who is so far inside an area does not stand outside."""
+CLEAR_OF_PAVEMENT_M = 10.0
+"""However inaccurate its position, who is nearer to the pavement is on the runway."""
+RAY_M = 3000.0
+
+
+class Vector(NamedTuple):
+    """East and north, in metres from the airport's centre or without a unit."""
+
+    east: float
+    north: float
+
+
+class TrafficZone(NamedTuple):
+    """Where the tower keeps aircraft apart by sight."""
+
+    latitude_rad: float
+    longitude_rad: float
+    ceiling_m: float
+
+    @classmethod
+    def of(cls, airport: AirportBriefing) -> TrafficZone | None:
+        """Return the zone of an airport, None if it has no runways."""
+        if not airport.runways:
+            return None
+        latitude, longitude = _centre(airport)
+        return cls(latitude, longitude, airport.elevation_ft * FOOT + ZONE_HEIGHT_M)
+
+    def contains(self, track: Track) -> bool:
+        """Return whether an aircraft is in the zone."""
+        meridional, prime_vertical = curvature_radii_m(self.latitude_rad)
+        north_m = (track.latitude_rad - self.latitude_rad) * meridional
+        east_m = (track.longitude_rad - self.longitude_rad) * prime_vertical
+        distance_m = math.hypot(north_m, east_m * math.cos(self.latitude_rad))
+        return distance_m <= ZONE_RADIUS_M and track.altitude_m <= self.ceiling_m
+
+
+@dataclass(frozen=True)
+class Direction:
+    """One direction of a runway."""
+
+    ident: str
+    threshold: Vector
+    ahead: Vector
+    """Of length 1, down the runway."""
+    length_m: float
+    """From the threshold to the end."""
+    half_width_m: float
+    elevation_m: float
+
+    @property
+    def course_rad(self) -> float:
+        """Towards the end."""
+        return math.atan2(self.ahead.east, self.ahead.north)
+
+    def along_m(self, point: Vector) -> float:
+        """Return how far past the threshold a point is; negative before it."""
+        east, north = point.east - self.threshold.east, point.north - self.threshold.north
+        return east * self.ahead.east + north * self.ahead.north
+
+    def across_m(self, point: Vector) -> float:
+        """Return how far to the right of the centre line a point is."""
+        east, north = point.east - self.threshold.east, point.north - self.threshold.north
+        return east * self.ahead.north - north * self.ahead.east
+
+
+class Strip:
+    """A runway with the area that hold-short positions keep clear.
+
+    Attributes
+    ----------
+    name
+        Such as ``01/19``.
+    directions
+        One or both.
+    """
+
+    def __init__(self, directions: tuple[Direction, ...], area: Polygon) -> None:
+        import shapely
+
+        self.name = "/".join(direction.ident for direction in directions)
+        self.directions = directions
+        first = directions[0]
+        self.centreline: LineString = shapely.LineString(
+            [
+                first.threshold,
+                (
+                    first.threshold.east + first.length_m * first.ahead.east,
+                    first.threshold.north + first.length_m * first.ahead.north,
+                ),
+            ]
+        )
+        self._area = area
+        self._pavement: Polygon = self.centreline.buffer(first.half_width_m, cap_style="flat")
+        room_m = float(self._pavement.distance(area.exterior)) - CLEAR_OF_PAVEMENT_M
+        self._margins_m = [
+            max(min(SURELY_INSIDE * error_m, room_m), 0.0) for error_m in NACP_95_PERCENT_M
+        ]
+        self._cores = [area.buffer(-margin_m) for margin_m in self._margins_m]
+        for core in (area, *self._cores):
+            shapely.prepare(core)
+
+    def core(self, nacp: int) -> Polygon:
+        """Return the part of the area in which a position of an accuracy category surely is.
+
+        It is the area less a margin for the error, but at least the pavement.
+        """
+        return self._cores[nacp]
+
+    def margin_m(self, nacp: int) -> float:
+        """Return how far inside the edge of the area that part begins."""
+        return self._margins_m[nacp]
+
+    def contains(self, point: Vector) -> bool:
+        """Return whether a point is in the protected area."""
+        import shapely
+
+        return bool(shapely.contains_xy(self._area, point.east, point.north))
+
+    def share_inside(self, points: npt.NDArray[np.float64]) -> float:
+        """Return the share of some points, shape (n, 2), that is in the protected area."""
+        import shapely
+
+        return float(shapely.contains_xy(self._area, points[:, 0], points[:, 1]).mean())
+
+    def room_m(self, point: Vector, heading_rad: float) -> float:
+        """Return how far it is straight on to the pavement: 0 on it, or if it is not ahead."""
+        way = way_through(self._pavement, point, heading_rad)
+        return 0.0 if way is None else way.entry_m
+
+
+class Way(NamedTuple):
+    """How far it is along a heading to a runway's area, and until it is left behind."""
+
+    entry_m: float
+    """0 inside."""
+    exit_m: float
+
+
+def way_through(core: Polygon, point: Vector, heading_rad: float) -> Way | None:
+    """Return how a way straight on leads through an area; None if it does not."""
+    import shapely
+
+    end = (
+        point.east + RAY_M * math.sin(heading_rad),
+        point.north + RAY_M * math.cos(heading_rad),
+    )
+    inside = shapely.LineString([point, end]).intersection(core)
+    if inside.is_empty:
+        return None
+    here = shapely.Point(point)
+    return Way(float(here.distance(inside)), float(shapely.hausdorff_distance(here, inside)))
+
+
+class Aerodrome:
+    """The runways of an airport in a local frame.
+
+    Attributes
+    ----------
+    ground_m
+        Altitude of the ground above which cameras give heights.
+    """
+
+    def __init__(self, airport: AirportBriefing) -> None:
+        self.ground_m = airport.elevation_ft * FOOT
+        self._frame = LocalFrame(_centre(airport))
+        self.strips = tuple(self._strips(airport))
+        self._by_ident = {
+            direction.ident: strip for strip in self.strips for direction in strip.directions
+        }
+        self._crossings = dict(self._all_crossings())
+
+    def locate(self, latitude_deg: float, longitude_deg: float) -> Vector:
+        """Return a position in the local frame."""
+        return Vector(*self._frame.to_local((latitude_deg * DEGREE, longitude_deg * DEGREE)))
+
+    def strip_of(self, ident: str | None) -> Strip | None:
+        """Return the runway of a designator, None if there is no such."""
+        return self._by_ident.get(ident) if ident else None
+
+    def _strips(self, airport: AirportBriefing) -> list[Strip]:
+        import shapely
+
+        by_ident = {runway.ident: runway for runway in airport.runways}
+        strips = []
+        while by_ident:
+            _, runway = by_ident.popitem()
+            other = by_ident.pop(opposite(runway.ident), None)
+            both = sorted((each for each in (runway, other) if each), key=lambda each: each.ident)
+            area = shapely.Polygon([self._point(corner) for corner in runway.protected_area])
+            strips.append(Strip(tuple(self._direction(each) for each in both), area))
+        return sorted(strips, key=lambda strip: strip.name)
+
+    def _direction(self, runway: RunwayBriefing) -> Direction:
+        threshold, end = self._point(runway.threshold), self._point(runway.end)
+        length_m = math.dist(threshold, end)
+        return Direction(
+            ident=runway.ident,
+            threshold=threshold,
+            ahead=Vector(*((b - a) / length_m for a, b in zip(threshold, end, strict=True))),
+            length_m=length_m,
+            half_width_m=runway.width_m / 2.0,
+            elevation_m=runway.elevation_ft * FOOT,
+        )
+
+    def crossing(self, first: Strip, second: Strip) -> Vector | None:
+        """Return where the centre lines of two runways cross, None if they do not."""
+        return self._crossings.get(frozenset((first.name, second.name)))
+
+    def _all_crossings(self) -> Iterator[tuple[frozenset[str], Vector]]:
+        for first, second in itertools.combinations(self.strips, 2):
+            point = first.centreline.intersection(second.centreline)
+            if not point.is_empty:
+                yield frozenset((first.name, second.name)), Vector(point.x, point.y)
+
+    def _point(self, point: GeodeticPoint) -> Vector:
+        return self.locate(*point)
+
+
+def opposite(ident: str) -> str:
+    """Return the designator of the other direction of a runway."""
+    side = ident.lstrip("0123456789")
+    number = (int(ident[: len(ident) - len(side)]) + 17) % 36 + 1
+    return f"{number:02d}{ {'L': 'R', 'R': 'L'}.get(side, side) }"
+
+
+def _centre(airport: AirportBriefing) -> Place:
+    """Return the middle of the thresholds."""
+    thresholds = [runway.threshold for runway in airport.runways]
+    first_deg = thresholds[0][1]
+    east_deg = [(longitude - first_deg + 180.0) % 360.0 - 180.0 for _, longitude in thresholds]
+    latitude_deg = sum(latitude for latitude, _ in thresholds) / len(thresholds)
+    longitude_deg = first_deg + sum(east_deg) / len(east_deg)
+    return latitude_deg * DEGREE, longitude_deg * DEGREE

@@ -1,0 +1,197 @@
+"""What was cleared and read back about runways, and where the two do not agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from airhilt.messages import Transcript
+from airhilt.phraseology import Action, Call, Instruction
+from airhilt.units import SECOND_NS
+
+LIFETIME_S: dict[Action, float] = {
+    "cleared_to_land": 600.0,
+    "cleared_for_takeoff": 180.0,
+    "line_up": 300.0,
+    "cross": 60.0,
+    "proceed": 180.0,
+}
+"""How long a clearance on to a runway is taken to be in force if nothing ends it."""
+READBACK_WINDOW_NS = 30 * SECOND_NS
+"""A readback later than this after its instruction belongs to something else."""
+DISCREPANCY_NS = 120 * SECOND_NS
+"""How long a wrong readback matters that nobody corrects."""
+REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
+WORDS: dict[Action, str] = {
+    "cleared_to_land": "cleared to land",
+    "cleared_for_takeoff": "cleared for takeoff",
+    "line_up": "line up",
+    "cross": "cross",
+    "proceed": "proceed",
+    "hold_short": "hold short",
+    "hold_position": "hold position",
+    "cancel_takeoff": "cancel takeoff",
+    "go_around": "go around",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """A clearance on to a runway, as it was read back if it was."""
+
+    callsign: str
+    action: Action
+    runway: str | None
+    t_end_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class Discrepancy:
+    """A readback that does not agree with what was said, or comes from somebody else."""
+
+    callsign: str
+    """Who read back."""
+    addressed: str
+    """Who was meant."""
+    given: Instruction | None
+    read: Instruction
+    t_end_ns: int
+
+    @property
+    def words(self) -> str:
+        """What is wrong."""
+        if self.addressed != self.callsign:
+            return f"{words(self.read)} for {self.addressed} was read back by {self.callsign}"
+        given = words(self.given) if self.given else "nothing of the kind"
+        return f"{self.callsign} read back {words(self.read)}, was told {given}"
+
+
+def words(instruction: Instruction) -> str:
+    """Return an instruction in words."""
+    about = f" runway {instruction.runway}" if instruction.runway else ""
+    return f"{WORDS[instruction.action]}{about}"
+
+
+@dataclass(slots=True)
+class _Addressed:
+    """The last call to somebody."""
+
+    instructions: tuple[Instruction, ...]
+    t_end_ns: int
+    answered: bool = False
+
+
+class Clearances:
+    """The clearances about runways that were heard on the frequency."""
+
+    def __init__(self) -> None:
+        self._addressed: dict[str, _Addressed] = {}
+        self._in_force: dict[str, tuple[Clearance, ...]] = {}
+        self._holding: dict[str, str | None] = {}
+        self._discrepancies: dict[str, Discrepancy] = {}
+
+    def take(self, call: Call, transcript: Transcript) -> None:
+        """Take in a call."""
+        said = tuple(each for each in call.instructions if each.action not in REPORTS)
+        if call.callsign is None:
+            return
+        if call.addressed_first:
+            self._addressed[call.callsign] = _Addressed(said, transcript.t_end_ns)
+            if said:
+                self._settle(call.callsign)
+        elif said:
+            said = self._compare(call.callsign, said, transcript)
+        if said:
+            self._act_on(call.callsign, said, transcript.t_end_ns)
+
+    def in_force(self, t_ns: int) -> Iterator[Clearance]:
+        """Yield the clearances that were not used, withdrawn or forgotten."""
+        for clearances in self._in_force.values():
+            for clearance in clearances:
+                if t_ns - clearance.t_end_ns <= LIFETIME_S[clearance.action] * SECOND_NS:
+                    yield clearance
+
+    def is_holding(self, callsign: str, runways: tuple[str, ...]) -> bool:
+        """Return whether somebody was last told to hold, short of one of these runways."""
+        return callsign in self._holding and self._holding[callsign] in (None, *runways)
+
+    def discrepancies(self, t_ns: int) -> Iterator[Discrepancy]:
+        """Yield what nobody has cleared up yet."""
+        for discrepancy in self._discrepancies.values():
+            if t_ns - discrepancy.t_end_ns <= DISCREPANCY_NS:
+                yield discrepancy
+
+    def finish(self, callsign: str, *actions: Action) -> None:
+        """Take in that somebody has done what it was cleared to do."""
+        clearances = self._in_force.get(callsign, ())
+        self._in_force[callsign] = tuple(c for c in clearances if c.action not in actions)
+
+    def _act_on(self, callsign: str, said: tuple[Instruction, ...], t_end_ns: int) -> None:
+        self._in_force[callsign] = tuple(
+            Clearance(callsign, each.action, each.runway, t_end_ns)
+            for each in said
+            if each.action in LIFETIME_S
+        )
+        self._holding.pop(callsign, None)
+        for each in said:
+            if each.action in ("hold_short", "hold_position"):
+                self._holding[callsign] = each.runway
+
+    def _compare(
+        self, callsign: str, read: tuple[Instruction, ...], transcript: Transcript
+    ) -> tuple[Instruction, ...]:
+        """Note where a readback is wrong; return it with the runways that it leaves out."""
+        begun_ns = transcript.t_tx_ns
+        given = self._recent(callsign, begun_ns)
+        complete = []
+        self._settle(callsign)
+        for each in read:
+            said = given.instructions if given else ()
+            match = next(
+                (instruction for instruction in said if instruction.action == each.action), None
+            )
+            other = None if match else self._unanswered(each.action, callsign, begun_ns)
+            complete.append(
+                each if each.runway or not match else Instruction(each.action, match.runway)
+            )
+            if other is not None:
+                self._note(callsign, other, each, each, transcript.t_end_ns)
+            elif match and match.runway and complete[-1].runway != match.runway:
+                self._note(callsign, callsign, match, each, transcript.t_end_ns)
+            elif given and not match and each.action in LIFETIME_S:
+                self._note(callsign, callsign, next(iter(said), None), each, transcript.t_end_ns)
+        if given:
+            given.answered = True
+        return tuple(complete)
+
+    def _recent(self, callsign: str, t_ns: int) -> _Addressed | None:
+        given = self._addressed.get(callsign)
+        return given if given and t_ns - given.t_end_ns <= READBACK_WINDOW_NS else None
+
+    def _unanswered(self, action: Action, but: str, t_ns: int) -> str | None:
+        """Return who else was told the same a moment ago and has not answered."""
+        for callsign in reversed(self._addressed):
+            given = self._recent(callsign, t_ns)
+            if callsign == but or given is None or given.answered:
+                continue
+            if any(each.action == action for each in given.instructions):
+                return callsign
+        return None
+
+    def _note(
+        self,
+        callsign: str,
+        addressed: str,
+        given: Instruction | None,
+        read: Instruction,
+        t_end_ns: int,
+    ) -> None:
+        self._discrepancies[callsign] = Discrepancy(callsign, addressed, given, read, t_end_ns)
+
+    def _settle(self, callsign: str) -> None:
+        """Drop what was wrong with somebody's last readback: there is a new call."""
+        self._discrepancies = {
+            reader: each
+            for reader, each in self._discrepancies.items()
+            if callsign not in (reader, each.addressed)
+        }

@@ -1,0 +1,378 @@
+"""Aircraft that no transponder shows (S02C), seen by cameras of aircraft in flight.
+
+Who stays in one direction and grows is on a collision course. How far away it is cannot be told
+without knowing how large it is; when it will be there can.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from airhilt.assistant.decision.approach import Approach, approach_of
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.line_of_sight import Ray
+from airhilt.assistant.decision.manoeuvres import in_words
+from airhilt.assistant.decision.resolution import STRONG_VERTICAL_RATE_FPM, TURN_DEG
+from airhilt.assistant.decision.visual_tracks import BLIND_NS, Lookout, Sighting, is_established
+from airhilt.messages import (
+    CONTROLLER,
+    Advisory,
+    CameraView,
+    Climb,
+    Evidence,
+    GoAround,
+    Recommendation,
+    Severity,
+    Turn,
+)
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS, wrap_angle
+
+FLOCK_M = 20.0
+AIRLINER_M = 80.0
+"""Across them. What is no larger than this where its line of sight meets the ground may stand
+there."""
+SAME_DIRECTION_RAD = 4.0 * DEGREE
+"""A new track so near to where one was lost is the same aircraft."""
+GROUNDED_M = 20.0
+"""A camera without ADS-B that is no higher above the ground is on an aircraft that stands on it."""
+LEAST_CLIMB_FT = 500.0
+LEVEL_STEP_FT = 100.0
+LEAST_HEIGHT_M = 600.0
+"""Lower, nobody is sent down."""
+LEVEL_RAD = 0.5 * DEGREE
+"""Who is seen so little above or below the horizon is at about the same level."""
+ABOVE_SIZES = 1.0
+"""Who will pass so many of its sizes higher passes above."""
+AHEAD_RAD = 15.0 * DEGREE
+BESIDE_RAD = 60.0 * DEGREE
+BEHIND_RAD = 120.0 * DEGREE
+UNRELIABLE_S = 90.0
+"""A longer time to contact is not worth telling."""
+
+
+@dataclass(frozen=True)
+class IntruderConfig:
+    """Thresholds for aircraft that are only seen.
+
+    An airliner's camera finds a light aircraft at some 2 or 3 km: there is a quarter of a minute
+    until the encounter, of which a crew takes 5 s to react. So there is no long way from CAUTION
+    to WARNING, and a doubtful WARNING is told.
+    """
+
+    advisory_s: float = 90.0
+    caution_s: float = 60.0
+    warning_s: float = 25.0
+    near_sizes: float = 25.0
+    """Who passes so many of its own sizes away is near: 275 m for a light aircraft."""
+    warning_sizes: float = 12.0
+    """Likewise for a WARNING: 130 m, somewhat less than the 500 ft between VFR and IFR levels."""
+    persistence_s: float = 0.4
+    """How long a severity must hold before it is told."""
+    release_s: float = 20.0
+    """How long it must be past before it is told so: who is overtaken falls back slowly."""
+
+
+class _Encounter(NamedTuple):
+    """An aircraft that sees something come, as it is now."""
+
+    carrier: str
+    sighting: Sighting
+    approach: Approach
+    severity: Severity | None
+    """None: it passes by, or is far."""
+
+    @property
+    def ray(self) -> Ray:
+        return self.sighting.last.ray
+
+    @property
+    def past_ns(self) -> int:
+        """When the two have surely met."""
+        error_s = self.approach.closing_error * self.approach.time_s**2
+        left_s = min(self.approach.time_s + error_s, UNRELIABLE_S)
+        return self.sighting.last.t_ns + round(left_s * SECOND_NS)
+
+
+@dataclass(slots=True)
+class _Alert:
+    """One encounter from first suspicion to its end."""
+
+    id: str
+    carrier: str
+    encounter: _Encounter
+    escalation: Escalation = field(default_factory=Escalation)
+    recommendation: Recommendation | None = None
+    revision: int = 0
+    past_ns: int = 0
+
+
+class IntruderWatch:
+    """Watches what cameras of aircraft in flight show and no transponder explains.
+
+    Parameters
+    ----------
+    runway_of
+        Returns the runway that an aircraft, by its callsign, is on final for; None if it is not.
+    """
+
+    def __init__(
+        self,
+        config: IntruderConfig,
+        name: str,
+        lookout: Lookout,
+        runway_of: Callable[[str], str | None],
+    ) -> None:
+        self.config = config
+        self._name = name
+        self._lookout = lookout
+        self._runway_of = runway_of
+        self._alerts: list[_Alert] = []
+        self._told = 0
+
+    @property
+    def is_alert(self) -> bool:
+        """Whether there is an encounter to be judged again even without news."""
+        return bool(self._alerts)
+
+    def judge(self, t_ns: int, t_ready_ns: int) -> list[Advisory]:
+        """Return what is to be told after all that was taken in."""
+        advisories: list[Advisory] = []
+        threatened: set[str] = set()
+        for encounter in self._encounters(t_ns):
+            alert = self._known(encounter)
+            if alert is not None and encounter.approach.closing > 0.0:
+                alert.past_ns = encounter.past_ns
+            if encounter.severity is None:
+                continue
+            alert = alert or self._new(encounter)
+            if alert.id not in threatened:
+                threatened.add(alert.id)
+                alert.encounter = encounter
+                advisories += self._raise(t_ns, t_ready_ns, alert, encounter.severity)
+        for alert in [alert for alert in self._alerts if alert.id not in threatened]:
+            advisories += self._calm(t_ns, t_ready_ns, alert)
+        return advisories
+
+    # --- what is seen -----------------------------------------------------------------------
+
+    def _encounters(self, t_ns: int) -> Iterator[_Encounter]:
+        """Yield what is seen in the air, the most urgent first."""
+        found = []
+        for sighting in self._lookout:
+            carrier = sighting.carrier
+            if carrier is None or not self._is_flying(sighting.last.eye.view):
+                continue
+            if not self._is_unknown(sighting) or _may_stand(sighting):
+                continue
+            approach = approach_of(sighting.glimpses)
+            if approach is not None:
+                severity = self._grade(sighting, approach, t_ns)
+                found.append(_Encounter(carrier, sighting, approach, severity))
+        found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))
+        yield from found
+
+    def _is_flying(self, view: CameraView) -> bool:
+        """Return whether the aircraft that a camera is on is in the air."""
+        report = self._lookout.traffic.carrier(view)
+        return view.height_m > GROUNDED_M if report is None else not report.on_ground
+
+    def _is_unknown(self, sighting: Sighting) -> bool:
+        """Return whether nobody else keeps a camera's carrier and what it sees apart.
+
+        That takes a transponder of both.
+        """
+        is_carrier_known = self._lookout.traffic.carrier(sighting.last.eye.view) is not None
+        return sighting.explained_by is None or not is_carrier_known
+
+    def _grade(self, sighting: Sighting, approach: Approach, t_ns: int) -> Severity | None:
+        """Return how urgent it is that something comes."""
+        config, miss = self.config, approach.least_miss()
+        left_s = approach.time_s - (t_ns - sighting.last.t_ns) / SECOND_NS
+        if miss > config.near_sizes or approach.closing < approach.closing_error:
+            return None
+        if left_s < 0.0:
+            return None
+        is_sure = is_established((sighting,)) and approach.is_growing
+        if is_sure and left_s <= config.warning_s and miss <= config.warning_sizes:
+            return Severity.WARNING
+        if is_sure and left_s <= config.caution_s:
+            return Severity.CAUTION
+        return Severity.ADVISORY if left_s <= config.advisory_s else None
+
+    # --- what is told -----------------------------------------------------------------------
+
+    def _known(self, encounter: _Encounter) -> _Alert | None:
+        """Return the alert of what a carrier sees, None if there is none yet."""
+        for alert in self._alerts:
+            last = alert.encounter
+            if alert.carrier == encounter.carrier and (
+                last.sighting is encounter.sighting
+                or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
+            ):
+                return alert
+        return None
+
+    def _new(self, encounter: _Encounter) -> _Alert:
+        self._told += 1
+        alert = _Alert(f"{self._name}-intruder-{self._told}", encounter.carrier, encounter)
+        alert.past_ns = encounter.past_ns
+        self._alerts.append(alert)
+        return alert
+
+    def _raise(
+        self, t_ns: int, t_ready_ns: int, alert: _Alert, severity: Severity
+    ) -> list[Advisory]:
+        if not alert.escalation.rises(severity, t_ns, self.config.persistence_s):
+            return []
+        if alert.escalation.severity is Severity.WARNING:
+            alert.recommendation = self._recommended(alert.encounter)
+        return self._advisories(t_ns, t_ready_ns, alert)
+
+    def _calm(self, t_ns: int, t_ready_ns: int, alert: _Alert) -> list[Advisory]:
+        """End an encounter once it is past; who gives way is not to go back before."""
+        if alert.escalation.severity is None:
+            if alert.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
+                self._alerts.remove(alert)
+            return []
+        if t_ns < alert.past_ns:
+            alert.escalation.stays()
+            return []
+        if not alert.escalation.is_over(t_ns, self.config.release_s):
+            return []
+        self._alerts.remove(alert)
+        return self._advisories(t_ns, t_ready_ns, alert, active=False)
+
+    def _recommended(self, encounter: _Encounter) -> Recommendation:
+        """Return how to stay clear: up or down, away from it; else to the right.
+
+        Within half a minute more distance is gained vertically, and less of it is needed. To the
+        right is what either does who meets head-on, and who overtakes (14 CFR 91.113).
+        """
+        runway = self._runway_of(encounter.carrier)
+        if runway is not None:
+            return GoAround(runway=runway)
+        view = encounter.sighting.last.eye.view
+        report = self._lookout.traffic.carrier(view)
+        if report is None or report.altitude_ft is None:
+            return Turn(degrees=TURN_DEG)
+        sense = _sense(encounter, report.vertical_rate_fpm * FOOT_PER_MINUTE)
+        if sense < 0 and view.height_m - LEAST_CLIMB_FT * FOOT < LEAST_HEIGHT_M:
+            return Turn(degrees=TURN_DEG)
+        level = (report.altitude_ft + sense * LEAST_CLIMB_FT) / LEVEL_STEP_FT
+        rounded = math.ceil(level) if sense > 0 else math.floor(level)
+        return Climb(
+            sense="climb" if sense > 0 else "descend",
+            altitude_ft=rounded * LEVEL_STEP_FT,
+            vertical_rate_fpm=STRONG_VERTICAL_RATE_FPM,
+        )
+
+    def _advisories(
+        self, t_ns: int, t_ready_ns: int, alert: _Alert, active: bool = True
+    ) -> list[Advisory]:
+        """Return the advisory for each recipient; crews hear from CAUTION on."""
+        encounter = alert.encounter
+        severity = alert.escalation.severity or Severity.INFO
+        to_crew = severity.rank >= Severity.CAUTION.rank
+        recipients = (alert.carrier, CONTROLLER) if to_crew else (CONTROLLER,)
+        other = encounter.sighting.explained_by
+        since_s = (t_ns - encounter.sighting.last.t_ns) / SECOND_NS
+        left_s = min(max(encounter.approach.time_s - since_s, 0.0), UNRELIABLE_S)
+        advisories = [
+            Advisory(
+                id=alert.id,
+                revision=alert.revision,
+                recipient=recipient,
+                recipients=recipients,
+                kind="loss_of_separation",
+                severity=severity if active else Severity.INFO,
+                active=active,
+                traffic=(alert.carrier,) if other is None else (alert.carrier, other),
+                message=_words(recipient, alert, left_s) if active else "clear of conflict",
+                recommendation=alert.recommendation if active and recipient != CONTROLLER else None,
+                evidence=Evidence(
+                    sources=("vision",) if other is None else ("vision", "adsb"),
+                    time_to_closest_approach_s=left_s,
+                    note=_note(encounter),
+                ),
+                t_ready_ns=t_ready_ns,
+            )
+            for recipient in recipients
+        ]
+        alert.revision += 1
+        return advisories
+
+
+def _rank(severity: Severity | None) -> int:
+    return -1 if severity is None else severity.rank
+
+
+def _may_stand(sighting: Sighting) -> bool:
+    """Return whether something may stand on the ground, by its size if it did."""
+    last = sighting.last
+    view: CameraView = last.eye.view
+    depression_rad = -last.eye.foot(last.box).elevation_rad
+    if depression_rad <= 0.0 or view.height_m <= 0.0:
+        return False
+    distance_m = view.height_m / math.sin(depression_rad)
+    largest_m = FLOCK_M if sighting.label == "bird" else AIRLINER_M
+    return max(last.size_rad) * distance_m <= largest_m
+
+
+def _sense(encounter: _Encounter, vertical_rate_m_s: float) -> int:
+    """Return 1 for up and -1 for down: away from where it is, or will be."""
+    above = encounter.approach.passes_above()
+    if abs(above) > ABOVE_SIZES and _is_told(encounter.approach):
+        return -1 if above > 0.0 else 1
+    if encounter.sighting.label == "bird":
+        return 1  # Birds that take fright dive.
+    elevation_rad = encounter.ray.elevation_rad
+    if abs(elevation_rad) > LEVEL_RAD:
+        return -1 if elevation_rad > 0.0 else 1
+    return -1 if vertical_rate_m_s < 0.0 else 1
+
+
+def _is_told(approach: Approach) -> bool:
+    """Return whether it surely turns upwards, or downwards."""
+    return abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
+
+
+def _words(recipient: str, alert: _Alert, left_s: float) -> str:
+    encounter, recommendation = alert.encounter, alert.recommendation
+    # Whatever a detector takes it for: nothing else flies.
+    what = "birds" if encounter.sighting.label == "bird" else "traffic"
+    other = encounter.sighting.explained_by
+    who = f"{what} {other}" if other else what
+    where = _where(encounter)
+    unseen = "" if other or what == "birds" else ", no transponder"
+    if recipient == CONTROLLER:
+        when = f", {left_s:.0f} s" if left_s < UNRELIABLE_S else ""
+        text = f"{alert.carrier}: {who} {where}{unseen}, closing{when}"
+        return f"{text}; {alert.carrier} {in_words(recommendation)}" if recommendation else text
+    advice = in_words(recommendation) if recommendation else "look out"
+    return f"{recipient} {who} {where}{unseen}, closing, {advice}"
+
+
+def _where(encounter: _Encounter) -> str:
+    """Return where something is as the crew sees it."""
+    heading_rad = encounter.sighting.last.eye.view.heading_deg * DEGREE
+    right_rad = wrap_angle(encounter.ray.azimuth_rad - heading_rad)
+    side = "right" if right_rad > 0.0 else "left"
+    if abs(right_rad) <= AHEAD_RAD:
+        return "ahead"
+    if abs(right_rad) <= BESIDE_RAD:
+        return f"ahead to the {side}"
+    return f"to the {side}" if abs(right_rad) <= BEHIND_RAD else "behind"
+
+
+def _note(encounter: _Encounter) -> str:
+    """Return what the estimates rest on."""
+    approach, sighting = encounter.approach, encounter.sighting
+    turning = math.hypot(*approach.turning_rad_s) / DEGREE
+    error_s = approach.closing_error * approach.time_s**2
+    return (
+        f"{sighting.camera}: contact in {approach.time_s:.0f} s, give or take {error_s:.0f} s; "
+        f"direction turns by {turning:.2f} degrees/s"
+    )

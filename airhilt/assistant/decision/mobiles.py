@@ -1,0 +1,234 @@
+"""What the assistant believes of each aircraft and vehicle at an airport, and how it uses runways.
+
+A mobile, in the words of surface surveillance (ICAO Doc 9830), is either.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from airhilt.assistant.decision.aerodrome import Direction, Strip, Vector
+from airhilt.messages import AdsbReport
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS, wrap_angle
+
+SPEED_MEMORY = 0.6
+"""Weight of the earlier speed in the exponential mean; about 1 s at two reports a second."""
+MEMORY_NS = 2 * SECOND_NS
+"""After a longer silence the mean begins anew."""
+FINAL_M = 5.0 * NAUTICAL_MILE
+"""Looked at before a threshold."""
+ALIGNED_RAD = 15.0 * DEGREE
+FINAL_WIDTH_M = 120.0
+FINAL_WIDENING = 0.08
+"""An aircraft on final is within the width, and this part of its distance, of the centre line."""
+STEEPEST = math.tan(5.0 * DEGREE)
+HEIGHT_ALLOWANCE_M = 150.0
+"""It is lower than a steep glide path, by no more than this above it."""
+DESCENDING_M_S = 100 * FOOT_PER_MINUTE
+LOW_M = 60.0
+"""Below this height it need not descend to be landing."""
+CLIMBING_M_S = 200 * FOOT_PER_MINUTE
+CLIMB_OUT_M = 300.0
+"""An aircraft that climbs along the runway uses it up to this height."""
+BEYOND_M = 2.0 * NAUTICAL_MILE
+"""And so far before or past it."""
+STANDING_M_S = 1.5
+"""Slower than this, somebody stands."""
+ROLLING_M_S = 25.0 * KNOT
+"""Faster than anybody taxies along a runway."""
+ACCELERATING_FROM_M_S = 5.0
+GAIN_M_S = 3.0
+"""Slower, a departure is known by how much its speed exceeds its own slow mean."""
+SLOW_SPEED_MEMORY = 0.9
+"""Of the slow mean; about 5 s."""
+BESIDE_M = 25.0
+"""Who is no farther from the pavement is on it: the position's error, and an aircraft's size."""
+TOUCHDOWN_M = 400.0
+"""Past the threshold, where a landing touches down."""
+BRAKING_M_S2 = 1.8
+"""Of a normal rollout."""
+TAKEOFF_M_S2 = 1.8
+"""Of a normal takeoff."""
+OVERRUN_M = 500.0
+"""Pavement before a displaced threshold or past the end, at most."""
+VEHICLE_CATEGORIES = ("C1", "C2")
+
+
+@dataclass(slots=True)
+class Mobile:
+    """One aircraft or vehicle; all as of ``t_ns``."""
+
+    icao24: str
+    callsign: str
+    t_ns: int
+    point: Vector
+    altitude_m: float | None
+    """None on the ground."""
+    speed_m_s: float
+    heading_rad: float
+    """On the ground; in flight the track."""
+    vertical_rate_m_s: float
+    nacp: int
+    is_vehicle: bool
+    slow_speed_m_s: float
+    """The mean of the speed over some seconds."""
+    landed: bool = False
+    """It has landed, and not left the runway since."""
+
+    @property
+    def on_ground(self) -> bool:
+        """Whether it is on the ground."""
+        return self.altitude_m is None
+
+    @property
+    def is_rolling(self) -> bool:
+        """Whether it is faster, or gathers speed more, than in taxiing."""
+        gain_m_s = self.speed_m_s - self.slow_speed_m_s
+        gathers = self.speed_m_s >= ACCELERATING_FROM_M_S and gain_m_s >= GAIN_M_S
+        return self.speed_m_s >= ROLLING_M_S or (gathers and not self.landed)
+
+    @classmethod
+    def of(cls, report: AdsbReport, point: Vector) -> Mobile:
+        """Return a new one."""
+        return cls(
+            report.icao24,
+            report.callsign or report.icao24,
+            report.t_adsb_in_ns,
+            point,
+            None if report.altitude_ft is None else report.altitude_ft * FOOT,
+            report.ground_speed_kt * KNOT,
+            report.track_deg * DEGREE,
+            report.vertical_rate_fpm * FOOT_PER_MINUTE,
+            report.nacp,
+            report.emitter_category in VEHICLE_CATEGORIES,
+            report.ground_speed_kt * KNOT,
+        )
+
+    def update(self, report: AdsbReport, point: Vector) -> None:
+        """Take in a newer report."""
+        fresh = Mobile.of(report, point)
+        recent = fresh.t_ns - self.t_ns < MEMORY_NS
+        keep, keep_slow = (SPEED_MEMORY, SLOW_SPEED_MEMORY) if recent else (0.0, 0.0)
+        if fresh.on_ground:
+            self.landed = self.landed or not self.on_ground
+        else:
+            self.landed = False
+        self.callsign = report.callsign or self.callsign
+        self.t_ns, self.point, self.altitude_m = fresh.t_ns, point, fresh.altitude_m
+        self.speed_m_s = keep * self.speed_m_s + (1.0 - keep) * fresh.speed_m_s
+        self.slow_speed_m_s = keep_slow * self.slow_speed_m_s + (1.0 - keep_slow) * fresh.speed_m_s
+        self.heading_rad = fresh.heading_rad
+        self.vertical_rate_m_s = fresh.vertical_rate_m_s
+        self.nacp = fresh.nacp
+        self.is_vehicle = self.is_vehicle or fresh.is_vehicle
+
+
+Kind = Literal["arrival", "departure", "rollout"]
+
+
+class Use(NamedTuple):
+    """How an aircraft uses a runway, as of the last report."""
+
+    mobile: Mobile
+    strip: Strip
+    direction: Direction
+    kind: Kind
+    along_m: float
+
+    @property
+    def is_climbing(self) -> bool:
+        """Whether it is a departure that has left the ground."""
+        return self.kind == "departure" and not self.mobile.on_ground
+
+    def time_to_threshold_s(self, t_ns: int) -> float:
+        """Return how long until it crosses the threshold; 0 once it has."""
+        return self._left_s(-self.along_m / max(self.mobile.speed_m_s, 1.0), t_ns)
+
+    def time_to_s(self, along_m: float, t_ns: int) -> float | None:
+        """Return when it will be a distance past the threshold; None if it is past, or stops.
+
+        An arrival brakes after it has touched down, a departure accelerates, both evenly.
+        """
+        speed, distance_m = self.mobile.speed_m_s, along_m - self.along_m
+        if distance_m < 0.0:
+            return None
+        if self.kind == "departure":
+            root = math.sqrt(speed * speed + 2.0 * TAKEOFF_M_S2 * distance_m)
+            return self._left_s((root - speed) / TAKEOFF_M_S2, t_ns)
+        flown_m = max(TOUCHDOWN_M - self.along_m, 0.0) if self.kind == "arrival" else 0.0
+        if distance_m <= flown_m:
+            return self._left_s(distance_m / max(speed, 1.0), t_ns)
+        left = speed * speed - 2.0 * BRAKING_M_S2 * (distance_m - flown_m)
+        if left < 0.0:
+            return None
+        braked_s = (speed - math.sqrt(left)) / BRAKING_M_S2
+        return self._left_s(flown_m / max(speed, 1.0) + braked_s, t_ns)
+
+    def _left_s(self, time_s: float, t_ns: int) -> float:
+        return max(time_s - (t_ns - self.mobile.t_ns) / SECOND_NS, 0.0)
+
+
+def use_of(mobile: Mobile, strips: tuple[Strip, ...]) -> Use | None:
+    """Return how somebody uses a runway: the one whose centre line is nearest."""
+    found: list[tuple[float, Use]] = []
+    for strip in strips:
+        for direction in strip.directions:
+            across_m = abs(direction.across_m(mobile.point))
+            along_m = direction.along_m(mobile.point)
+            if abs(wrap_angle(mobile.heading_rad - direction.course_rad)) > ALIGNED_RAD:
+                continue
+            kind = (
+                _rolling(mobile, direction, along_m, across_m)
+                if mobile.altitude_m is None
+                else _flying(mobile, mobile.altitude_m, direction, along_m, across_m)
+            )
+            if kind is not None:
+                found.append((across_m, Use(mobile, strip, direction, kind, along_m)))
+    return min(found, key=lambda each: each[0])[1] if found else None
+
+
+def _rolling(mobile: Mobile, direction: Direction, along_m: float, across_m: float) -> Kind | None:
+    if mobile.is_vehicle or not mobile.is_rolling:
+        return None
+    if not is_on_pavement(direction, along_m, across_m):
+        return None
+    return "rollout" if mobile.landed else "departure"
+
+
+def _flying(
+    mobile: Mobile, altitude_m: float, direction: Direction, along_m: float, across_m: float
+) -> Kind | None:
+    height_m = altitude_m - direction.elevation_m
+    rate = mobile.vertical_rate_m_s
+    width_m = FINAL_WIDTH_M + FINAL_WIDENING * max(-along_m, along_m - direction.length_m, 0.0)
+    if across_m > width_m or along_m < -FINAL_M:
+        return None
+    if rate > CLIMBING_M_S:
+        near = -BEYOND_M <= along_m <= direction.length_m + BEYOND_M
+        return "departure" if near and height_m <= CLIMB_OUT_M else None
+    low = height_m <= LOW_M
+    lands = along_m <= direction.length_m and (rate < -DESCENDING_M_S or low)
+    beneath_m = HEIGHT_ALLOWANCE_M + STEEPEST * max(-along_m, 0.0)
+    return "arrival" if lands and height_m <= beneath_m else None
+
+
+def is_on_pavement(direction: Direction, along_m: float, across_m: float) -> bool:
+    """Return whether a position is on a runway's pavement, or would be but for its error."""
+    return (
+        across_m <= direction.half_width_m + BESIDE_M
+        and -OVERRUN_M <= along_m <= direction.length_m + OVERRUN_M
+    )
+
+
+def lined_up_on(mobile: Mobile, strip: Strip) -> Direction | None:
+    """Return the direction in which an aircraft stands, or taxies, on a runway's centre line."""
+    if mobile.is_vehicle or mobile.landed or not mobile.on_ground:
+        return None
+    for direction in strip.directions:
+        aligned = abs(wrap_angle(mobile.heading_rad - direction.course_rad)) <= ALIGNED_RAD
+        across_m = abs(direction.across_m(mobile.point))
+        if aligned and is_on_pavement(direction, direction.along_m(mobile.point), across_m):
+            return direction
+    return None

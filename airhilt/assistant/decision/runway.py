@@ -1,0 +1,222 @@
+"""Conflicts on runways (S01A, S01B, S01C): told to those concerned, and to the controller."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from airhilt.assistant.decision.aerodrome import Strip
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
+from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.threats import Assessment, RunwayConfig, Threat
+from airhilt.assistant.decision.visual_tracks import Lookout
+from airhilt.messages import (
+    CONTROLLER,
+    AdsbReport,
+    Advisory,
+    Briefing,
+    CancelTakeoff,
+    Evidence,
+    GoAround,
+    HoldPosition,
+    Recommendation,
+    Severity,
+    Transcript,
+)
+
+FIRM_BRAKING_M_S2 = 2.5
+"""Who can stop so before the pavement is told to."""
+
+
+@dataclass(slots=True)
+class _Alert:
+    """One conflict from first suspicion to its end."""
+
+    id: str
+    threat: Threat
+    escalation: Escalation = field(default_factory=Escalation)
+    revision: int = 0
+
+
+class RunwayWatch:
+    """Watches the runways of the airport in the briefing; without one it has nothing to do."""
+
+    def __init__(self, config: RunwayConfig, name: str, lookout: Lookout) -> None:
+        self.config = config
+        self._name = name
+        self._lookout = lookout
+        self._situation: Situation | None = None
+        self._alerts: dict[tuple[str, ...], _Alert] = {}
+        self._told = 0
+
+    @property
+    def is_alert(self) -> bool:
+        """Whether there is a conflict to be judged again even without news."""
+        return bool(self._alerts)
+
+    def runway_of_arrival(self, callsign: str) -> str | None:
+        """Return the runway that somebody is on final for, None if it is on none."""
+        situation = self._situation
+        mobile = None if situation is None else situation.mobile(callsign)
+        use = None if situation is None or mobile is None else situation.use(mobile)
+        return None if use is None or use.kind != "arrival" else use.direction.ident
+
+    def take_briefing(self, briefing: Briefing) -> None:
+        """Take in the airport, and who is expected there."""
+        if briefing.airport is not None and briefing.airport.runways:
+            self._situation = Situation(briefing.airport, briefing.roster)
+
+    def take_report(self, report: AdsbReport) -> None:
+        """Take in where an aircraft or a vehicle is."""
+        if self._situation is not None:
+            self._situation.take_report(report)
+
+    def take_transcript(self, transcript: Transcript) -> None:
+        """Take in a call."""
+        if self._situation is not None:
+            self._situation.take_transcript(transcript)
+
+    def judge(self, t_ns: int, t_ready_ns: int) -> list[Advisory]:
+        """Return what is to be told after all that was taken in."""
+        situation = self._situation
+        if situation is None:
+            return []
+        situation.forget(t_ns)
+        situation.look(self._lookout)
+        threats: dict[tuple[str, ...], Threat] = {}
+        for threat in Assessment(situation, self.config, t_ns).threats():
+            known = threats.setdefault(threat.key, threat)
+            if threat.severity.rank > known.severity.rank:
+                threats[threat.key] = threat
+        advisories: list[Advisory] = []
+        for threat in threats.values():
+            advisories += self._raise(t_ns, t_ready_ns, threat, situation)
+        for key in [key for key in self._alerts if key not in threats]:
+            advisories += self._calm(t_ns, t_ready_ns, key)
+        return advisories
+
+    def _raise(
+        self, t_ns: int, t_ready_ns: int, threat: Threat, situation: Situation
+    ) -> list[Advisory]:
+        alert = self._alerts.get(threat.key)
+        if threat.severity is Severity.INFO:
+            if alert is not None:
+                alert.escalation.stays()
+            return []
+        if alert is None:
+            self._told += 1
+            alert = self._alerts[threat.key] = _Alert(f"{self._name}-runway-{self._told}", threat)
+        alert.threat = threat
+        # What was said does not become surer by being heard again, and what is seen has lasted.
+        persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
+        if not alert.escalation.rises(threat.severity, t_ns, persistence_s):
+            return []
+        severity = alert.escalation.severity or threat.severity
+        advice = {
+            callsign: self._advice(mobile, threat, severity, situation)
+            for callsign in threat.parties
+            if (mobile := situation.mobile(callsign)) is not None
+        }
+        return self._advisories(t_ready_ns, alert, severity, advice)
+
+    def _calm(self, t_ns: int, t_ready_ns: int, key: tuple[str, ...]) -> list[Advisory]:
+        alert = self._alerts[key]
+        if alert.escalation.severity is None:
+            del self._alerts[key]
+            return []
+        if not alert.escalation.is_over(t_ns, self.config.release_s):
+            return []
+        del self._alerts[key]
+        return self._advisories(t_ready_ns, alert, Severity.INFO, {}, active=False)
+
+    # --- what to do about it ----------------------------------------------------------------
+
+    def _advice(
+        self, mobile: Mobile, threat: Threat, severity: Severity, situation: Situation
+    ) -> Recommendation | None:
+        """Return what somebody can do to stay clear.
+
+        On final and while rolling that is for a WARNING only; on final also if a readback was
+        wrong and time is short.
+        """
+        use = situation.use(mobile)
+        if use is None:
+            return _stop(mobile, threat.strip, threat.runway)
+        is_urgent = severity is Severity.WARNING
+        if use.kind == "arrival":
+            time_to_go_s = use.time_to_threshold_s(mobile.t_ns)
+            misread = threat.kind == "readback_mismatch" and time_to_go_s <= self.config.caution_s
+            return GoAround(runway=use.direction.ident) if is_urgent or misread else None
+        if use.kind == "departure" and mobile.on_ground and is_urgent:
+            return CancelTakeoff(runway=use.direction.ident)
+        return None
+
+    def _advisories(
+        self,
+        t_ready_ns: int,
+        alert: _Alert,
+        severity: Severity,
+        advice: dict[str, Recommendation | None],
+        active: bool = True,
+    ) -> list[Advisory]:
+        """Return the advisory for each recipient; crews and drivers hear from CAUTION on."""
+        threat, told = alert.threat, alert.escalation.severity or severity
+        concerned = threat.parties if told.rank >= Severity.CAUTION.rank else ()
+        recipients = (*concerned, CONTROLLER)
+        advisories = [
+            Advisory(
+                id=alert.id,
+                revision=alert.revision,
+                recipient=recipient,
+                recipients=recipients,
+                kind=threat.kind,
+                severity=severity,
+                active=active,
+                traffic=threat.traffic,
+                message=_words(recipient, threat, advice) if active else "clear of conflict",
+                recommendation=advice.get(recipient),
+                evidence=Evidence(
+                    sources=threat.sources,
+                    runway=threat.runway,
+                    time_to_go_s=threat.time_to_go_s,
+                    note=threat.text,
+                ),
+                t_ready_ns=t_ready_ns,
+            )
+            for recipient in recipients
+        ]
+        alert.revision += 1
+        return advisories
+
+
+def _stop(mobile: Mobile, strip: Strip, runway: str) -> Recommendation | None:
+    """Return what somebody on the ground can do who does not use a runway yet.
+
+    Who is on the pavement already, or leaves it, had better go on.
+    """
+    if not mobile.on_ground:
+        return None
+    lined_up = lined_up_on(mobile, strip)
+    if lined_up is not None:
+        return CancelTakeoff(runway=lined_up.ident)
+    braking_m = mobile.speed_m_s**2 / (2.0 * FIRM_BRAKING_M_S2)
+    if strip.room_m(mobile.point, mobile.heading_rad) > braking_m:
+        return HoldPosition(runway=runway)
+    return None
+
+
+def _words(recipient: str, threat: Threat, advice: dict[str, Recommendation | None]) -> str:
+    when = "" if threat.time_to_go_s is None else f", {threat.time_to_go_s:.0f} s to go"
+    if recipient == CONTROLLER:
+        said = [f"{name} {_order(each)}" for name, each in advice.items() if each is not None]
+        user = "" if threat.kind == "readback_mismatch" else f"{threat.parties[0]}, "
+        return "; ".join([f"{user}{threat.text}{when}", *said])
+    recommended = advice.get(recipient)
+    order = "" if recommended is None else f" {_order(recommended)},"
+    is_other = recipient in threat.parties[1:]
+    text = threat.text_for_other if is_other and threat.text_for_other else threat.text
+    return f"{recipient}{order} {text.removeprefix(f'{recipient} ')}{when}"
+
+
+def _order(recommendation: Recommendation) -> str:
+    return recommendation.action.replace("_", " ")

@@ -1,0 +1,213 @@
+"""What is known of an airport's runways now: who uses them, what is on them, what was said."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from airhilt.assistant.decision.aerodrome import Aerodrome, Strip, Way, way_through
+from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
+from airhilt.assistant.decision.occupancy import (
+    SeenAloft,
+    SeenOnGround,
+    seen_aloft,
+    seen_on_ground,
+    velocity_of,
+)
+from airhilt.assistant.decision.visual_tracks import Lookout
+from airhilt.messages import AdsbReport, AirportBriefing, RosterEntry, Transcript
+from airhilt.phraseology import Call, parse_call
+from airhilt.units import SECOND_NS
+
+STALE_NS = 15 * SECOND_NS
+"""Age at which somebody is forgotten."""
+STALE_STANDING_NS = 30 * SECOND_NS
+"""Likewise who stands, and squitters every five seconds."""
+WILDLIFE_NS = 120 * SECOND_NS
+"""How long wildlife stays where it was reported."""
+LEAST_CHANCE = 0.2
+"""What is less probably in a protected area is beside it."""
+SURE_CHANCE = 0.8
+"""What is at least so probably in it is there."""
+ACCURATE_NACP = 11
+
+
+class Obstacle(NamedTuple):
+    """Somebody on the ground, by ADS-B, whose way straight on leads through a protected area."""
+
+    mobile: Mobile
+    way: Way
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether it is in the area now."""
+        return self.way.entry_m <= 0.0
+
+
+class SeenObstacle(NamedTuple):
+    """Something in a protected area that only cameras show.
+
+    Attributes
+    ----------
+    exit_m
+        How far it is, straight on, to where it leaves the area.
+    weight
+        How sure it is that it is there, and in the area.
+    is_sure
+        Whether both are beyond doubt.
+    """
+
+    thing: SeenOnGround
+    speed_m_s: float
+    exit_m: float
+    weight: float
+    is_sure: bool
+
+    @property
+    def clear_s(self) -> float | None:
+        """When it will have left the area; None if it stands."""
+        return self.exit_m / self.speed_m_s if self.speed_m_s >= STANDING_M_S else None
+
+
+class Situation:
+    """The runways of an airport, and everybody near them."""
+
+    def __init__(self, airport: AirportBriefing, roster: tuple[RosterEntry, ...]) -> None:
+        self.aerodrome = Aerodrome(airport)
+        self.clearances = Clearances()
+        self.uses: dict[str, Use] = {}
+        """By address."""
+        self._roster = {entry.callsign: entry.category == "vehicle" for entry in roster}
+        """Whether it is a vehicle, by callsign."""
+        self._mobiles: dict[str, Mobile] = {}
+        self._obstacles: dict[str, dict[str, Obstacle]] = {
+            strip.name: {} for strip in self.aerodrome.strips
+        }
+        """By runway and address."""
+        self._wildlife_ns: dict[str, int] = {}
+        """When it was last reported, by runway."""
+        self.aloft: tuple[SeenAloft, ...] = ()
+        self._seen: dict[str, list[SeenObstacle]] = {}
+        """By runway."""
+
+    def is_vehicle(self, callsign: str) -> bool:
+        """Return whether the roster has somebody as a vehicle."""
+        return self._roster.get(callsign, False)
+
+    def mobile(self, callsign: str) -> Mobile | None:
+        """Return who has a callsign, if it is seen."""
+        return next((m for m in self._mobiles.values() if m.callsign == callsign), None)
+
+    def use(self, mobile: Mobile) -> Use | None:
+        """Return how somebody uses a runway, if it does."""
+        return self.uses.get(mobile.icao24)
+
+    def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
+        """Yield who is on a runway, or has it straight ahead."""
+        yield from self._obstacles[strip.name].values()
+
+    def seen(self, strip: Strip) -> Iterator[SeenObstacle]:
+        """Yield what only cameras show on a runway."""
+        yield from self._seen.get(strip.name, ())
+
+    def look(self, lookout: Lookout) -> None:
+        """Take in what cameras show on the ground, and in the air."""
+        self.aloft = tuple(seen_aloft(lookout, self.aerodrome))
+        things = list(seen_on_ground(lookout, self.aerodrome, self.aloft))
+        self._seen = {
+            strip.name: [
+                obstacle
+                for thing in things
+                if (obstacle := self._seen_on(strip, thing)) is not None
+            ]
+            for strip in self.aerodrome.strips
+        }
+
+    def _seen_on(self, strip: Strip, thing: SeenOnGround) -> SeenObstacle | None:
+        """Return something that cameras show as an obstacle, None if it is not on a runway."""
+        chance = thing.spot.chance(strip.share_inside)
+        if chance < LEAST_CHANCE:
+            return None
+        # Nobody knows where an animal will go: it stands.
+        east, north = (0.0, 0.0) if thing.is_animal else velocity_of(thing, self.aerodrome)
+        ahead = way_through(
+            strip.core(ACCURATE_NACP), thing.spot.point, heading_rad=math.atan2(east, north)
+        )
+        return SeenObstacle(
+            thing,
+            speed_m_s=math.hypot(east, north),
+            exit_m=0.0 if ahead is None else ahead.exit_m,
+            weight=thing.belief * chance,
+            is_sure=thing.is_established and chance >= SURE_CHANCE,
+        )
+
+    def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
+        """Return whether wildlife was reported on a runway a short while ago."""
+        reported_ns = self._wildlife_ns.get(strip.name)
+        return reported_ns is not None and t_ns - reported_ns <= WILDLIFE_NS
+
+    def take_report(self, report: AdsbReport) -> None:
+        """Take in where an aircraft or a vehicle is."""
+        point = self.aerodrome.locate(report.latitude_deg, report.longitude_deg)
+        mobile = self._mobiles.get(report.icao24)
+        if mobile is None:
+            mobile = self._mobiles[report.icao24] = Mobile.of(report, point)
+        elif report.t_adsb_in_ns < mobile.t_ns:
+            return
+        else:
+            mobile.update(report, point)
+        mobile.is_vehicle = mobile.is_vehicle or self._roster.get(mobile.callsign, False)
+        self._place(mobile)
+
+    def _place(self, mobile: Mobile) -> None:
+        """Work out which runways somebody is on, is heading for, or uses."""
+        for strip in self.aerodrome.strips:
+            obstacles, core = self._obstacles[strip.name], strip.core(mobile.nacp)
+            way = way_through(core, mobile.point, mobile.heading_rad) if mobile.on_ground else None
+            if way is None:
+                obstacles.pop(mobile.icao24, None)
+            else:
+                obstacles[mobile.icao24] = Obstacle(mobile, way)
+        if not mobile.on_ground:
+            self.clearances.finish(mobile.callsign, "cleared_for_takeoff", "line_up")
+        elif mobile.landed and not any(s.contains(mobile.point) for s in self.aerodrome.strips):
+            mobile.landed = False
+            self.clearances.finish(mobile.callsign, "cleared_to_land")
+        use = use_of(mobile, self.aerodrome.strips)
+        if use is None:
+            self.uses.pop(mobile.icao24, None)
+        else:
+            self.uses[mobile.icao24] = use
+
+    def forget(self, t_ns: int) -> None:
+        """Forget those of whom nothing was heard for a while."""
+        for icao24, mobile in list(self._mobiles.items()):
+            standing = mobile.on_ground and mobile.speed_m_s < STANDING_M_S
+            if t_ns - mobile.t_ns > (STALE_STANDING_NS if standing else STALE_NS):
+                del self._mobiles[icao24]
+                self.uses.pop(icao24, None)
+                for obstacles in self._obstacles.values():
+                    obstacles.pop(icao24, None)
+
+    def take_transcript(self, transcript: Transcript) -> None:
+        """Take in a call."""
+        known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
+        call = parse_call(transcript.text, sorted(known))
+        for said in call.instructions:
+            if said.action == "wildlife":
+                for strip in self._reported_on(said.runway, call):
+                    self._wildlife_ns[strip.name] = transcript.t_end_ns
+            elif said.action == "wildlife_gone":
+                for strip in self._reported_on(said.runway, call):
+                    self._wildlife_ns.pop(strip.name, None)
+        self.clearances.take(call, transcript)
+
+    def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
+        """Return the runway named, or that of whose call it is, or all: "deer on the runway"."""
+        strip = self.aerodrome.strip_of(runway)
+        if strip is not None:
+            return (strip,)
+        used = [use.strip for use in self.uses.values() if use.mobile.callsign == call.callsign]
+        return tuple(used) or self.aerodrome.strips

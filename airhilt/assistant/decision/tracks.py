@@ -1,0 +1,109 @@
+"""What the assistant believes of each aircraft in flight, from ADS-B and from what was said."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from airhilt.geodesy.relative_motion import VerticalProfile, curvature_radii_m
+from airhilt.messages import AdsbReport
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+
+LEVEL_BELOW_M_S = 200 * FOOT_PER_MINUTE
+"""A slower climb or descent counts as level flight: three quanta of the ADS-B vertical rate."""
+LEVEL_WITHIN_M = 200 * FOOT
+"""An aircraft this near to its cleared level is levelling off there, whatever the filtered rate
+still says (the tolerance of ICAO Doc 4444, 8.5.5.2.1, in RVSM airspace)."""
+VELOCITY_MEMORY = 0.6
+"""Weight of the earlier velocity in the exponential mean; about 1 s at two reports a second."""
+
+
+@dataclass(slots=True)
+class Track:
+    """One aircraft; position as of ``t_ns``."""
+
+    icao24: str
+    callsign: str
+    t_ns: int
+    latitude_rad: float
+    longitude_rad: float
+    altitude_m: float
+    velocity_north_m_s: float
+    velocity_east_m_s: float
+    vertical_rate_m_s: float
+    cleared_m: float | None = None
+    """Level that it was last cleared to and read back, or read back otherwise."""
+    in_distress: bool = False
+    """It goes where it can, not where it is told."""
+
+    @classmethod
+    def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
+        """Return a new track."""
+        north, east = _velocity(report)
+        return cls(
+            report.icao24,
+            report.callsign or report.icao24,
+            report.t_adsb_in_ns,
+            report.latitude_deg * DEGREE,
+            report.longitude_deg * DEGREE,
+            altitude_ft * FOOT,
+            north,
+            east,
+            report.vertical_rate_fpm * FOOT_PER_MINUTE,
+        )
+
+    def update(self, report: AdsbReport, altitude_ft: float) -> None:
+        """Take in a newer report; an older one is ignored."""
+        if report.t_adsb_in_ns < self.t_ns:
+            return
+        north, east = _velocity(report)
+        keep = VELOCITY_MEMORY
+        self.callsign = report.callsign or self.callsign
+        self.t_ns = report.t_adsb_in_ns
+        self.latitude_rad = report.latitude_deg * DEGREE
+        self.longitude_rad = report.longitude_deg * DEGREE
+        self.altitude_m = altitude_ft * FOOT
+        self.velocity_north_m_s = keep * self.velocity_north_m_s + (1.0 - keep) * north
+        self.velocity_east_m_s = keep * self.velocity_east_m_s + (1.0 - keep) * east
+        rate = report.vertical_rate_fpm * FOOT_PER_MINUTE
+        self.vertical_rate_m_s = keep * self.vertical_rate_m_s + (1.0 - keep) * rate
+
+    def at(self, t_ns: int) -> Track:
+        """Return the track carried on to a time."""
+        elapsed = (t_ns - self.t_ns) / SECOND_NS
+        meridional, prime_vertical = curvature_radii_m(self.latitude_rad)
+        return Track(
+            self.icao24,
+            self.callsign,
+            t_ns,
+            self.latitude_rad + self.velocity_north_m_s * elapsed / (meridional + self.altitude_m),
+            self.longitude_rad
+            + self.velocity_east_m_s
+            * elapsed
+            / ((prime_vertical + self.altitude_m) * math.cos(self.latitude_rad)),
+            self.profile().at(elapsed),
+            self.velocity_north_m_s,
+            self.velocity_east_m_s,
+            self.vertical_rate_m_s,
+            self.cleared_m,
+            self.in_distress,
+        )
+
+    def profile(self) -> VerticalProfile:
+        """Return where it is going vertically: to the cleared level, if it moves towards it."""
+        rate = self.vertical_rate_m_s
+        if abs(rate) < LEVEL_BELOW_M_S:
+            return VerticalProfile(self.altitude_m, 0.0)
+        if self.cleared_m is None:
+            return VerticalProfile(self.altitude_m, rate)
+        to_go_m = self.cleared_m - self.altitude_m
+        if to_go_m * rate > 0.0:
+            return VerticalProfile(self.altitude_m, rate, self.cleared_m)
+        if abs(to_go_m) <= LEVEL_WITHIN_M:
+            return VerticalProfile(self.altitude_m, 0.0)
+        return VerticalProfile(self.altitude_m, rate)
+
+
+def _velocity(report: AdsbReport) -> tuple[float, float]:
+    speed, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
+    return speed * math.cos(track), speed * math.sin(track)

@@ -1,0 +1,132 @@
+"""Who is known by ADS-B, and whether what a camera shows is one of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, Eye, Ray
+from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.messages import AdsbReport, Box, CameraView, EmitterCategory
+from airhilt.surveillance.adsb import NACP_95_PERCENT_M
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+
+STALE_NS = 15 * SECOND_NS
+STALE_ON_GROUND_NS = 30 * SECOND_NS
+"""Age at which somebody is forgotten; who stands squitters every five seconds."""
+HALF_SIZE_M: dict[EmitterCategory | None, float] = {
+    "A1": 8.0, "A2": 14.0, "A3": 21.0, "A5": 38.0, "C1": 7.0, "C2": 7.0,
+}  # fmt: skip
+UNKNOWN_HALF_SIZE_M = 38.0
+ALTITUDE_ERROR_M = 25.0
+"""Of a difference of pressure altitudes: steps of 25 ft, and altimeters that differ."""
+DRIFT_M_S = 3.0
+"""By which an extrapolated place may be wrong, for each second of its age."""
+EXPLAINED_SIGMAS = 2.0
+LARGER_THAN_IT_IS = 3.0
+"""What looks so many times as large as somebody would, is not that one but nearer."""
+SMALLEST_PX = 4.0
+ON_GROUND_HEIGHT_M = 2.0
+"""Of the middle of somebody on the ground, about."""
+OWN_RANGE_M = 30.0
+"""Who is so near to a camera is its carrier."""
+
+
+class Traffic:
+    """The last report of everybody who has a transponder.
+
+    Attributes
+    ----------
+    ground_m
+        Pressure altitude of the ground, None while nothing tells it.
+    """
+
+    def __init__(self) -> None:
+        self.ground_m: float | None = None
+        self._reports: dict[str, AdsbReport] = {}
+
+    def take_report(self, report: AdsbReport) -> None:
+        """Take in where somebody is."""
+        self._reports[report.icao24] = report
+
+    def forget(self, t_ns: int) -> None:
+        """Forget those of whom nothing was heard for a while."""
+        for icao24, report in list(self._reports.items()):
+            stale_ns = STALE_ON_GROUND_NS if report.on_ground else STALE_NS
+            if t_ns - report.t_adsb_in_ns > stale_ns:
+                del self._reports[icao24]
+
+    def carrier(self, view: CameraView) -> AdsbReport | None:
+        """Return the last report of the aircraft that a camera is on, if there is one."""
+        return next((r for r in self._reports.values() if _name(r) == view.carrier), None)
+
+    def learn_ground(self, view: CameraView, t_ns: int) -> None:
+        """Take in how high above ground the camera of an aircraft in flight is."""
+        report = self.carrier(view)
+        if report is not None and report.altitude_ft is not None:
+            climbed_m = report.vertical_rate_fpm * FOOT_PER_MINUTE * _age_s(report, t_ns)
+            self.ground_m = report.altitude_ft * FOOT + climbed_m - view.height_m
+
+    def explaining(self, eye: Eye, box: Box, t_ns: int) -> str | None:
+        """Return the callsign of who should be seen where a box is; None if nobody."""
+        for report in self._others(eye.view):
+            if self._fits(report, eye, box, t_ns):
+                return _name(report)
+        return None
+
+    def _others(self, view: CameraView) -> Iterator[AdsbReport]:
+        for report in self._reports.values():
+            if view.carrier is None or _name(report) != view.carrier:
+                yield report
+
+    def _fits(self, report: AdsbReport, eye: Eye, box: Box, t_ns: int) -> bool:
+        view, age_s = eye.view, _age_s(report, t_ns)
+        track, speed = report.track_deg * DEGREE, report.ground_speed_kt * KNOT
+        meridional, prime_vertical = curvature_radii_m(view.latitude_deg * DEGREE)
+        north_m = (report.latitude_deg - view.latitude_deg) * DEGREE * meridional
+        turn_deg = math.remainder(report.longitude_deg - view.longitude_deg, 360.0)
+        east_m = turn_deg * DEGREE * prime_vertical * math.cos(view.latitude_deg * DEGREE)
+        north_m += speed * math.cos(track) * age_s
+        east_m += speed * math.sin(track) * age_s
+        up_m = self._height_m(report, age_s)
+        up_m = None if up_m is None else up_m - view.height_m
+        range_m = math.hypot(north_m, east_m, up_m or 0.0)
+        if range_m < OWN_RANGE_M:
+            return False
+        # Without a height, the direction alone counts.
+        level_up = up_m if up_m is not None else math.hypot(north_m, east_m) * _slope(eye, box)
+        place = eye.pixel(Ray.towards(east_m, north_m, level_up))
+        if place is None:
+            return False
+        half_size_m = HALF_SIZE_M.get(report.emitter_category, UNKNOWN_HALF_SIZE_M)
+        error_m = NACP_95_PERCENT_M[report.nacp] + DRIFT_M_S * abs(age_s) + half_size_m
+        room_px = EXPLAINED_SIGMAS * BOX_ERROR_PX
+        across_px = error_m / range_m * eye.focal_px + room_px
+        along_px = (error_m + ALTITUDE_ERROR_M) / range_m * eye.focal_px + room_px
+        largest_px = LARGER_THAN_IT_IS * 2.0 * half_size_m / range_m * eye.focal_px + SMALLEST_PX
+        return (
+            box[0] - across_px <= place[0] <= box[2] + across_px
+            and box[1] - along_px <= place[1] <= box[3] + along_px
+            and max(box[2] - box[0], box[3] - box[1]) <= largest_px
+        )
+
+    def _height_m(self, report: AdsbReport, age_s: float) -> float | None:
+        """Return how high above the ground somebody is."""
+        if report.altitude_ft is None:
+            return ON_GROUND_HEIGHT_M
+        if self.ground_m is None:
+            return None
+        climbed_m = report.vertical_rate_fpm * FOOT_PER_MINUTE * age_s
+        return report.altitude_ft * FOOT + climbed_m - self.ground_m
+
+
+def _slope(eye: Eye, box: Box) -> float:
+    return math.tan(eye.middle(box).elevation_rad)
+
+
+def _age_s(report: AdsbReport, t_ns: int) -> float:
+    return (t_ns - report.t_adsb_in_ns) / SECOND_NS
+
+
+def _name(report: AdsbReport) -> str:
+    return report.callsign or report.icao24

@@ -1,0 +1,83 @@
+"""Speaks advisories."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+from airhilt.audio.wav import SAMPLE_BYTES, to_pcm
+from airhilt.messages import (
+    SPEAK_MIN_LEVEL,
+    Advisory,
+    AdvisoryAudio,
+    DeclaredLatency,
+    InputSpec,
+    Severity,
+    WorkerDescription,
+)
+from airhilt.phraseology.aloud import read_aloud
+from airhilt.phraseology.numbers import Style
+from airhilt.sim.worker import Input, Output
+from airhilt.voices.engine import TtsEngine
+from airhilt.workers.protocol import Step
+
+ASSISTANT = "ASSISTANT"
+"""The speaker whose voice the assistant has."""
+
+
+class TtsWorker:
+    """Implements `airhilt.workers.Worker`: one voice, for what is urgent.
+
+    An advisory to several recipients comes once to each; each copy is spoken, as everybody has
+    a loudspeaker of his own.
+
+    Parameters
+    ----------
+    speak_min_level
+        The least severity that is spoken.
+    style
+        How numbers are said.
+    """
+
+    def __init__(
+        self,
+        engine: TtsEngine,
+        speak_min_level: Severity = SPEAK_MIN_LEVEL,
+        style: Style = "faa",
+        name: str = "tts",
+    ) -> None:
+        self.description = WorkerDescription(
+            name=name,
+            modality="voice",
+            inputs=(InputSpec(key="advisory/*", policy="fifo"),),
+            latency=DeclaredLatency(median_s=0.1),
+        )
+        self._engine = engine
+        self._voice = engine.voice_of(ASSISTANT)
+        self._speak_min_level = speak_min_level
+        self._style = style
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
+        """Speak the advisories that are active and urgent enough."""
+        advisories = (Advisory.model_validate_json(item.payload) for item in inputs)
+        return Step(
+            tuple(self._speak(advisory) for advisory in advisories if self._is_spoken(advisory))
+        )
+
+    def _is_spoken(self, advisory: Advisory) -> bool:
+        return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
+
+    def _speak(self, advisory: Advisory) -> Output:
+        text = read_aloud(advisory.message, advisory.recipient, self._style)
+        pcm = to_pcm(self._engine.synthesise(text, self._voice))
+        header = AdvisoryAudio(
+            id=advisory.id,
+            revision=advisory.revision,
+            recipient=advisory.recipient,
+            text=text,
+            t_dec_ns=advisory.t_ns,
+            engine=self._engine.name,
+            samples=len(pcm) // SAMPLE_BYTES,
+            sha256=hashlib.sha256(pcm).hexdigest(),
+        )
+        return Output(f"tts/{advisory.id}", pcm, attachment=header.model_dump(mode="json"))

@@ -1,0 +1,90 @@
+"""Where a picture has changed, and which windows are to be looked at for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from airhilt.assistant.vision.detector import GRID_PX, Picture
+from airhilt.assistant.vision.tiling import Tile
+from airhilt.imaging.boxes import area, shared_area, within
+from airhilt.messages import Box
+
+LEAST_CHANGE = 2
+"""Levels of 255 by which a pixel must change."""
+MARGIN_PX = 48
+"""Between a change and the edges of the window about it, unless the picture ends there."""
+MARGIN_BLOCKS = MARGIN_PX // GRID_PX - 1
+"""Of that, about what is next to a change."""
+
+Blocks = npt.NDArray[np.bool_]
+"""Squares of `GRID_PX`, shape (down, across)."""
+NEXT_TO = np.ones((3, 3), dtype=bool)
+
+
+def changed_blocks(before: Picture, after: Picture) -> Blocks:
+    """Return in which blocks any pixel has changed by `LEAST_CHANGE` or more."""
+    rows, columns, colours = before.shape
+    blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
+    starts = np.arange(0, columns * colours, GRID_PX * colours)
+    for index, strip in enumerate(blocks):
+        part = slice(index * GRID_PX, (index + 1) * GRID_PX)
+        one, other = before[part], after[part]
+        if not np.array_equal(one, other):
+            change = np.maximum(one, other) - np.minimum(one, other)
+            most = change.reshape(len(change), -1).max(axis=0)
+            strip[:] = np.maximum.reduceat(most, starts) >= LEAST_CHANGE
+    return blocks
+
+
+def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int) -> list[Tile]:
+    """Return windows about all changes, on the grid, none of which touches another.
+
+    Each of the boxes, those of what was there before, lies in a window with all that it has, or
+    in none. At the edges of the picture windows are no smaller than elsewhere.
+    """
+    parts = ndimage.find_objects(ndimage.label(ndimage.binary_dilation(blocks, NEXT_TO))[0])
+    waiting: list[Box] = []
+    for down, across in parts:
+        left, right = _inside(across, blocks.shape[1])
+        top, bottom = _inside(down, blocks.shape[0])
+        waiting.append((left, top, right, bottom))
+    windows: list[Box] = []
+    while waiting:
+        window = waiting.pop()
+        met = [other for other in windows if shared_area(_about([window], 1.0), other)]
+        cut = [box for box in boxes if 0.0 < shared_area(window, box) < area(box)]
+        if met or cut:
+            windows = [other for other in windows if other not in met]
+            waiting.append(_about([window, *met, *cut]))
+        else:
+            windows.append(window)
+    return [_tile(window, rows, columns) for window in windows]
+
+
+def _inside(changed: slice, blocks: int) -> tuple[float, float]:
+    """Return where a window begins and ends along a side of so many blocks, in pixels."""
+    first, end = changed.start - MARGIN_BLOCKS, changed.stop + MARGIN_BLOCKS
+    back, on = max(end - blocks, 0), max(-first, 0)
+    return max(first - back, 0) * GRID_PX, min(end + on, blocks) * GRID_PX
+
+
+def _about(boxes: Sequence[Box], margin_px: float = 0.0) -> Box:
+    """Return the smallest box on the grid about others and a margin."""
+    left, top = (min(box[side] for box in boxes) - margin_px for side in (0, 1))
+    right, bottom = (max(box[side] for box in boxes) + margin_px for side in (2, 3))
+    return (
+        math.floor(left / GRID_PX) * GRID_PX,
+        math.floor(top / GRID_PX) * GRID_PX,
+        math.ceil(right / GRID_PX) * GRID_PX,
+        math.ceil(bottom / GRID_PX) * GRID_PX,
+    )
+
+
+def _tile(window: Box, rows: int, columns: int) -> Tile:
+    left, top, right, bottom = map(round, within(window, columns, rows))
+    return Tile(top, left, bottom - top, right - left)

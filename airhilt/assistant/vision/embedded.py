@@ -1,0 +1,258 @@
+"""The embedded detector: a small network that was trained on pictures of AIRHILT.
+
+It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850), and then
+once more at each place where one may be: see `airhilt.assistant.vision.refiner`.
+``tools/train_detector.py`` and ``tools/train_second_look.py`` make the networks, and
+docs/detector.md says how well they see.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import onnxruntime
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
+from airhilt.assistant.vision.refiner import SecondLook, SecondLookCard
+from airhilt.assistant.vision.tiling import Tile
+from airhilt.errors import VisionError, first_line, first_problem
+from airhilt.imaging.boxes import area, moved, size_px, within
+from airhilt.messages import Confidence, VisibleClass
+from airhilt.onnx import open_network
+
+MODEL = Path(__file__).with_name("model") / "detector.onnx"
+CARD = "card.json"
+EXPECTED = (
+    "a network of tools/train_detector.py: 'picture', uint8 [1, rows, columns, 3], to 'found', "
+    "float [1, n, 6]: left, top, right, bottom, score, class"
+)
+SMALLEST_PX = 64
+"""Pictures get at least so many pixels on each side, and a multiple of `GRID_PX`: their last rows
+and columns are repeated."""
+REFERENCE_PX = 32.0
+MOST_LOG_ODDS = 30.0
+LEAST_SCORE = 1e-4
+"""Scores are taken for no less than it, and for no more than one less it."""
+THREADS = 2
+"""While a picture is looked at, a run waits: two threads look sooner."""
+UNSURE = 0.5
+"""Times the threshold: unsure findings are reported too, for what is being followed."""
+
+
+class Calibration(BaseModel):
+    """How likely it is that a finding is true, by the network's score, the size and the class.
+
+    The logarithm of the odds is ``of_class + logit x + size u + size_squared u^2 +
+    logit_and_size x u``, where ``x`` is that of the score and ``u`` the binary logarithm of the
+    longest side of the box over `REFERENCE_PX` (J. Platt, 1999, with the size besides): a network
+    takes specks for something more easily than it takes anything for a big body.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    of_class: dict[VisibleClass, float] = {}
+    logit: float = 1.0
+    size: float = 0.0
+    size_squared: float = 0.0
+    logit_and_size: float = 0.0
+
+    def log_odds(self, label: VisibleClass, score: float, longest_px: float) -> float:
+        """Return the logarithm of the odds that a finding is true."""
+        score = min(max(score, LEAST_SCORE), 1.0 - LEAST_SCORE)
+        x, u = math.log(score / (1.0 - score)), math.log2(max(longest_px, 1.0) / REFERENCE_PX)
+        slope = self.logit + self.logit_and_size * u
+        return self.of_class.get(label, 0.0) + slope * x + (self.size + self.size_squared * u) * u
+
+
+class Card(BaseModel):
+    """What `EmbeddedDetector` reads of the ``card.json`` beside a network."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
+    classes: Annotated[tuple[VisibleClass, ...], Field(min_length=1)]
+    """By the number in the network's output."""
+    threshold: Confidence
+    """Confidence from which a finding counts by itself: with it there is one false detection a
+    minute and camera; docs/detector.md has what comes of it elsewhere."""
+    calibration: Calibration = Calibration()
+    second_look: SecondLookCard | None = None
+    """Without it the first network has the last word."""
+
+
+class EmbeddedDetector:
+    """Detects with the network that ships with AIRHILT, or another of its kind.
+
+    Parameters
+    ----------
+    path
+        ONNX file, with its ``card.json`` beside it.
+    threshold
+        Confidence below which nothing is reported; None: `UNSURE` times the card's.
+    threads
+        That share the work.
+
+    Attributes
+    ----------
+    sure
+        Confidence from which a finding counts by itself.
+
+    Raises
+    ------
+    VisionError
+        A file is missing, or is not what it must be.
+    """
+
+    name = "embedded"
+
+    def __init__(
+        self, path: Path | None = None, threshold: float | None = None, threads: int = THREADS
+    ) -> None:
+        file = path or MODEL
+        card = _card(file.with_name(CARD))
+        self._classes = card.classes
+        self._calibration = card.calibration
+        self.sure = card.threshold
+        self._threshold = UNSURE * card.threshold if threshold is None else threshold
+        if not 0.0 <= self._threshold <= 1.0:
+            raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
+        self._subject = f"detector {file}"
+        self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
+        _require_shapes(self._network, self._subject)
+        self._second_look = (
+            None
+            if card.second_look is None
+            else SecondLook(card.second_look, file.parent, card.classes, threads)
+        )
+
+    def detect(self, picture: Picture) -> Sequence[Found]:
+        """Return what is in a picture; see `Detector.detect`."""
+        return self._told(picture, self.proposed(picture))
+
+    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+        """Return what is in a part of a picture; see `airhilt.assistant.vision.gating.SeesParts`.
+
+        The first network was trained on tiles of 96 to 288 pixels. The second look has all of the
+        picture.
+        """
+        proposed = self.proposed(part.of(picture))
+        return self._told(
+            picture,
+            [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed],
+        )
+
+    def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
+        found = [
+            one._replace(confidence=self._confidence(one))
+            for one in self._judged(picture, proposed)
+        ]
+        told = sorted(
+            (one for one in found if one.confidence >= self._threshold),
+            key=lambda one: -one.confidence,
+        )
+        return told if self._second_look is None else once(told)
+
+    def uncalibrated(self, picture: Picture) -> list[Found]:
+        """Return all findings of the last network, with its scores as confidences.
+
+        The second look may move several onto one body.
+
+        Raises
+        ------
+        VisionError
+            A network has failed, or this is no picture.
+        """
+        return self._judged(picture, self.proposed(picture))
+
+    def _judged(self, picture: Picture, proposed: list[Found]) -> list[Found]:
+        if self._second_look is None:
+            return proposed
+        rows, columns = picture.shape[:2]
+        places = self._second_look.places(proposed, rows * columns)
+        judged = self._second_look.judge(picture, places)
+        inside = [one._replace(box=within(one.box, columns, rows)) for one in judged]
+        return [one for one in inside if area(one.box) > 0.0]
+
+    def proposed(self, picture: Picture) -> list[Found]:
+        """Return all findings of the first network, the highest scores first.
+
+        Raises
+        ------
+        VisionError
+            It has failed, or this is no picture.
+        """
+        if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
+            raise VisionError(
+                f"a picture is {picture.dtype} {list(picture.shape)}; expected uint8 "
+                "[rows, columns, 3]"
+            )
+        rows, columns = picture.shape[:2]
+        if not rows or not columns:
+            return []
+        try:
+            found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
+            raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
+        if not np.isfinite(found).all():
+            raise VisionError(f"{self._subject} answers numbers that are not finite")
+        boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
+        proposed = [
+            Found(self._label(number), score, box)
+            for box, (score, number) in zip(boxes, found[:, 4:].tolist(), strict=True)
+            if area(box) > 0.0
+        ]
+        return sorted(proposed, key=lambda one: -one.confidence)
+
+    def _confidence(self, found: Found) -> float:
+        odds = self._calibration.log_odds(found.label, found.confidence, size_px(found.box))
+        return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
+
+    def _label(self, number: float) -> VisibleClass:
+        index = int(number)
+        if not 0 <= index < len(self._classes):
+            raise VisionError(
+                f"{self._subject} answers class {number:g}; expected one of the "
+                f"{len(self._classes)} of its {CARD}, from 0"
+            )
+        return self._classes[index]
+
+
+def _card(path: Path) -> Card:
+    try:
+        return Card.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise VisionError(
+            f"{path}: cannot be read: {error.strerror}; expected what tools/train_detector.py "
+            "writes beside a network"
+        ) from None
+    except ValidationError as error:
+        raise VisionError(
+            f"{path}: {first_problem(error)}; expected what tools/train_detector.py writes beside "
+            "a network"
+        ) from None
+
+
+def _require_shapes(network: onnxruntime.InferenceSession, subject: str) -> None:
+    """Complain about a network that takes or gives something else.
+
+    Raises
+    ------
+    VisionError
+        It does.
+    """
+    inputs, outputs = network.get_inputs(), network.get_outputs()
+    found = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in (*inputs, *outputs))
+    takes = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in inputs]
+    gives = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in outputs]
+    if takes != [("picture", "tensor(uint8)", 4, 3)] or gives != [("found", "tensor(float)", 3, 6)]:
+        raise VisionError(f"{subject} has {found}; expected {EXPECTED}")
+
+
+def _padded(picture: Picture) -> Picture:
+    rows, columns = picture.shape[:2]
+    below, beside = (max(side + -side % GRID_PX, SMALLEST_PX) - side for side in (rows, columns))
+    if not below and not beside:
+        return np.ascontiguousarray(picture)
+    return np.pad(picture, ((0, below), (0, beside), (0, 0)), mode="edge")

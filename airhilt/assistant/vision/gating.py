@@ -1,0 +1,112 @@
+"""Looks again only where a picture has changed.
+
+A camera that stands still sees the same background in every picture, and in the air pictures are
+often the same to the bit though the camera has moved. Each tile of a picture is compared with what
+was there when it was last looked at, and what was found in it stays until a pixel has changed.
+Then all of the tile is looked at again, or, by a detector that sees parts of a picture as well as
+the whole, windows about the changes, if they are small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol, runtime_checkable
+
+from airhilt.assistant.vision.changes import changed_blocks, windows_about
+from airhilt.assistant.vision.detector import Detector, Found, Picture, once
+from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
+from airhilt.imaging.boxes import centre, shared_area
+
+MOST_IN_WINDOWS = 0.5
+"""Part of a tile: where there is more in windows, all of it is looked at."""
+
+
+@runtime_checkable
+class SeesParts(Detector, Protocol):
+    """A detector that finds in a part of a picture what it would in the whole, or nearly so."""
+
+    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+        """Return what is in a part of a picture, with boxes as they are in the picture.
+
+        It raises what `Detector.detect` does.
+        """
+        ...
+
+
+class _Looked(NamedTuple):
+    """What a tile was like when its parts were last looked at."""
+
+    pixels: Picture
+    found: tuple[Found, ...]
+
+
+class Gate:
+    """Puts a detector behind a watch for changes, for any number of cameras.
+
+    Small pictures are looked at in one piece, big ones in tiles.
+    """
+
+    def __init__(self, detector: Detector) -> None:
+        self._detector = detector
+        self._looked: dict[tuple[str, Tile], _Looked] = {}
+
+    def look(self, camera: str, picture: Picture) -> list[Found]:
+        """Return what is in the next picture of a camera, the surest first.
+
+        Raises
+        ------
+        airhilt.errors.VisionError
+            The detector has failed.
+        """
+        tiles = tiles_of(picture)
+        found = [self._look_at(camera, tile, picture) for tile in tiles]
+        if len(tiles) == 1:
+            return list(found[0])
+        return merged([
+            piece
+            for tile, these in zip(tiles, found, strict=True)
+            for piece in pieces_of(these, tile, picture)
+        ])  # fmt: skip
+
+    def _look_at(self, camera: str, tile: Tile, picture: Picture) -> tuple[Found, ...]:
+        """Return what is in a tile, with boxes as they are in it."""
+        pixels = tile.of(picture)
+        last = self._looked.get((camera, tile))
+        looked = self._anew(pixels) if last is None else self._again(last, pixels)
+        self._looked[camera, tile] = looked
+        return looked.found
+
+    def _anew(self, pixels: Picture) -> _Looked:
+        kept = pixels.copy()
+        return _Looked(kept, tuple(self._detector.detect(kept)))
+
+    def _again(self, last: _Looked, pixels: Picture) -> _Looked:
+        blocks = changed_blocks(last.pixels, pixels)
+        if not blocks.any():
+            return last
+        detector, (rows, columns) = self._detector, pixels.shape[:2]
+        if not isinstance(detector, SeesParts):
+            return self._anew(pixels)
+        windows = windows_about(blocks, [one.box for one in last.found], rows, columns)
+        if sum(each.height * each.width for each in windows) > MOST_IN_WINDOWS * rows * columns:
+            return self._anew(pixels)
+        seen = [
+            one
+            for window in windows
+            for one in detector.detect_in(pixels, window)
+            if window.holds(centre(one.box))
+        ]
+        kept = last.pixels.copy()
+        for window in windows:
+            window.of(kept)[...] = window.of(pixels)
+        return _Looked(kept, tuple(_together(last.found, seen, windows)))
+
+
+def _together(
+    before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
+) -> list[Found]:
+    """Return what is seen in windows and what was outside of them before, the surest first."""
+    outside = [
+        one for one in before if not any(shared_area(one.box, window.box) for window in windows)
+    ]
+    return once(sorted((*seen, *outside), key=lambda found: -found.confidence))

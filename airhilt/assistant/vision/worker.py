@@ -1,0 +1,179 @@
+"""The worker that looks: pictures in, detections out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from pydantic import ValidationError
+
+from airhilt.assistant.vision.detector import Detector, Picture, PictureMissed
+from airhilt.assistant.vision.gating import Gate
+from airhilt.assistant.vision.tracker import Tracker
+from airhilt.errors import VisionError, first_problem
+from airhilt.imaging.masks import Mask, mask_of
+from airhilt.messages import (
+    Box,
+    CameraFrame,
+    CameraInfo,
+    DeclaredLatency,
+    Detection,
+    Detections,
+    InputSpec,
+    WorkerDescription,
+)
+from airhilt.sim.worker import Input, Output
+from airhilt.workers.protocol import Step
+
+MOST_OF_OWN_AIRCRAFT = 0.6
+"""Share of a box that its own aircraft may cover; what is covered more is a part of that."""
+
+
+class VisionWorker:
+    """Gives each picture to a detector, follows what it finds, and publishes it.
+
+    Parameters
+    ----------
+    sure
+        Confidence from which a finding counts by itself. One below it is published only where it
+        goes on with what was found in three pictures or more.
+    """
+
+    def __init__(self, detector: Detector, name: str = "vision", sure: float = 0.0) -> None:
+        self._engine = detector.name
+        self._gate = Gate(detector)
+        self._sure = sure
+        self._infos: dict[str, CameraInfo] = {}
+        self._masks: dict[str, Mask] = {}
+        self._trackers: dict[str, Tracker] = {}
+        self.description = WorkerDescription(
+            name=name,
+            modality="vision",
+            inputs=(
+                InputSpec(key="camera/*/info"),
+                InputSpec(key="camera/*/frame", policy="latest"),
+            ),
+            latency=DeclaredLatency(median_s=0.02),
+        )
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
+        """Look at the pictures that have arrived.
+
+        Of one that the detector has missed it is said why.
+
+        Raises
+        ------
+        VisionError
+            The detector has failed for good, or a picture is not what its header says.
+        """
+        outputs = []
+        for item in inputs:
+            if item.key.endswith("/info"):
+                self._meet(item)
+                continue
+            seen = self._look(item)
+            outputs.append(Output(f"vision/{seen.camera}", seen.model_dump_json().encode()))
+        return Step(tuple(outputs))
+
+    def _meet(self, item: Input) -> None:
+        """Take in what never changes about a camera."""
+        try:
+            info = CameraInfo.model_validate_json(item.payload)
+            mask = mask_of(info.own_aircraft, info.height_px, info.width_px)
+        except ValidationError as error:
+            raise VisionError(
+                f"{item.key}: not about a camera: {first_problem(error)}; see `airhilt schema`"
+            ) from None
+        except ValueError as error:
+            raise VisionError(f"{item.key}: own_aircraft has {error}") from None
+        self._infos[info.camera] = info
+        if mask.any():
+            self._masks[info.camera] = mask
+        else:
+            self._masks.pop(info.camera, None)
+
+    def _look(self, item: Input) -> Detections:
+        header = header_of(item)
+        picture = picture_of(header, item.payload, self._infos.get(header.camera))
+        seen = Detections(
+            camera=header.camera,
+            seq=header.seq,
+            t_frame_ns=header.t_frame_ns,
+            view=header.view,
+            engine=self._engine,
+        )
+        try:
+            found = self._gate.look(header.camera, picture)
+        except PictureMissed as missed:
+            return seen.model_copy(update={"missed": str(missed)})
+        mask = self._masks.get(header.camera)
+        if mask is not None:
+            found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
+        tracker = self._trackers.setdefault(header.camera, Tracker(self._sure))
+        detections = tuple(
+            Detection(
+                label=one.found.label,
+                confidence=one.found.confidence,
+                box=one.found.box,
+                track_id=one.track_id,
+                hits=one.hits,
+            )
+            for one in tracker.follow(header.t_frame_ns, header.view, found)
+        )
+        return seen.model_copy(update={"detections": detections})
+
+
+def header_of(item: Input) -> CameraFrame:
+    """Return the header of a picture.
+
+    Raises
+    ------
+    VisionError
+        It has none, or that of another camera.
+    """
+    if item.attachment is None:
+        raise VisionError(f"{item.key}: no header; expected a CameraFrame as attachment")
+    try:
+        header = CameraFrame.model_validate(item.attachment)
+    except ValidationError as error:
+        raise VisionError(
+            f"{item.key}: not the header of a picture: {first_problem(error)}; expected a "
+            "CameraFrame, see `airhilt schema`"
+        ) from None
+    if item.key != f"camera/{header.camera}/frame":
+        raise VisionError(
+            f"{item.key}: a picture of camera {header.camera!r}; expected that of the key"
+        )
+    return header
+
+
+def picture_of(header: CameraFrame, pixels: bytes, info: CameraInfo | None) -> Picture:
+    """Return a picture, read-only.
+
+    Raises
+    ------
+    VisionError
+        It has another size than its header or the camera's description says.
+    """
+    columns, rows = header.view.width_px, header.view.height_px
+    if info is not None and (columns, rows) != (info.width_px, info.height_px):
+        raise VisionError(
+            f"camera {header.camera}, picture {header.seq}: {columns} by {rows} pixels; expected "
+            f"{info.width_px} by {info.height_px}, as its description says"
+        )
+    if len(pixels) != 3 * columns * rows:
+        raise VisionError(
+            f"camera {header.camera}, picture {header.seq}: {len(pixels)} bytes; expected "
+            f"{3 * columns * rows}, {columns} by {rows} pixels of rgb8"
+        )
+    return np.frombuffer(pixels, np.uint8).reshape(rows, columns, 3)
+
+
+def covered_share(box: Box, mask: Mask) -> float:
+    """Return how much of a box lies in a mask, from 0 to 1; at least one pixel is looked at."""
+    rows, columns = mask.shape
+    spans = []
+    for begin, end, size in ((box[1], box[3], rows), (box[0], box[2], columns)):
+        first = min(max(round(begin), 0), size - 1)
+        spans.append(slice(first, min(max(round(end), first + 1), size)))
+    return float(mask[spans[0], spans[1]].mean())

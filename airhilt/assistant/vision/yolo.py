@@ -1,0 +1,169 @@
+"""Detectors of ultralytics: YOLOv10 and later, from a file that the user has.
+
+The package is under the AGPL and no part of AIRHILT; the extra ``yolo`` installs it. Loading a
+``.pt`` file runs code that is in it.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from airhilt.assistant.vision.detector import Found, Picture
+from airhilt.errors import VisionError, first_line
+from airhilt.messages import VisibleClass
+from airhilt.onnx import open_network
+
+LABELS: Mapping[str, VisibleClass] = {
+    "airplane": "airplane",
+    "truck": "truck",
+    "car": "truck",
+    "bus": "truck",
+    "bird": "bird",
+    "deer": "deer",
+    "coyote": "coyote",
+}
+"""By the names that models give their classes: COCO's, and two that others have. What is none of
+them, a dog or a horse, is not told of."""
+LEAST_CONFIDENCE = 0.1
+SURE = 0.25
+"""Those of ultralytics: ``track_low_thresh`` of its trackers, and ``conf`` of its predictions."""
+MOST_FOUND = 300
+STRIDE_PX = 32
+EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
+ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
+"""So that it neither loads nor installs nor prints anything; read when it is imported, and when
+it looks for a network."""
+LITERALS = ("args", "imgsz", "kpt_names", "kpt_shape", "names")
+"""Metadata of an ``.onnx`` file that ultralytics takes for Python; some of version 8.3 run it."""
+
+
+class YoloDetector:
+    """Looks with a YOLO model, at the resolution of the picture if the model takes any.
+
+    Parameters
+    ----------
+    path
+        A ``.pt`` file, which is code that runs when it is loaded, or an ``.onnx`` file.
+
+    Raises
+    ------
+    VisionError
+        There is no such file, the package is missing, the file does not load, or its classes are
+        none that AIRHILT knows.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_file():
+            raise VisionError(
+                f"detector yolo: {path}: no such file; expected {EXPECTED} (nothing is downloaded)"
+            )
+        if path.suffix not in (".pt", ".onnx"):
+            raise VisionError(f"detector yolo: {path}: expected {EXPECTED}")
+        self.name = f"yolo:{path.stem}"
+        self._path = path
+        self._sides_px = _fixed_sides(path) if path.suffix == ".onnx" else None
+        try:
+            self._model = _load(path)
+            names: Mapping[int, str] = self._model.names
+        except ImportError as error:
+            raise VisionError(
+                "detector yolo: the package ultralytics is missing or does not load "
+                f"({first_line(error)}); install it with `pip install airhilt[yolo]`"
+            ) from None
+        except Exception as error:  # torch's, pickle's, onnxruntime's, its own
+            raise VisionError(
+                f"detector yolo: {path}: does not load: {first_line(error)}; expected {EXPECTED}"
+            ) from None
+        if self._model.task != "detect":
+            raise VisionError(
+                f"detector yolo: {path}: its task is {self._model.task!r}; expected {EXPECTED}"
+            )
+        self._labels = {
+            index: LABELS[name.lower()] for index, name in names.items() if name.lower() in LABELS
+        }
+        if not self._labels:
+            known = ", ".join(list(names.values())[:5])
+            raise VisionError(
+                f"detector yolo: {path}: it knows {len(names)} classes ({known}...); expected at "
+                f"least one of {', '.join(LABELS)}"
+            )
+
+    def detect(self, picture: Picture) -> Sequence[Found]:
+        """Return what is in a picture; see `Detector.detect`."""
+        free = tuple(-(-side // STRIDE_PX) * STRIDE_PX for side in picture.shape[:2])
+        try:
+            boxes = self._model.predict(
+                np.ascontiguousarray(picture[..., ::-1]),  # It wants BGR.
+                imgsz=self._sides_px or free,
+                conf=LEAST_CONFIDENCE,
+                classes=list(self._labels),
+                max_det=MOST_FOUND,
+                device="cpu",
+                verbose=False,
+            )[0].boxes
+            rows = zip(
+                boxes.cls.int().tolist(), boxes.conf.tolist(), boxes.xyxy.tolist(), strict=True
+            )
+            return [
+                Found(self._labels[index], confidence, (left, top, right, bottom))
+                for index, confidence, (left, top, right, bottom) in rows
+                if left < right and top < bottom  # Others lie where the picture was padded.
+            ]
+        except Exception as error:  # torch's and onnxruntime's share no base
+            raise VisionError(f"detector yolo: {self._path}: failed: {first_line(error)}") from None
+
+
+def _load(path: Path) -> Any:
+    with _environment(ENVIRONMENT):
+        from ultralytics import YOLO
+
+        return YOLO(path, task="detect") if path.suffix == ".onnx" else YOLO(path)
+
+
+@contextmanager
+def _environment(settings: Mapping[str, str]) -> Iterator[None]:
+    """Give what is imported meanwhile other variables of the environment."""
+    before = {name: os.environ.get(name) for name in settings}
+    os.environ.update(settings)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _fixed_sides(path: Path) -> tuple[int, int] | None:
+    """Return rows and columns of the pictures that a network takes; None if it takes any.
+
+    Raises
+    ------
+    VisionError
+        It is none, or there is code in its metadata.
+    """
+    session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
+    metadata = session.get_modelmeta().custom_metadata_map
+    for name in LITERALS:
+        try:
+            ast.literal_eval(metadata.get(name, "None"))
+        except (ValueError, SyntaxError, MemoryError, RecursionError):
+            raise VisionError(
+                f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
+                f"expected {EXPECTED}"
+            ) from None
+    match session.get_inputs()[0].shape:
+        case [_, _, int(rows), int(columns)]:
+            return rows, columns
+        case [_, _, _, _]:
+            return None
+        case shape:
+            raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")

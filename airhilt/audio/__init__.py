@@ -1,0 +1,1 @@
+"""Audio samples and WAV files."""

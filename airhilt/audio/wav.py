@@ -1,0 +1,143 @@
+"""Audio as bytes: PCM as it goes over the bus, and WAV files of it.
+
+All audio of a run is 16 kHz, mono, 16 bits, little-endian. A file of anything else is refused
+and not converted, so that nobody measures a resampler without knowing.
+"""
+
+from __future__ import annotations
+
+import io
+import wave
+from pathlib import Path
+
+import numpy as np
+
+from airhilt.errors import SpeechError
+from airhilt.files import replace_file
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+
+FULL_SCALE = 32_768
+"""Of 16 bits."""
+SAMPLE_BYTES = 2
+
+
+def to_pcm(audio: Audio) -> bytes:
+    """Return samples as PCM; what is beyond full scale is clipped.
+
+    Raises
+    ------
+    SpeechError
+        They are not one row of finite numbers.
+    """
+    if audio.ndim != 1:
+        raise SpeechError(f"audio of shape {audio.shape}; expected one row of samples, mono")
+    if not np.isfinite(audio).all():
+        bad = int(np.flatnonzero(~np.isfinite(audio))[0])
+        raise SpeechError(
+            f"audio with {audio[bad]} at sample {bad}; expected finite numbers in [-1, 1]"
+        )
+    scaled = np.rint(audio.astype(np.float32) * FULL_SCALE)
+    return np.clip(scaled, -FULL_SCALE, FULL_SCALE - 1).astype("<i2").tobytes()
+
+
+def from_pcm(pcm: bytes) -> Audio:
+    """Return PCM as samples; `to_pcm` gives the same bytes again.
+
+    Raises
+    ------
+    SpeechError
+        The bytes are no whole number of samples.
+    """
+    if len(pcm) % SAMPLE_BYTES:
+        raise SpeechError(f"PCM of {len(pcm)} bytes; expected two bytes a sample, an even number")
+    return np.frombuffer(pcm, "<i2").astype(np.float32) / np.float32(FULL_SCALE)
+
+
+def encode_wav(audio: Audio) -> bytes:
+    """Return samples as the bytes of a WAV file.
+
+    Raises
+    ------
+    SpeechError
+        As `to_pcm`.
+    """
+    pcm = to_pcm(audio)
+    stream = io.BytesIO()
+    with wave.open(stream, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(SAMPLE_BYTES)
+        file.setframerate(SAMPLE_RATE_HZ)
+        file.writeframes(pcm)
+    return stream.getvalue()
+
+
+def decode_wav(data: bytes, source: str) -> Audio:
+    """Return the samples of a WAV file.
+
+    Parameters
+    ----------
+    source
+        Where the bytes come from, for messages.
+
+    Raises
+    ------
+    SpeechError
+        It is no WAV file, of another format than 16 kHz, mono, 16 bits, empty or truncated.
+    """
+    try:
+        with wave.open(io.BytesIO(data), "rb") as file:
+            found = (file.getframerate(), file.getnchannels(), 8 * file.getsampwidth())
+            frames = file.getnframes()
+            pcm = file.readframes(frames)
+    except (wave.Error, EOFError) as error:
+        raise SpeechError(
+            f"{source}: no WAV file with PCM: {str(error) or 'it breaks off in its header'}"
+        ) from None
+    expected = (SAMPLE_RATE_HZ, 1, 8 * SAMPLE_BYTES)
+    if found != expected:
+        raise SpeechError(
+            f"{source}: {_format(found)}; expected {_format(expected)}; convert it with "
+            "`sox IN -r 16000 -c 1 -b 16 OUT`"
+        )
+    if frames == 0:
+        raise SpeechError(f"{source}: a WAV file without samples; expected speech")
+    if len(pcm) != frames * SAMPLE_BYTES:
+        raise SpeechError(
+            f"{source}: truncated: {len(pcm) // SAMPLE_BYTES} samples; its header promises {frames}"
+        )
+    return from_pcm(pcm)
+
+
+def _format(rate_channels_bits: tuple[int, int, int]) -> str:
+    rate, channels, bits = rate_channels_bits
+    return f"{rate} Hz, {'mono' if channels == 1 else f'{channels} channels'}, {bits} bits"
+
+
+def read_wav(path: Path) -> Audio:
+    """Return the samples of a WAV file.
+
+    Raises
+    ------
+    SpeechError
+        It cannot be read, or as `decode_wav`.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise SpeechError(f"{path}: cannot be read: {error.strerror}") from None
+    return decode_wav(data, str(path))
+
+
+def write_wav(path: Path, audio: Audio) -> None:
+    """Write samples to a WAV file, all or nothing.
+
+    Raises
+    ------
+    SpeechError
+        It cannot be written, or as `to_pcm`.
+    """
+    data = encode_wav(audio)
+    try:
+        replace_file(path, data)
+    except OSError as error:
+        raise SpeechError(f"{path}: cannot be written: {error.strerror}") from None

@@ -1,0 +1,150 @@
+"""Workers in other processes, as the run calls them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import zenoh
+from pydantic import ValidationError
+
+from airhilt.bus.multipart import pack, unpack
+from airhilt.bus.session import Bus
+from airhilt.errors import WorkerError, first_problem
+from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
+from airhilt.sim.worker import Input, Output, Reply, WorkerLost
+
+MAXIMUM_REPLY_BYTES = 64_000_000
+
+
+class RemoteWorker:
+    """Calls a registered worker over the bus.
+
+    Parameters
+    ----------
+    timeout_s
+        Wall time after which a step that has not answered counts as hung.
+    """
+
+    def __init__(self, bus: Bus, name: str, timeout_s: float) -> None:
+        self.name = name
+        self._session = bus.session
+        self._key = f"{bus.prefix}/worker/{name}"
+        self._timeout_s = timeout_s
+
+    def describe(self, timeout_s: float = 10.0) -> WorkerDescription | None:
+        """Return what the worker says of itself, None if it does not answer such questions.
+
+        Raises
+        ------
+        WorkerError
+            It does not answer in time, or its answer is not a description.
+        """
+        for reply in self._session.get(f"{self._key}/describe", timeout=timeout_s):
+            if reply.ok is None:
+                raise WorkerError(
+                    f"worker {self.name!r} is there, but did not describe itself within "
+                    f"{timeout_s:g} s; expected an answer to {self._key}/describe"
+                )
+            try:
+                described = WorkerDescription.model_validate_json(reply.ok.payload.to_bytes())
+            except ValidationError as error:
+                raise self._broken("answered describe with", error) from None
+            if described.name != self.name:
+                raise WorkerError(
+                    f"worker {self.name!r} describes itself as {described.name!r}; expected the "
+                    "name in its key"
+                )
+            return described
+        return None
+
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:
+        """Send a grant."""
+        grant = Grant(
+            t_ns=t_ns,
+            seq=seq,
+            inputs=tuple(
+                GrantInput(
+                    key=item.key,
+                    t_in_ns=item.t_in_ns,
+                    size=len(item.payload),
+                    attachment=item.attachment,
+                )
+                for item in inputs
+            ),
+        )
+        replies = self._session.get(
+            f"{self._key}/step",
+            payload=pack(item.payload for item in inputs),
+            attachment=grant.model_dump_json().encode(),
+            timeout=self._timeout_s,
+            consolidation=zenoh.ConsolidationMode.NONE,
+        )
+        return RemoteStep(self, seq, replies)
+
+    def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
+        """Wait for the reply to a grant, and check it.
+
+        Raises
+        ------
+        WorkerLost
+            None came, or it says that the step failed.
+        WorkerError
+            It is not a reply to that grant.
+        """
+        for reply in replies:
+            if reply.err is not None:
+                raise WorkerLost(self._failure(reply.err.payload.to_bytes()))
+            if reply.ok is not None:
+                return self._parse(seq, reply.ok)
+        raise WorkerLost(f"worker {self.name!r} is gone: nothing answers {self._key}/step")
+
+    def _failure(self, payload: bytes) -> str:
+        text = payload[:400].decode("utf-8", "replace")
+        if text == "Timeout":
+            return f"worker {self.name!r} did not answer within {self._timeout_s:g} s"
+        return f"worker {self.name!r} failed: {text}"
+
+    def _parse(self, seq: int, sample: zenoh.Sample) -> Reply:
+        payload = sample.payload.to_bytes()
+        attachment = sample.attachment.to_bytes() if sample.attachment is not None else b""
+        if len(payload) + len(attachment) > MAXIMUM_REPLY_BYTES:
+            raise WorkerError(
+                f"worker {self.name!r} answered with {len(payload)} bytes; expected at most "
+                f"{MAXIMUM_REPLY_BYTES}"
+            )
+        try:
+            header = StepReply.model_validate_json(attachment)
+            payloads = unpack(payload, [output.size for output in header.outputs])
+        except ValueError as error:
+            raise self._broken(f"answered step {seq} with", error) from None
+        if header.seq != seq:
+            raise WorkerError(
+                f"worker {self.name!r} answered step {seq} as step {header.seq}; expected the "
+                "seq of the grant"
+            )
+        outputs = tuple(
+            Output(output.key, part, output.t_out_ns, output.attachment)
+            for output, part in zip(header.outputs, payloads, strict=True)
+        )
+        return Reply(outputs, header.compute_s, header.wake_ns)
+
+    def _broken(self, what: str, error: ValueError) -> WorkerError:
+        text = first_problem(error) if isinstance(error, ValidationError) else str(error)
+        return WorkerError(
+            f"worker {self.name!r} {what} something else than the schema says: {text}; see "
+            "`airhilt schema`"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class RemoteStep:
+    """A grant that is out."""
+
+    worker: RemoteWorker
+    seq: int
+    replies: zenoh.Handler[zenoh.Reply]
+
+    def result(self) -> Reply:
+        """Wait for the reply; see `RemoteWorker.receive`."""
+        return self.worker.receive(self.seq, self.replies)

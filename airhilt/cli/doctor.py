@@ -1,0 +1,162 @@
+"""What is installed, what is missing, and how to get it."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import shutil
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from airhilt import library
+from airhilt._version import __version__
+from airhilt.sensors.cameras import RENDERERS, RendererName
+
+NEEDED = (
+    "jsbsim",
+    "numpy",
+    "eclipse-zenoh",
+    "pydantic",
+    "mcap",
+    "zstandard",
+    "geographiclib",
+    "shapely",
+    "networkx",
+    "pygeomag",
+    "scipy",
+    "onnxruntime",
+    "espeakng-loader",
+    "jiwer",
+)
+OPTIONAL = {
+    "pillow": "vision",
+    "av": "video",
+    "ultralytics": "yolo",
+    "faster-whisper": "whisper",
+    "coqui-tts": "coqui",
+    "resvg-py": "plot",
+}
+"""Extras by the package that they bring."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked for."""
+
+    name: str
+    found: str
+    """Version or count; empty if it is missing."""
+    needed: bool
+    remedy: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        if self.found:
+            return f"ok       {self.name} {self.found}"
+        return f"{'MISSING' if self.needed else 'absent '}  {self.name}: {self.remedy}"
+
+
+def examine() -> list[Finding]:
+    """Return what was found, the things that every run needs first."""
+    findings = [
+        Finding("airhilt", __version__, needed=True),
+        Finding("python", platform.python_version(), needed=True),
+        *[_package(name) for name in NEEDED],
+        *[_library(kind) for kind in ("aircraft", "scenarios")],
+        _jsbsim_models(),
+        _recogniser(),
+        _detector(),
+        *[_renderer(name) for name in RENDERERS],
+    ]
+    return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()], _flite()]
+
+
+def _package(name: str) -> Finding:
+    remedy = f"{sys.executable} -m pip install {name}"
+    return Finding(name, _version(name), needed=True, remedy=remedy)
+
+
+def _extra(name: str, extra: str) -> Finding:
+    remedy = f"{sys.executable} -m pip install 'airhilt[{extra}]'"
+    return Finding(name, _version(name), needed=False, remedy=remedy)
+
+
+def _version(name: str) -> str:
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return ""
+
+
+def _recogniser() -> Finding:
+    """Load the recogniser that ships with AIRHILT."""
+    from airhilt.assistant.asr.engines import asr_engine
+    from airhilt.errors import SpeechError
+
+    try:
+        asr_engine("embedded")
+    except SpeechError as error:
+        return Finding("speech recogniser", "", needed=True, remedy=str(error))
+    return Finding("speech recogniser", "(embedded)", needed=True)
+
+
+def _detector() -> Finding:
+    """Load the detector that ships with AIRHILT."""
+    from airhilt.assistant.vision.engines import vision_engine
+    from airhilt.errors import VisionError
+
+    try:
+        vision_engine("embedded")
+    except VisionError as error:
+        return Finding("detector", "", needed=True, remedy=str(error))
+    return Finding("detector", "(embedded)", needed=True)
+
+
+def _renderer(name: RendererName) -> Finding:
+    """Let a renderer of camera pictures draw something."""
+    from airhilt.errors import RendererError
+    from airhilt.sensors.cameras.renderer_process import probe
+
+    try:
+        probe(name)
+    except RendererError as error:
+        return Finding(f"renderer {name}", "", needed=False, remedy=str(error))
+    return Finding(f"renderer {name}", "(draws)", needed=False)
+
+
+def _flite() -> Finding:
+    found = shutil.which("flite") or ""
+    return Finding(
+        "flite", found, needed=False, remedy="for --tts flite; such as apt install flite"
+    )
+
+
+def _library(kind: str) -> Finding:
+    names = library.names(kind)
+    found = f"({len(names)}: {', '.join(names)})" if names else ""
+    return Finding(kind, found, needed=True, remedy="install airhilt again, its files are missing")
+
+
+def _jsbsim_models() -> Finding:
+    """Look for the models that aircraft/ names in the installed JSBSim."""
+    import jsbsim
+
+    from airhilt.world.flight import load_aircraft_type
+
+    models = Path(jsbsim.get_default_root_dir()) / "aircraft"
+    missing = [
+        name
+        for name in library.names("aircraft")
+        if not (models / load_aircraft_type(name).jsbsim_model).is_dir()
+    ]
+    return Finding(
+        "JSBSim models",
+        "" if missing else "(all that aircraft/ names)",
+        needed=True,
+        remedy=f"{', '.join(missing)}: not in the installed JSBSim; install jsbsim again",
+    )

@@ -1,0 +1,302 @@
+"""What a person sees of a run: the line while it goes on, the numbers at its end."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from types import TracebackType
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+from airhilt.messages import Advisory, Severity
+from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary, VisionStatistics
+from airhilt.run.simulation import Observer, Snapshot
+from airhilt.units import FOOT, NAUTICAL_MILE
+
+PLAIN_PERIOD_S = 5.0
+"""Between two lines where standard error is no terminal."""
+REFRESHES_A_SECOND = 8
+STYLES = {
+    Severity.INFO: "",
+    Severity.ADVISORY: "cyan",
+    Severity.CAUTION: "yellow",
+    Severity.WARNING: "bold red",
+}
+
+
+class ProgressLine(Observer):
+    """Shows time, speed against real time, separation and the last advisory, on standard error."""
+
+    def __init__(self, title: str) -> None:
+        self._console = Console(stderr=True, highlight=False)
+        self._title = title
+        self._live: Live | None = None
+        self._snapshot: Snapshot | None = None
+        self._begun = time.monotonic()
+        self._printed = self._begun
+
+    def __enter__(self) -> ProgressLine:
+        if self._console.is_terminal:
+            self._live = Live(
+                get_renderable=self._line,
+                console=self._console,
+                refresh_per_second=REFRESHES_A_SECOND,
+                transient=True,
+            )
+            self._live.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._live is not None:
+            self._live.stop()
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        """Show how the run is doing."""
+        if self._snapshot is None:
+            self._begun = time.monotonic()
+        self._snapshot = snapshot
+        if self._live is None and time.monotonic() - self._printed > PLAIN_PERIOD_S:
+            self._printed = time.monotonic()
+            self._console.print(self._line(), soft_wrap=True)
+
+    def notice(self, text: str) -> None:
+        """Print a line that stays."""
+        self._console.print(Text(f"airhilt: {text}", style="yellow"), soft_wrap=True)
+
+    def _line(self) -> Text:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return Text(f"{self._title}: getting ready")
+        wall_s = max(time.monotonic() - self._begun, 1e-6)
+        parts = [
+            Text(f"{snapshot.t_s:6.1f} of at most {snapshot.duration_s:.0f} s"),
+            Text(f"{_factor(snapshot.t_s / wall_s)} x real time"),
+        ]
+        if snapshot.horizontal_m is not None and snapshot.vertical_m is not None:
+            parts.append(
+                Text(
+                    f"{snapshot.horizontal_m / NAUTICAL_MILE:.1f} NM / "
+                    f"{snapshot.vertical_m / FOOT:.0f} ft apart"
+                )
+            )
+        if snapshot.advisory is not None:
+            parts.append(_advisory_text(snapshot.advisory))
+        line = Text("  |  ").join(parts)
+        line.no_wrap, line.overflow = True, "ellipsis"
+        return line
+
+
+def _advisory_text(advisory: Advisory) -> Text:
+    return Text(f"{advisory.severity.value} {advisory.message}", style=STYLES[advisory.severity])
+
+
+def print_summary(summary: Summary, folder: Path) -> None:
+    """Print the numbers that a researcher quotes, on standard output."""
+    console = Console(highlight=False, soft_wrap=True)
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column()
+    for label, value in _rows(summary):
+        table.add_row(label, value)
+    console.print(table)
+    console.print(_latency_table(summary))
+    console.print(f"run folder: {folder}")
+
+
+def _rows(summary: Summary) -> list[tuple[str, str]]:
+    window = "none: the scenario declares no conflict, or its condition never came true"
+    if summary.t_conflict_s is not None and summary.t_conflict_end_s is not None:
+        window = f"{summary.t_conflict_s:.2f} to {summary.t_conflict_end_s:.2f} s"
+    approach = summary.closest_approach
+    rows = [
+        ("scenario", f"{summary.scenario}, seed {summary.seed}"),
+        ("assistant", _assistant(summary)),
+        ("outcome", summary.outcome),
+        (
+            "simulated",
+            f"{summary.duration_s:.1f} s, {_factor(summary.real_time_factor)} x real time, "
+            f"{summary.cpu_s:.2f} s of CPU",
+        ),
+        ("conflict window", window),
+        ("first warning", _seconds(summary.t_first_warning_s)),
+        ("time to first warning", _seconds(summary.time_to_first_warning_s)),
+        ("before closest approach", _seconds(summary.lead_before_closest_approach_s)),
+        (
+            "before TCAS TA / RA",
+            f"{_seconds(summary.margin_over_tcas_ta_s)} / "
+            f"{_seconds(summary.margin_over_tcas_ra_s)}",
+        ),
+        (
+            "least separation",
+            f"horizontal {_distance(summary.min_horizontal_separation_m)} while vertical was lost, "
+            f"vertical {_height(summary.min_vertical_separation_m)} while horizontal was lost",
+        ),
+    ]
+    if approach is not None:
+        rows.append(
+            (
+                "closest approach",
+                f"{_distance(approach.horizontal_m)}, {_height(approach.vertical_m)} at "
+                f"{approach.t_s:.1f} s",
+            )
+        )
+    rows += [
+        ("loss of separation", _yes(summary.loss_of_separation)),
+        ("NMAC", _yes(summary.nmac)),
+        ("collision", _yes(summary.collision)),
+        *_incursion_rows(summary),
+        ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
+        ("nuisance alerts", str(summary.nuisance_alerts)),
+        ("radio", _radio(summary.radio)),
+        *_recognition_rows(summary),
+        *_vision_rows(summary.vision),
+        ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
+    ]
+    rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
+    return rows
+
+
+def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row for each runway incursion."""
+    rows = []
+    for incursion in summary.runway_incursions:
+        way = f"in the way of {incursion.user}" if incursion.user else "nobody uses it"
+        near = "" if incursion.closest_m is None else f", {incursion.closest_m:.0f} m apart"
+        severity = (
+            incursion.category
+            if incursion.category == "accident"
+            else f"category {incursion.category}"
+        )
+        rows.append(
+            (
+                "runway incursion",
+                f"{severity}: {incursion.intruder} on {incursion.runway} at {incursion.t_s:.1f} s, "
+                f"{way}{near}",
+            )
+        )
+    return rows
+
+
+def _radio(radio: RadioStatistics) -> str:
+    """Return how many transmissions there were, and what was wrong with them."""
+    wrong = {
+        "blocked": radio.blocked,
+        "carrier only": radio.stuck_microphone,
+        "repeated": radio.repeats,
+        "to say again": radio.say_agains,
+        "misheard": radio.hearing.get("misheard", 0),
+        "missed": radio.hearing.get("missed", 0),
+        "without a transcript": radio.transcripts_missing or 0,
+        "words of noise alone": radio.hallucinated or 0,
+    }
+    plural = "" if radio.transmissions == 1 else "s"
+    counts = [f"{count} {what}" for what, count in wrong.items() if count]
+    return ", ".join([f"{radio.transmissions} transmission{plural}", *counts])
+
+
+def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row on speech recognition, if there was any."""
+    radio, after_end = summary.radio, summary.latencies["asr_after_end"]
+    if radio.wer is None:
+        return []
+    parts = [
+        f"word error rate {_percent(radio.wer)}",
+        f"callsigns {_percent(radio.callsign_accuracy)}",
+        f"slots {_percent(radio.slot_accuracy)}",
+    ]
+    if after_end.p95_s is not None:
+        parts.append(f"p95 {_latency(after_end.p95_s)} after the end")
+    return [("recognition", ", ".join(parts))]
+
+
+def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
+    """Return rows on what cameras took and what was seen in it, if anything was."""
+    if vision.taken is None:
+        return []
+    count = len(vision.cameras)
+    parts = [f"{count} camera{'' if count == 1 else 's'}", f"{vision.taken} pictures"]
+    if vision.looked_at is not None:
+        parts += [
+            f"{vision.looked_at} looked at",
+            f"{vision.dropped} dropped",
+            f"recall {_percent(vision.recall)} of {vision.sightings}",
+            f"{_rate(vision.false_confirmed_per_minute)} confirmed false",
+        ]
+    warnings = []
+    if vision.missed:
+        warnings.append(("missed", f"{vision.missed} pictures, the first: {vision.why_missed}"))
+    elif vision.looked_at == 0:
+        warnings.append(("missed", "no picture had been looked at when the run ended"))
+    return [
+        ("vision", ", ".join(parts)),
+        *warnings,
+        *(
+            (
+                "first seen",
+                f"{first.actor} at {first.t_s:.1f} s by {first.camera}, {first.range_m:.0f} m off, "
+                f"{first.size_px:.0f} px long",
+            )
+            for first in vision.first_detections
+        ),
+    ]
+
+
+def _rate(per_minute: float | None) -> str:
+    return "-" if per_minute is None else f"{per_minute:.2f}/min"
+
+
+def _factor(times: float) -> str:
+    return f"{times:.1f}" if times < 10.0 else f"{times:.0f}"
+
+
+def _percent(share: float | None) -> str:
+    return "-" if share is None else f"{100.0 * share:.1f} %"
+
+
+def _latency_table(summary: Summary) -> Table:
+    table = Table("latency", "n", "p50", "p95", "max", box=None, pad_edge=False)
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for stage, statistics in summary.latencies.items():
+        table.add_row(stage, str(statistics.n), *_numbers(statistics))
+    return table
+
+
+def _numbers(statistics: LatencyStatistics) -> list[str]:
+    values = (statistics.p50_s, statistics.p95_s, statistics.max_s)
+    return ["-" if value is None else _latency(value) for value in values]
+
+
+def _latency(seconds: float) -> str:
+    """Return a time in the unit that suits it."""
+    if seconds < 1e-3:
+        return f"{seconds * 1e6:.0f} us"
+    return f"{seconds * 1e3:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
+
+
+def _assistant(summary: Summary) -> str:
+    return "none: nobody was warned" if summary.assistant == "none" else summary.assistant
+
+
+def _seconds(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f} s"
+
+
+def _distance(value: float | None) -> str:
+    return "never" if value is None else f"{value:.0f} m ({value / NAUTICAL_MILE:.2f} NM)"
+
+
+def _height(value: float | None) -> str:
+    return "never" if value is None else f"{value:.0f} m ({value / FOOT:.0f} ft)"
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"

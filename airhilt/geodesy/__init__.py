@@ -1,0 +1,1 @@
+"""Geometry on the WGS84 ellipsoid: local frames, positions, relative motion."""

@@ -1,0 +1,1 @@
+"""Pictures in numbers: boxes, pinhole cameras, lenses, masks."""

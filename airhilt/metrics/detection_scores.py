@@ -1,0 +1,268 @@
+"""What the assistant saw, against what was true of each picture.
+
+`airhilt.imaging.matching` says which detection is about whom, whatever its class; whether that is
+right too is `labels_right`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+from airhilt.imaging.boxes import size_px
+from airhilt.imaging.matching import matches
+from airhilt.messages import (
+    CameraFrame,
+    CameraInfo,
+    CameraTruth,
+    Detection,
+    Detections,
+    Message,
+    ModalityState,
+    SightingTruth,
+    Status,
+)
+from airhilt.metrics.summary import (
+    CameraStatistics,
+    FirstDetection,
+    LatencyStatistics,
+    SightStatistics,
+    SizeRecall,
+    VisionStatistics,
+)
+from airhilt.units import SECOND_NS
+
+LEAST_PX = 8.0
+LEAST_VISIBLE = 0.5
+LEAST_TRANSMISSION = 0.1
+"""What is smaller, more hidden or fainter need not be found; finding it is no mistake either."""
+SIZES_PX = (LEAST_PX, 12.0, 20.0, 50.0)
+"""Where the bins of recall begin."""
+MOST_PICTURES_BEHIND = 600
+"""Truth that is kept for detections that are still to come: 20 s at 30 Hz."""
+
+
+def must_be_found(sighting: SightingTruth) -> bool:
+    """Return whether an actor is large and clear enough in a picture to have to be found."""
+    return (
+        size_px(sighting.box) >= LEAST_PX
+        and sighting.visible_fraction >= LEAST_VISIBLE
+        and sighting.transmission >= LEAST_TRANSMISSION
+    )
+
+
+@dataclass
+class _Counts:
+    """What is counted of one camera, or of all."""
+
+    taken: int = 0
+    taken_s: float = 0.0
+    latencies_s: list[float] = field(default_factory=list)
+    missed: int = 0
+    detections: int = 0
+    found: int = 0
+    """Detections that are about something."""
+    labelled: int = 0
+    """Of these, those with the right class."""
+    false: int = 0
+    false_confirmed: int = 0
+    false_tracks: int = 0
+    sightings: list[int] = field(default_factory=lambda: [0] * len(SIZES_PX))
+    recalled: list[int] = field(default_factory=lambda: [0] * len(SIZES_PX))
+
+    def add(self, other: _Counts) -> None:
+        """Count what the other has counted."""
+        self.taken += other.taken
+        self.taken_s += other.taken_s
+        self.latencies_s += other.latencies_s
+        self.missed += other.missed
+        self.detections += other.detections
+        self.found += other.found
+        self.labelled += other.labelled
+        self.false += other.false
+        self.false_confirmed += other.false_confirmed
+        self.false_tracks += other.false_tracks
+        self.sightings = [a + b for a, b in zip(self.sightings, other.sightings, strict=True)]
+        self.recalled = [a + b for a, b in zip(self.recalled, other.recalled, strict=True)]
+
+    def statistics(self, dropped: int, is_watched: bool) -> SightStatistics:
+        """Return the numbers; without anybody who looks there are only pictures."""
+        minutes = self.taken_s / 60.0
+        if not is_watched:
+            return SightStatistics(
+                taken=self.taken or None,
+                looked_at=None,
+                dropped=None,
+                missed=None,
+                latency=LatencyStatistics.of([]),
+                detections=None,
+                sightings=None,
+                recall=None,
+                by_size=[],
+                labels_right=None,
+                false_detections=None,
+                false_per_minute=None,
+                false_confirmed_per_minute=None,
+                false_tracks=None,
+            )
+        return SightStatistics(
+            taken=self.taken,
+            looked_at=len(self.latencies_s),
+            dropped=dropped,
+            missed=self.missed,
+            latency=LatencyStatistics.of(self.latencies_s),
+            detections=self.detections,
+            sightings=sum(self.sightings),
+            recall=_ratio(sum(self.recalled), sum(self.sightings)),
+            by_size=[
+                SizeRecall(from_px=low, to_px=high, sightings=n, recall=_ratio(recalled, n))
+                for (low, high), n, recalled in zip(
+                    pairwise((*SIZES_PX, None)), self.sightings, self.recalled, strict=True
+                )
+                if low is not None
+            ],
+            labels_right=_ratio(self.labelled, self.found),
+            false_detections=self.false,
+            false_per_minute=_ratio(self.false, minutes),
+            false_confirmed_per_minute=_ratio(self.false_confirmed, minutes),
+            false_tracks=self.false_tracks,
+        )
+
+
+def _ratio(part: float, whole: float) -> float | None:
+    return part / whole if whole else None
+
+
+class _Camera:
+    """What one camera has shown so far."""
+
+    def __init__(self, rate_hz: float) -> None:
+        self._counts = _Counts()
+        self._period_s = 1.0 / rate_hz
+        self._truths: dict[int, CameraTruth] = {}
+        self._confirmed: dict[int, bool] = {}
+        """Tracks that were confirmed, and whether they ever were about anything."""
+
+    def counts(self) -> _Counts:
+        """Return what is counted up to now."""
+        false_tracks = sum(not is_real for is_real in self._confirmed.values())
+        return replace(self._counts, false_tracks=false_tracks)
+
+    def picture(self) -> None:
+        self._counts.taken += 1
+        self._counts.taken_s += self._period_s
+
+    def keep(self, truth: CameraTruth) -> None:
+        self._truths[truth.seq] = truth
+        if len(self._truths) > MOST_PICTURES_BEHIND:
+            del self._truths[next(iter(self._truths))]
+
+    def look(self, seen: Detections) -> list[FirstDetection]:
+        """Count what was seen in a picture, and return who was found in it, and when."""
+        truth = self._truths.get(seen.seq)
+        if truth is None:
+            return []
+        if seen.missed:
+            self._counts.missed += 1
+            return []
+        matched = matches(truth.sightings, seen.detections)
+        self._counts.latencies_s.append((seen.t_ns - truth.t_frame_ns) / SECOND_NS)
+        self._counts.detections += len(matched)
+        for detection, sighting in zip(seen.detections, matched, strict=True):
+            self._judge(detection, sighting)
+        found = [sighting for sighting in matched if sighting is not None]
+        recalled = {sighting.actor for sighting in found}
+        for sighting in filter(must_be_found, truth.sightings):
+            index = sum(size_px(sighting.box) >= least for least in SIZES_PX) - 1
+            self._counts.sightings[index] += 1
+            self._counts.recalled[index] += sighting.actor in recalled
+        return [
+            FirstDetection(
+                actor=sighting.actor,
+                t_s=seen.t_ns / SECOND_NS,
+                t_frame_s=truth.t_frame_ns / SECOND_NS,
+                camera=seen.camera,
+                range_m=sighting.range_m,
+                size_px=size_px(sighting.box),
+            )
+            for sighting in found
+        ]
+
+    def _judge(self, detection: Detection, sighting: SightingTruth | None) -> None:
+        if sighting is None:
+            self._counts.false += 1
+            self._counts.false_confirmed += detection.is_confirmed
+        else:
+            self._counts.found += 1
+            self._counts.labelled += detection.label == sighting.label
+        if detection.track_id is not None and detection.is_confirmed:
+            known = self._confirmed.get(detection.track_id, False)
+            self._confirmed[detection.track_id] = known or sighting is not None
+
+
+class Sight:
+    """Listens to cameras and to what is seen by them."""
+
+    def __init__(self) -> None:
+        self._cameras: dict[str, _Camera] = {}
+        self._first: dict[str, FirstDetection] = {}
+        self._state: ModalityState = "off"
+        self._cause = ""
+        self._why_missed = ""
+
+    def take(self, message: Message) -> None:
+        """Take in a message about cameras or vision; others are passed over."""
+        match message:
+            case CameraInfo(camera=name, rate_hz=rate_hz):
+                self._cameras[name] = _Camera(rate_hz)
+            case CameraTruth(camera=name) if name in self._cameras:
+                self._cameras[name].keep(message)
+            case CameraFrame(camera=name) if name in self._cameras:
+                self._cameras[name].picture()
+            case Detections(camera=name) if name in self._cameras:
+                self._look(message)
+            case Status(modality="vision", state=state, cause=cause):
+                self._state, self._cause = state, cause
+
+    def _look(self, seen: Detections) -> None:
+        self._why_missed = self._why_missed or seen.missed
+        for first in self._cameras[seen.camera].look(seen):
+            self._first.setdefault(first.actor, first)
+
+    # --- the numbers ------------------------------------------------------------------------
+
+    def statistics(self, inputs_dropped: Mapping[str, int]) -> VisionStatistics:
+        """Return the numbers of vision.
+
+        Parameters
+        ----------
+        inputs_dropped
+            By worker and key, as `WorkerPool.inputs_dropped` returns them.
+        """
+        counted = {name: camera.counts() for name, camera in self._cameras.items()}
+        every = _Counts()
+        for one in counted.values():
+            every.add(one)
+        is_watched = self._state == "on" or bool(every.latencies_s)
+        dropped = {name: _dropped(name, inputs_dropped) for name in self._cameras}
+        return VisionStatistics(
+            **every.statistics(sum(dropped.values()), is_watched).model_dump(),
+            state=self._state,
+            cause=self._cause,
+            why_missed=self._why_missed,
+            cameras=[
+                CameraStatistics(
+                    **counted[name].statistics(dropped[name], is_watched).model_dump(), camera=name
+                )
+                for name in self._cameras
+            ],
+            first_detections=sorted(self._first.values(), key=lambda first: first.t_s),
+        )
+
+
+def _dropped(camera: str, inputs_dropped: Mapping[str, int]) -> int:
+    """Return how many pictures of a camera were dropped by whoever dropped the most."""
+    ending = f": camera/{camera}/frame"
+    found = (count for name, count in inputs_dropped.items() if name.endswith(ending))
+    return max(found, default=0)

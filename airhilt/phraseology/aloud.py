@@ -1,0 +1,34 @@
+"""What is written for the eye, such as an advisory, in words for a voice."""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.phraseology.numbers import Style, speak_thousands
+from airhilt.phraseology.say import speak_altitude, speak_callsign, speak_runway
+
+_CALLSIGN = re.compile(r"\b(?:N[1-9][0-9]{0,4}[A-Z]{0,2}|[A-Z]{2,}[0-9]+[A-Z]{0,2})\b")
+_RUNWAY = re.compile(r"\brunway ([0-9]{2}[LRC]?)\b")
+_RATE = re.compile(r"\b([0-9]+) ft/min\b")
+_ALTITUDE = re.compile(r"\b([0-9]+) ft\b")
+_SECONDS = re.compile(r"\b([0-9]+) s\b")
+
+
+def read_aloud(text: str, recipient: str, style: Style) -> str:
+    """Return a written text as it is spoken to somebody.
+
+    Callsigns, runways, levels and units become words; other numbers stay, as any voice reads
+    them. Who is called is called first.
+    """
+    if text.startswith(f"{recipient} "):
+        text = f"{recipient}, {text.removeprefix(recipient).lstrip()}"
+    text = _RUNWAY.sub(lambda found: speak_runway(found[1], style), text)
+    text = _RATE.sub(lambda found: f"{_hundreds(found[1], style)} feet per minute", text)
+    text = _ALTITUDE.sub(lambda found: speak_altitude(float(found[1]), style), text)
+    text = _SECONDS.sub(r"\1 seconds", text)
+    text = _CALLSIGN.sub(lambda found: speak_callsign(found[0], style), text)
+    return text.replace(";", ",")
+
+
+def _hundreds(feet: str, style: Style) -> str:
+    return speak_thousands(round(int(feet) / 100) * 100, style)

@@ -1,0 +1,537 @@
+"""From the words of a call to what it says.
+
+`parse_call` finds who is named (`callsigns`), then what is told (`actions`), leaving out what is
+about somebody else (traffic), what comes first (conditions), and what is not meant (`denials`).
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from itertools import accumulate
+from typing import NamedTuple
+
+from airhilt.phraseology.actions import FORMS, FREQUENCY_FORM, Form, Read, Segment
+from airhilt.phraseology.alphabet import LETTER_OF
+from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Call, Instruction, Kind
+from airhilt.phraseology.callsigns import Hit, Naming, roster_of
+from airhilt.phraseology.denials import NAME, is_meant
+from airhilt.phraseology.slots import (
+    LEVEL,
+    NAMED_RUNWAY,
+    RUNWAY,
+    designator,
+    level_confidence,
+    level_ft,
+    pressure_of,
+    wind_of,
+)
+from airhilt.phraseology.words import MENDED, Words, words_of
+
+DISTRESS = "mayday"
+URGENCY = "pan"
+NO_CALLSIGN = 0.5
+"""Confidence in a call that names nobody on the frequency, or two that it cannot tell apart."""
+CONDITIONS = frozenset({"behind", "after", "when", "until", "before", "once", "if", "unless"})
+"""What begins a condition (ICAO Doc 4444, 12.2.7)."""
+SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
+"""What may be said about an action."""
+LONGEST_CONDITION = 9
+"""Words."""
+LONGEST_STATION = 6
+"""Words from "contact" to the frequency."""
+CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
+"""Actions that a condition with "behind" can stand after."""
+
+_TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
+_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
+_ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
+_REQUESTS = frozenset({"request", "requesting", "requests"})
+_SAY_AGAIN = re.compile(
+    r"(?<!i )say (?:that |it |all )?again|words twice|say your last|repeat (?:that|your)"
+    r"|(?:did not|didn) (?:copy|get|understand|catch)|unreadable|say (?:callsign|call sign)"
+)
+_READY = re.compile(r"(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|fully ready|would like")
+_DISREGARDED = re.compile(
+    r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
+    r"|landing|instruction|instructions|all|it))*(?!\S)"
+)
+_PLACES = re.compile(
+    r"(?<!\S)(?:[0-9]{1,2} (?:nautical )?miles? (?:final|out|(?:to the )?(?:north|south|east|west)"
+    r"(?:east|west)?|from [a-z]+)|short final|long final|(?:left |right )?(?:downwind|base)"
+    r"|(?:on )?final|crosswind|runway vacated|clear of (?:the )?runway|field in sight"
+    r"|runway in sight|established)(?!\S)"
+)
+
+
+NAMED_AFTER = CONDITIONS | {
+    "traffic", "follow", "to", "for", "by", "with", "from", "of", "the", "is", "and", "company",
+    "ahead", "via", "taxi", "exit", "vacate", "taxiway", "intersection", "at", "on", "number",
+    "than", "or", "departed", "landed",
+}  # fmt: skip
+"""What stands before the callsign of somebody who is not called."""
+
+
+RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
+
+
+class Found(NamedTuple):
+    """An action's words."""
+
+    form: Form
+    match: re.Match[str]
+    first: int
+    """Its first word."""
+
+
+class Span(NamedTuple):
+    """Words that are no instruction: about traffic, or a condition."""
+
+    start: int
+    end: int
+    is_traffic: bool
+
+
+@dataclass(slots=True)
+class Told:
+    """What a run of words tells."""
+
+    instructions: list[Instruction] = field(default_factory=list)
+    doing: list[bool] = field(default_factory=list)
+    """Whether each is told as done now: "climbing"."""
+    traffic: list[str] = field(default_factory=list)
+
+
+def parse_call(
+    text: str,
+    callsigns: Iterable[str],
+    word_confidences: Sequence[float] | None = None,
+) -> Call:
+    """Return what a call says, its callsign among those that are known on the frequency.
+
+    Parameters
+    ----------
+    text
+        As heard, in words or digits.
+    callsigns
+        Of all who are on the frequency.
+    word_confidences
+        How sure the recogniser is of each word of the text, in [0, 1].
+    """
+    words = words_of(text, word_confidences)
+    naming = roster_of(tuple(callsigns)).naming(words.texts)
+    named = _confidence_of_name(words, naming)
+    rest = _without_name(words, naming)
+    told = _Reader(rest).read()
+    return _call(naming, rest, told, named)
+
+
+def _call(naming: Naming, rest: Words, told: Told, named: float) -> Call:
+    words = rest.texts
+    present = set(words)
+    text = " ".join(words)
+    first = words[1:2] if words[:1] == [NAME] else words[:1]
+    corrects = bool({"negative", "correction"}.intersection(first))
+    kind = _kind(naming, words, text, told, corrects)
+    match = replace(naming.match, score=min(naming.match.score, named))
+    certain = match.callsign is not None and not match.ambiguous
+    parts = [each.confidence for each in told.instructions]
+    parts.append(match.score if certain else NO_CALLSIGN)
+    if kind == "unknown":
+        parts.append(0.0)
+    elif not told.instructions:
+        parts.append(min(rest.confidences, default=0.0))
+    place = None if naming.addressed_first and kind == "instruction" else _PLACES.search(text)
+    return Call(
+        match=match,
+        addressed_first=naming.addressed_first,
+        kind=kind,
+        instructions=tuple(told.instructions),
+        distress=DISTRESS in present,
+        urgency=URGENCY in present,
+        corrected=corrects or "correction" in present,
+        negative="negative" in first or "unable" in present,
+        acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
+        position=place[0] if place else None,
+        traffic=tuple(told.traffic),
+        wind=wind_of(text) if "wind" in present else None,
+        pressure_hpa=pressure_of(text) if present & {"altimeter", "qnh", "q"} else None,
+        confidence=min(parts),
+    )
+
+
+def _kind(naming: Naming, words: list[str], text: str, told: Told, corrects: bool) -> Kind:
+    present = set(words)
+    doing = [
+        doing
+        for each, doing in zip(told.instructions, told.doing, strict=True)
+        if each.action not in REPORTS
+    ]
+    if "disregard" in present:
+        return "disregard"
+    if doing and corrects:
+        return "correction"
+    if not doing and _SAY_AGAIN.search(text):
+        return "say_again"
+    if present & _REQUESTS or (not naming.addressed_first and _READY.search(text)):
+        return "request"
+    if doing:
+        if naming.addressed_first:
+            return "report" if all(doing) else "instruction"
+        if naming.hit is None:
+            return "readback" if all(doing) else "instruction"
+        ends = words[-1] == NAME
+        return "readback" if ends or not all(doing) else "report"
+    reports = (
+        present & {DISTRESS, URGENCY, "unable", "negative"}
+        or told.instructions
+        or told.traffic
+        or not _ACKNOWLEDGED.isdisjoint(present)
+        or _PLACES.search(text)
+        or LEVEL.search(text)
+        or ("wind" in present and wind_of(text))
+        or pressure_of(text)
+    )
+    return "report" if reports else "unknown"
+
+
+def _confidence_of_name(words: Words, naming: Naming) -> float:
+    """Return how sure the words of the callsign are, and that nothing in it was mended."""
+    hit = naming.hit
+    if hit is None:
+        return 1.0
+    sure = min(words.confidences[hit.start : hit.end], default=1.0)
+    return hit.score * sure * (MENDED if hit.is_mended and hit.score == 1.0 else 1.0)
+
+
+def _without_name(words: Words, naming: Naming) -> Words:
+    """Return the words with a sign for the callsign of the call, without those for others."""
+    if naming.hit is None:
+        return words
+    rest = Words()
+    at = 0
+    other: Hit | None = None
+    for hit in sorted((naming.hit, *naming.again, *naming.others)):
+        if hit.start < at:
+            continue
+        if hit.callsign != naming.hit.callsign:
+            if other is None and at > 0 and not _is_spoken_of(words.texts[hit.start - 1]):
+                other = hit
+            continue
+        rest.take(words, at, other.start if other else hit.start)
+        other = None
+        rest.add(NAME, min(words.confidences[hit.start : hit.end]))
+        if hit.left_over:
+            rest.add(hit.left_over, words.confidences[hit.end - 1])
+        at = hit.end
+    rest.take(words, at, other.start if other else len(words.texts))
+    return rest
+
+
+def _is_spoken_of(before: str) -> bool:
+    """Return whether the word before a callsign shows that it is not called, but spoken of."""
+    return before in NAMED_AFTER or before in LETTER_OF or before.endswith("ing")
+
+
+class _Reader:
+    """Reads what words tell, with what corrects or withdraws it."""
+
+    def __init__(self, words: Words) -> None:
+        self._words = words
+
+    def read(self) -> Told:
+        """Return what all the words tell in the end."""
+        texts = self._words.texts
+        if "correction" not in texts and "disregard" not in texts:
+            return _told(self._words)
+        told = Told()
+        begin, marker = 0, ""
+        for at, word in [*enumerate(texts), (len(texts), "")]:
+            if at < len(texts) and word not in ("correction", "disregard"):
+                continue
+            self._take(told, begin, at, marker)
+            begin, marker = at, word
+        return told
+
+    def _take(self, told: Told, begin: int, end: int, marker: str) -> None:
+        """Take in the words from a marker on."""
+        part = Words(self._words.texts[begin:end], self._words.confidences[begin:end])
+        if marker == "disregard":
+            told.instructions.clear()
+            told.doing.clear()
+            told.traffic.clear()
+            size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
+            if size > 1:
+                part = Words(part.texts[size:], part.confidences[size:])
+        new = _told(part)
+        told.traffic += new.traffic
+        if marker == "correction" and told.instructions:
+            if _corrects_itself(told.instructions[-1], new):
+                _replace(told, new)
+                return
+            corrected = _corrected(told.instructions[-1], " ".join(part.texts[1:]))
+            if corrected is not None:
+                told.instructions[-1] = corrected
+            elif new.instructions:
+                _replace(told, new)
+                return
+            else:
+                told.instructions.pop()
+                told.doing.pop()
+        told.instructions += new.instructions
+        told.doing += new.doing
+
+
+def _corrects_itself(last: Instruction, new: Told) -> bool:
+    """Return whether what follows "correction" is an instruction and not a value of the last."""
+    return any(
+        each.action == last.action or (each.runway and last.runway) for each in new.instructions
+    )
+
+
+def _replace(told: Told, new: Told) -> None:
+    """Put corrected instructions in the place of those that they correct."""
+    actions = {each.action for each in new.instructions}
+    kept = [i for i, each in enumerate(told.instructions) if each.action not in actions]
+    if len(kept) == len(told.instructions):
+        kept.pop()
+    told.instructions[:] = [*(told.instructions[i] for i in kept), *new.instructions]
+    told.doing[:] = [*(told.doing[i] for i in kept), *new.doing]
+
+
+def _corrected(last: Instruction, text: str) -> Instruction | None:
+    """Return an instruction with the value that corrects it; None if there is none to be read."""
+    sure = min(last.confidence, MENDED)
+    if last.runway:
+        found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
+        return found and replace(last, runway=designator(*found.groups()), confidence=sure)
+    number = re.match(r"([0-9]{3})(?!\S)", text)
+    if last.altitude_ft:
+        level = LEVEL.match(text)
+        if level:
+            sure = min(sure, level_confidence(level))
+            return replace(last, altitude_ft=level_ft(level), confidence=sure)
+        if number and last.altitude_ft % 500 == 0 and 10 <= int(number[1]) <= 660:
+            return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=sure)
+        return None
+    if last.heading_deg and number and 0 < int(number[1]) <= 360:
+        return replace(last, heading_deg=float(number[1]), confidence=sure)
+    if last.speed_kt and number:
+        return replace(last, speed_kt=float(number[1]), confidence=sure)
+    if last.frequency_khz and FREQUENCY_FORM.words.match(text):
+        told = _told(words_of(text)).instructions
+        if told:
+            return replace(last, frequency_khz=told[0].frequency_khz, confidence=sure)
+    return None
+
+
+def _told(words: Words) -> Told:
+    """Return what words without corrections tell."""
+    texts = words.texts
+    text = " ".join(texts)
+    starts = [0, *accumulate(len(word) + 1 for word in texts)]
+    found, spans = _scan(texts, text, starts)
+    told = Told()
+    for span in spans:
+        if span.is_traffic:
+            told.traffic.append(text[span.start : span.end].strip())
+            text = _blank(text, span)
+    conditions = [span for span in spans if not span.is_traffic]
+    plain = text
+    for span in conditions:
+        plain = _blank(plain, span)
+    reads: list[tuple[Read, Found]] = []
+    taken, floor, is_told = 0, 0, True
+    for index, each in enumerate(found):
+        limit = found[index + 1].match.start() if index + 1 < len(found) else len(plain)
+        read = each.form.build(Segment(each.match, plain, taken, limit), each.form.action)
+        if read is None:
+            continue
+        taken = read.end
+        after = bisect_right(starts, max(each.match.end(), read.end) - 1)
+        is_told = is_meant(texts, each.first, after, each.form.action, floor, is_told)
+        floor = after
+        if is_told:
+            reads.append((read, each))
+    _attach(conditions, reads, text)
+    _merge_levels(reads)
+    _withdraw(reads)
+    for read, each in reads:
+        first = bisect_right(starts, read.start) - 1
+        after = bisect_right(starts, read.end - 1)
+        sure = min(words.confidences[first:after], default=1.0)
+        instruction = replace(read.instruction, confidence=read.instruction.confidence * sure)
+        _add(told, instruction, is_doing=texts[each.first].endswith("ing"))
+    return told
+
+
+def _add(told: Told, instruction: Instruction, *, is_doing: bool) -> None:
+    """Add what is told, once: what is told again may say more of it."""
+    for index, before in enumerate(told.instructions):
+        if _says_all(before, instruction):
+            return
+        if _says_all(instruction, before):
+            told.instructions[index] = instruction
+            return
+    told.instructions.append(instruction)
+    told.doing.append(is_doing)
+
+
+def _says_all(full: Instruction, part: Instruction) -> bool:
+    """Return whether an instruction says all that another does."""
+    return full.action == part.action and all(
+        getattr(part, slot) in (None, (), False, getattr(full, slot)) for slot in SLOTS
+    )
+
+
+def _blank(text: str, span: Span) -> str:
+    """Return a text without the words of a span, the others where they are."""
+    words = text[span.start : span.end].rstrip()
+    return text[: span.start] + "#" * len(words) + text[span.start + len(words) :]
+
+
+def _scan(texts: list[str], text: str, starts: list[int]) -> tuple[list[Found], list[Span]]:
+    """Return the words of actions, and those about traffic and conditions, in their order."""
+    found: list[Found] = []
+    spans: list[Span] = []
+    open_at: int | None = None
+    """Where the traffic or the condition begins that may still go on."""
+    is_traffic = False
+    free = 0
+    for index, word in enumerate(texts):
+        start = starts[index]
+        if start < free:
+            continue
+        if word == "traffic" and open_at is None and _is_traffic(texts, index):
+            open_at, is_traffic, begun = start, True, index
+            continue
+        if word in CONDITIONS and not (open_at is not None and not is_traffic):
+            if open_at is not None:
+                spans.append(Span(open_at, start, is_traffic))
+            open_at, is_traffic, begun = start, False, index
+            continue
+        if open_at is not None and not is_traffic:
+            ends = word in (NAME, "runway") or index - begun >= LONGEST_CONDITION
+            if ends and not (word == "runway" and texts[index - 1] in ("crossing", "the", "of")):
+                spans.append(Span(open_at, start, False))
+                open_at = None
+        if open_at is not None and is_traffic and word == NAME:
+            spans.append(Span(open_at, start, True))
+            open_at = None
+        each = _action_at(text, start, index, word)
+        if each is None or (found and _belongs_to(found[-1], each)):
+            continue
+        if open_at is not None:
+            if word.endswith("ing") and index - begun <= LONGEST_CONDITION:
+                free = each.match.end()
+                continue
+            if texts[index - 1] in CONDITIONS:
+                continue
+            end = start
+            if is_traffic:
+                ahead = re.search(rf"runway {RUNWAY}(?: at \S+)? $", text[open_at:start])
+                is_told = RUNWAY_NEXT.match(text, each.match.end())
+                end = open_at + ahead.start() if ahead and not is_told else start
+            spans.append(Span(open_at, end, is_traffic))
+            open_at = None
+        found.append(each)
+        free = each.match.end()
+    if open_at is not None:
+        spans.append(Span(open_at, len(text), is_traffic))
+    return found, spans
+
+
+def _is_traffic(texts: list[str], index: int) -> bool:
+    """Return whether the word "traffic" here is about somebody, and not a circuit."""
+    return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
+        _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
+    )
+
+
+def _action_at(text: str, start: int, index: int, word: str) -> Found | None:
+    for form in FORMS.get(word, ()):
+        match = form.words.match(text, start)
+        if match:
+            return Found(form, match, index)
+    if word[0] == "1":
+        match = FREQUENCY_FORM.words.match(text, start)
+        if match:
+            return Found(FREQUENCY_FORM, match, index)
+    return None
+
+
+def _belongs_to(last: Found, each: Found) -> bool:
+    """Return whether a frequency is that of the station to contact."""
+    return (
+        each.form is FREQUENCY_FORM
+        and last.form.action in ("contact", "monitor")
+        and each.first - last.first <= LONGEST_STATION
+    )
+
+
+def _attach(conditions: list[Span], reads: list[tuple[Read, Found]], text: str) -> None:
+    """Tell each condition to the action that it belongs to.
+
+    That is the next one; of "until", and of a "behind" that ends the call, the one before.
+    """
+    for span in conditions:
+        words = text[span.start : span.end].strip()
+        before = [i for i, (read, _) in enumerate(reads) if read.start < span.start]
+        after = [i for i, (read, _) in enumerate(reads) if read.start >= span.end]
+        kind = words.split()[0] if words else ""
+        if kind == "behind":
+            if len(after) > 1:
+                after = [i for i in after if reads[i][0].instruction.action in CONDITIONED] or after
+            is_again = before and reads[before[-1]][0].instruction.condition
+        if len(words.split()) < 2 and (kind != "behind" or not before or is_again):
+            continue
+        behind = kind == "behind" and before and (
+            not after or reads[after[0]][0].instruction.action not in CONDITIONED
+        )  # fmt: skip
+        if before and (kind == "until" or behind or not after):
+            index = before[-1]
+        elif after and kind != "until":
+            index = after[0]
+        else:
+            continue
+        read, each = reads[index]
+        told = replace(read.instruction, condition=words)
+        reads[index] = read._replace(instruction=told), each
+
+
+def _merge_levels(reads: list[tuple[Read, Found]]) -> None:
+    """Make one of "climb now, maintain flight level 330"."""
+    for index in range(len(reads) - 1, 0, -1):
+        first, second = reads[index - 1][0].instruction, reads[index][0].instruction
+        if (
+            first.action == second.action == "altitude"
+            and first.altitude_ft is None
+            and second.altitude_ft is not None
+            and (second.sense == "maintain" or second.sense == first.sense)
+        ):
+            told = replace(
+                first,
+                altitude_ft=second.altitude_ft,
+                condition=first.condition or second.condition,
+                immediate=first.immediate or second.immediate,
+                confidence=second.confidence,
+            )
+            read = reads[index - 1][0]._replace(instruction=told, end=reads[index][0].end)
+            reads[index - 1 : index + 1] = [(read, reads[index - 1][1])]
+
+
+def _withdraw(reads: list[tuple[Read, Found]]) -> None:
+    """Drop the clearances that the same call cancels."""
+    for cancel, cleared in (
+        ("cancel_takeoff", "cleared_for_takeoff"),
+        ("cancel_landing", "cleared_to_land"),
+    ):
+        cancelled = [read.start for read, _ in reads if read.instruction.action == cancel]
+        if cancelled:
+            reads[:] = [
+                (read, each)
+                for read, each in reads
+                if read.instruction.action != cleared or read.start > cancelled[-1]
+            ]

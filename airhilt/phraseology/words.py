@@ -1,0 +1,297 @@
+"""From what a transcript has to words: fillers left out, sounds mended, digits joined to numbers.
+
+The same call may come as ``Runway 01L``, ``runway zero one left`` or ``run way o one left``; its
+words are ``runway 01 left`` here, or ``runway 01 l``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from airhilt.phraseology.alphabet import LETTER_VARIANTS
+from airhilt.phraseology.numbers import DIGITS, SOUNDS, TEENS, TENS
+
+MENDED = 0.9
+"""Confidence in a word that was put for one that sounds like it."""
+
+FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uhm", "please"})
+
+THOUSANDS = re.compile(r"\b([0-9]{1,2}),([0-9]{3})\b")
+"""A number with a thousands separator, such as 5,000."""
+PIECES = re.compile(r"[a-z]+(?:['’][a-z]+)?|[0-9]+(?:\.[0-9]+)?|[,.;]")
+BREAKS = frozenset(",.;")
+
+SPELLINGS: dict[str, tuple[str, ...]] = {
+    **{variant: (letter,) for variant, letter in LETTER_VARIANTS.items()},
+    "center": ("centre",), "point": ("decimal",), "dot": ("decimal",), "lineup": ("line", "up"),
+    "liningup": ("lining", "up"), "goaround": ("go", "around"), "holdshort": ("hold", "short"),
+    "holdposition": ("hold", "position"), "flightlevel": ("flight", "level"),
+    "fl": ("flight", "level"), "don't": ("do", "not"), "dont": ("do", "not"),
+    "can't": ("can", "not"), "cannot": ("can", "not"),
+    "cant": ("can", "not"), "won't": ("will", "not"), "didnt": ("did", "not"),
+    "isnt": ("is", "not"), "arent": ("are", "not"), "canceled": ("cancelled",),
+    "centerline": ("centreline",),
+    "plough": ("plow",), "snowplow": ("snow", "plow"), "snowplough": ("snow", "plow"),
+    "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
+    "ft": ("feet",), "rwy": ("runway",), "hdg": ("heading",),
+}  # fmt: skip
+"""Other ways to write words, as good as these."""
+SOUNDALIKES: dict[str, tuple[str, ...]] = {
+    "write": ("right",), "rite": ("right",), "wright": ("right",), "runaway": ("runway",),
+    "runways": ("runway",), "decent": ("descent",), "decend": ("descend",), "clime": ("climb",),
+    "clim": ("climb",), "cleard": ("cleared",), "clered": ("cleared",), "haeding": ("heading",),
+    "hedding": ("heading",), "squak": ("squawk",), "squack": ("squawk",), "mantain": ("maintain",),
+    "maintane": ("maintain",), "disreguard": ("disregard",), "nein": ("niner",),
+    "niners": ("niner",), "wun": ("one",), "ait": ("eight",), "mayday's": ("mayday",),
+}  # fmt: skip
+"""What recognisers write for words that sound like it."""
+PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
+    "take": {"off": ("takeoff",)},
+    "run": {"way": ("runway",)},
+    "x": {"ray": ("xray",)},
+    "o": {"clock": ("oclock",)},
+    "go": {"round": ("go", "around")},
+    "whole": {"short": ("hold", "short"), "position": ("hold", "position")},
+    "hole": {"short": ("hold", "short"), "position": ("hold", "position")},
+    "old": {"short": ("hold", "short"), "position": ("hold", "position")},
+    "hold": {"shore": ("hold", "short"), "sort": ("hold", "short"), "shot": ("hold", "short")},
+    "clear": {"too": ("clear", "to"), "two": ("clear", "to")},
+    "cleared": {
+        "two": ("cleared", "to"), "too": ("cleared", "to"), "four": ("cleared", "for"),
+        "fore": ("cleared", "for"),
+    },
+    "flight": {"levels": ("flight", "level")},
+    "fly": {"level": ("flight", "level")},
+    "and": {"weight": ("and", "wait")},
+    "lie": {"nup": ("line", "up")},
+    "read": {"back": ("readback",)},
+    "push": {"back": ("pushback",)},
+    "start": {"up": ("startup",)},
+    "back": {"track": ("backtrack",)},
+}  # fmt: skip
+"""Likewise for two words, of which the first is the key."""
+_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "read", "push", "start", "back"})
+"""First words of pairs that are only written otherwise, not heard wrongly."""
+
+UNITS = frozenset(
+    {"thousand", "hundred", "mile", "miles", "knots", "feet", "degrees", "oclock", "minutes",
+     "nautical"}
+)  # fmt: skip
+"""Words that make what stands before them a number of its own."""
+WIDTHS = {"runway": 2, "heading": 3, "level": 3, "decimal": 3}
+"""How many digits follow a word."""
+_AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clear", "line"})
+
+
+class Raw(NamedTuple):
+    """A word before it is joined to others."""
+
+    text: str
+    confidence: float
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The words of a call, and how sure each is in [0, 1]."""
+
+    texts: list[str] = field(default_factory=list)
+    confidences: list[float] = field(default_factory=list)
+
+    def add(self, text: str, confidence: float) -> None:
+        """Add a word."""
+        self.texts.append(text)
+        self.confidences.append(confidence)
+
+    def take(self, others: Words, start: int, end: int) -> None:
+        """Add some of other words."""
+        self.texts.extend(others.texts[start:end])
+        self.confidences.extend(others.confidences[start:end])
+
+    def extend_number(self, digits: str, confidence: float) -> None:
+        """Join digits to the number at the end."""
+        self.texts[-1] += digits
+        self.confidences[-1] = min(self.confidences[-1], confidence)
+
+
+def tokens(text: str) -> list[str]:
+    """Return the lower-case words of a call with spoken digits as digits, joined to numbers.
+
+    ``flight level three five zero`` gives ``flight level 350``. A comma ends a number.
+    """
+    return words_of(text).texts
+
+
+def words_of(text: str, confidences: Sequence[float] | None = None) -> Words:
+    """Return the words of a call, with the confidence of the words that each is made of.
+
+    Raises
+    ------
+    ValueError
+        There is not one confidence for each word.
+    """
+    return _join(_mend(_split(text, confidences)))
+
+
+def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
+    chunks = text.lower().split()
+    if confidences is None:
+        confidences = [1.0] * len(chunks)
+    elif len(confidences) != len(chunks):
+        raise ValueError(
+            f"{len(confidences)} word confidences for {len(chunks)} words; expected one for each "
+            "word of the text, which are those between its blanks"
+        )
+    raw: list[Raw] = []
+    for chunk, confidence in zip(chunks, confidences, strict=True):
+        if chunk.isascii() and chunk.isalpha():
+            raw.append(Raw(chunk, confidence))
+            continue
+        for piece in PIECES.findall(THOUSANDS.sub(r"\1\2", chunk)):
+            if piece[0].isdigit() and "." in piece:
+                whole, fraction = piece.split(".")
+                raw += (Raw(whole, confidence), Raw("decimal", confidence))
+                raw.append(Raw(fraction, confidence))
+            else:
+                raw.append(Raw(piece.replace("’", "'"), confidence))
+    return raw
+
+
+def _mend(raw: list[Raw]) -> list[Raw]:
+    """Leave out fillers and mend what is written otherwise or heard as something else."""
+    mended: list[Raw] = []
+    raw = [each for each in raw if each.text not in FILLERS]
+    at, size = 0, len(raw)
+    while at < size:
+        word, confidence = raw[at]
+        at += 1
+        pairs = PAIRS.get(word)
+        pair = pairs.get(raw[at].text) if pairs and at < size else None
+        if pair is not None:
+            sure = min(confidence, raw[at].confidence)
+            sure *= 1.0 if word in _SPELLED_APART else MENDED
+            mended += (Raw(each, sure) for each in pair)
+            at += 1
+        elif word in SPELLINGS:
+            mended += (Raw(each, confidence) for each in SPELLINGS[word])
+        elif word in SOUNDALIKES:
+            mended += (Raw(each, confidence * MENDED) for each in SOUNDALIKES[word])
+        elif word.endswith("n't"):
+            mended += (Raw(word[:-3], confidence), Raw("not", confidence))
+        elif "'" in word:
+            mended.append(Raw(word.split("'")[0] if word != "o'clock" else "oclock", confidence))
+        else:
+            mended.append(raw[at - 1])
+    return mended
+
+
+def _join(raw: list[Raw]) -> Words:
+    """Write numbers in digits, and join those that follow each other."""
+    words = Words()
+    joining = False
+    at, size = 0, len(raw)
+    while at < size:
+        word, confidence = raw[at]
+        at += 1
+        if word in BREAKS:
+            joining = False
+            continue
+        digits = DIGITS.get(word) or TEENS.get(word)
+        if digits is None and word in TENS:
+            digits = TENS[word]
+            unit = DIGITS.get(raw[at].text, "0") if at < size else "0"
+            if unit != "0":
+                digits = digits[0] + unit
+                confidence = min(confidence, raw[at].confidence)
+                at += 1
+        elif digits is None and word in SOUNDS and _is_digit_here(words, joining, raw, at):
+            digits, confidence = SOUNDS[word], confidence * MENDED
+        elif digits is None and word[0].isdigit():
+            digits = word
+            joining = joining and len(word) < 3 and not _is_long_literal(raw, at - 2)
+        elif word == "hundred" and joining:
+            words.extend_number("00", confidence)
+            at = _add_below_hundred(words, raw, at)
+            joining = False
+            continue
+        elif word in ("double", "triple") and at < size and raw[at].text in DIGITS:
+            digits = DIGITS[raw[at].text] * (2 if word == "double" else 3)
+            confidence = min(confidence, raw[at].confidence)
+            at += 1
+        if digits is None:
+            words.add(word, confidence)
+        elif joining:
+            words.extend_number(digits, confidence)
+        else:
+            words.add(digits, confidence)
+        joining = digits is not None
+    return words
+
+
+def _add_below_hundred(words: Words, raw: list[Raw], at: int) -> int:
+    """Take the tens after "hundred" into the number; return where it ends."""
+    if at == len(raw):
+        return at
+    word, confidence = raw[at]
+    digits = TEENS.get(word)
+    after = at + 1
+    if digits is None and word in TENS:
+        unit = DIGITS.get(raw[after].text, "0") if after < len(raw) else "0"
+        digits = TENS[word][0] + unit
+        after += unit != "0"
+    if digits is None:
+        return at
+    words.texts[-1] = words.texts[-1][:-2] + digits
+    words.confidences[-1] = min(words.confidences[-1], confidence)
+    return after
+
+
+def _is_long_literal(raw: list[Raw], at: int) -> bool:
+    """Return whether a number was written here that is complete."""
+    return at >= 0 and raw[at].text[0].isdigit() and len(raw[at].text) >= 3
+
+
+def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool:
+    """Return whether a word before ``at`` that sounds like a digit is one.
+
+    It is one between two digits, and after "runway" and the like if as many digits as belong
+    there follow it; but not before a number that has its unit, as in "180 to 4 miles".
+    """
+    sound = raw[at - 1].text
+    following = raw[at].text if at < len(raw) else ""
+    if following == "thousand" and sound in ("to", "too", "for", "fore"):
+        return joining or sound != "to"
+    digits, after = _digits_from(raw, at)
+    introduced = words.texts[-1] if words.texts else ""
+    if sound in ("oh", "o", "won", "ate"):
+        return joining or bool(digits) or introduced in WIDTHS
+    if joining:
+        if digits == 0:
+            return (
+                sound in ("for", "fore")
+                and words.texts[-2:-1] == ["runway"]
+                and len(introduced) == 1
+                and following in _AFTER_RUNWAY
+            )
+        return len(introduced) < 4 and after not in UNITS
+    width = WIDTHS.get(introduced)
+    return width is not None and digits > 0 and (width == 3 or digits == 1) and digits < width
+
+
+def _digits_from(raw: list[Raw], at: int) -> tuple[int, str]:
+    """Return how many digits follow, and the word after them."""
+    count = 0
+    while at < len(raw):
+        word = raw[at].text
+        if word in DIGITS:
+            count += 1
+        elif word in TEENS or word in TENS:
+            count += 2
+        elif word[0].isdigit():
+            count += len(word)
+        elif not (word in SOUNDS and count):
+            return count, word
+        at += 1
+    return count, ""

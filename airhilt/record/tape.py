@@ -1,0 +1,245 @@
+"""Writes one frequency of a run as sound, and beside it who said what and how it was heard."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from airhilt.audio.wav import from_pcm, write_wav
+from airhilt.errors import RunFolderError, SpeechError, first_problem
+from airhilt.files import replace_file
+from airhilt.messages import SpokenTruth, Transcript, Transmission
+from airhilt.record import RunFolder, read_log
+from airhilt.record.audio import recorded_pcm
+from airhilt.units import SECOND_NS
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+
+
+@dataclass(frozen=True, slots=True)
+class Hearing:
+    """One recogniser's transcript of a call."""
+
+    text: str
+    confidence: float
+    engine: str
+    after_end_s: float
+    """From the end of the call to its transcript."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeardCall:
+    """One transmission of the frequency."""
+
+    id: str
+    t_tx_s: float
+    t_end_s: float
+    snr_db: float | None
+    speaker: str
+    addressed: str | None
+    said: str
+    blocked_by: tuple[str, ...]
+    heard: tuple[Hearing, ...]
+
+
+@dataclass(frozen=True)
+class Tape:
+    """One frequency of a run, from its start to its last call."""
+
+    run: str
+    frequency_khz: int
+    calls: tuple[HeardCall, ...]
+    audio: Audio = field(repr=False)
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the sound."""
+        return len(self.audio) / SAMPLE_RATE_HZ
+
+    def text(self) -> str:
+        """Return the transcript as people read it."""
+        head = f"{self.run}, {_megahertz(self.frequency_khz)}, {len(self.calls)} calls"
+        return "\n\n".join([head, *map(_paragraph, self.calls)]) + "\n"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all but the sound, for JSON."""
+        return {
+            "run": self.run,
+            "frequency_khz": self.frequency_khz,
+            "duration_s": self.duration_s,
+            "calls": [asdict(call) for call in self.calls],
+        }
+
+
+def listen(
+    run_folder: Path, frequency_khz: int | None = None, out: Path | None = None
+) -> tuple[Tape, Path, Path]:
+    """Write a frequency as a WAV file with the whole run's timing, and its transcript.
+
+    Parameters
+    ----------
+    frequency_khz
+        Which one; None takes the only one of the run.
+    out
+        The WAV file; the transcript has the same name with ``.txt``. None writes both into the
+        run folder, under the name of the frequency.
+
+    Returns
+    -------
+    tuple
+        What was written, and the two files.
+
+    Raises
+    ------
+    RunFolderError
+        There is no run, nothing was said on that frequency, or a sound file is not what was
+        received.
+    SpeechError
+        The run has no sound.
+    """
+    folder = RunFolder.open(run_folder)
+    tape = _read(folder, frequency_khz)
+    wav = out or folder.path / f"frequency-{tape.frequency_khz}.wav"
+    if wav.suffix.lower() != ".wav":
+        raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
+    text = wav.with_suffix(".txt")
+    write_wav(wav, tape.audio)
+    try:
+        replace_file(text, tape.text().encode())
+    except OSError as error:
+        raise SpeechError(f"{text}: cannot be written: {error.strerror}") from None
+    return tape, wav, text
+
+
+def _read(folder: RunFolder, frequency_khz: int | None) -> Tape:
+    transmissions: list[Transmission] = []
+    spoken: dict[str, SpokenTruth] = {}
+    transcripts: dict[str, list[Transcript]] = {}
+    try:
+        for logged in read_log(folder.log_path):
+            kind = logged.key.split("/")
+            if kind[0] == "radio" and kind[-1] == "tx":
+                transmissions.append(Transmission.model_validate_json(logged.data))
+            elif kind[:2] == ["truth", "radio"]:
+                truth = SpokenTruth.model_validate_json(logged.data)
+                spoken[truth.id] = truth
+            elif kind[0] == "asr":
+                transcript = Transcript.model_validate_json(logged.data)
+                transcripts.setdefault(transcript.id, []).append(transcript)
+    except ValidationError as error:
+        raise RunFolderError(
+            f"{folder.log_path}: {first_problem(error)}; expected a log of this version of AIRHILT"
+        ) from None
+    chosen = _choose(folder, transmissions, frequency_khz)
+    tuned = sorted(
+        (tx for tx in transmissions if tx.frequency_khz == chosen),
+        key=lambda tx: (tx.t_tx_ns, tx.id),
+    )
+    calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
+    return Tape(folder.info().run, chosen, calls, _splice(folder, tuned))
+
+
+def _choose(
+    folder: RunFolder, transmissions: Sequence[Transmission], frequency_khz: int | None
+) -> int:
+    used = sorted({tx.frequency_khz for tx in transmissions})
+    if not used:
+        raise RunFolderError(f"{folder.path}: nobody said anything in this run")
+    names = ", ".join(map(str, used))
+    if frequency_khz is None:
+        if len(used) > 1:
+            raise RunFolderError(
+                f"{folder.path}: calls on several frequencies; choose one with --frequency: "
+                f"{names} (kHz)"
+            )
+        return used[0]
+    if frequency_khz not in used:
+        raise RunFolderError(
+            f"{folder.path}: nobody said anything on {frequency_khz} kHz; expected one of {names}"
+        )
+    return frequency_khz
+
+
+def _call(
+    tx: Transmission, truth: SpokenTruth | None, transcripts: Sequence[Transcript]
+) -> HeardCall:
+    return HeardCall(
+        id=tx.id,
+        t_tx_s=tx.t_tx_ns / SECOND_NS,
+        t_end_s=tx.t_end_ns / SECOND_NS,
+        snr_db=tx.snr_db,
+        speaker=truth.speaker if truth else "",
+        addressed=truth.addressed if truth else None,
+        said=truth.text if truth else "",
+        blocked_by=truth.blocked_by if truth else (),
+        heard=tuple(
+            Hearing(
+                transcript.text,
+                transcript.confidence,
+                transcript.engine,
+                (transcript.t_ns - tx.t_end_ns) / SECOND_NS,
+            )
+            for transcript in transcripts
+        ),
+    )
+
+
+def _splice(folder: RunFolder, tuned: Sequence[Transmission]) -> Audio:
+    """Return all that was received, each at its time.
+
+    Of two that blocked each other both were received mixed: the second is heard from where the
+    first ends. A call that begins during the squelch tail of the one before cuts it off.
+    """
+    pieces: list[tuple[int, Audio]] = []
+    free_at = 0
+    for tx in tuned:
+        if tx.samples == 0:
+            continue
+        begin = max(_sample(tx.t_tx_ns), free_at)
+        received = from_pcm(recorded_pcm(folder.audio_path, tx))
+        pieces.append((begin, received[begin - _sample(tx.t_tx_ns) :]))
+        free_at = max(_sample(tx.t_end_ns), free_at)
+    if not pieces:
+        raise SpeechError(
+            f"{folder.path}: a run without sound on this frequency; expected one that was made "
+            "without --no-speech"
+        )
+    timeline = np.zeros(max(begin + len(piece) for begin, piece in pieces), np.float32)
+    for begin, piece in pieces:
+        timeline[begin : begin + len(piece)] = piece
+    return timeline
+
+
+def _sample(t_ns: int) -> int:
+    return round(t_ns * SAMPLE_RATE_HZ / SECOND_NS)
+
+
+def _megahertz(frequency_khz: int) -> str:
+    return f"{frequency_khz / 1000:.3f} MHz"
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(seconds, 60.0)
+    return f"{int(minutes):02d}:{rest:04.1f}"
+
+
+def _paragraph(call: HeardCall) -> str:
+    who = call.speaker or "somebody"
+    notes = [f"{call.t_end_s - call.t_tx_s:.1f} s"]
+    if call.snr_db is not None:
+        notes.append(f"{call.snr_db:.0f} dB")
+    if call.blocked_by:
+        notes.append(f"blocked by {', '.join(call.blocked_by)}")
+    to = f" to {call.addressed}" if call.addressed else ""
+    lines = [f"{_clock(call.t_tx_s)}  {who}{to}  [{call.id}: {', '.join(notes)}]"]
+    lines.append(f"         said   {call.said or '(nothing)'}")
+    for hearing in call.heard:
+        lines.append(
+            f"         heard  {hearing.text or '(nothing)'}  [{hearing.engine}, confidence "
+            f"{hearing.confidence:.2f}, {hearing.after_end_s:.2f} s after the call]"
+        )
+    return "\n".join(lines)

@@ -1,0 +1,1 @@
+"""A run: its setup, who takes part, its simulation, its replay."""

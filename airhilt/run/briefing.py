@@ -1,0 +1,66 @@
+"""What everybody in the airspace knows before a run begins."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from airhilt.messages import AirportBriefing, Briefing, RosterEntry, RunwayBriefing
+from airhilt.scenario import Scenario
+from airhilt.scenario.models import AircraftActor, VehicleActor
+from airhilt.units import DEGREE, FOOT
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.site import Setting
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.layout import Layout
+    from airhilt.world.surface.runway import Place
+
+
+def briefing_of(scenario: Scenario, setting: Setting) -> Briefing:
+    """Return the briefing for a scenario."""
+    separation = scenario.separation
+    return Briefing(
+        controller=scenario.radio.controller,
+        horizontal_separation_nm=separation.horizontal_nm,
+        vertical_separation_ft=separation.vertical_ft,
+        roster=_roster(scenario),
+        airport=None if setting.layout is None else _charted(setting.layout),
+    )
+
+
+def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
+    """Return whom the controller knows: all that speak on the radio or are spoken to."""
+    entries = []
+    for actor in scenario.actors:
+        match actor:
+            case AircraftActor(callsign=callsign, on_roster=True, aircraft=name):
+                designator = load_aircraft_type(name).icao_designator
+                entries.append(RosterEntry(callsign=callsign, category="aircraft", type=designator))
+            case VehicleActor(callsign=callsign, kind=kind):
+                entries.append(RosterEntry(callsign=callsign, category="vehicle", type=kind))
+    return tuple(entries)
+
+
+def _charted(layout: Layout) -> AirportBriefing:
+    def point(place: Place) -> tuple[float, float]:
+        return place[0] / DEGREE, place[1] / DEGREE
+
+    runways = []
+    for strip in layout.strips.values():
+        area = [layout.frame.to_place(*xy) for xy in strip.protected_area.exterior.coords[:-1]]
+        runways += [
+            RunwayBriefing(
+                ident=end.ident,
+                threshold=point(end.threshold),
+                end=point(end.end),
+                elevation_ft=end.elevation_m / FOOT,
+                width_m=end.width_m,
+                protected_area=tuple(point(corner) for corner in area),
+            )
+            for end in strip.ends
+        ]
+    return AirportBriefing(
+        icao=layout.airport.icao,
+        elevation_ft=layout.elevation_m / FOOT,
+        runways=tuple(runways),
+    )

@@ -1,0 +1,213 @@
+"""The vision of a run: its cameras, what is kept of their pictures, or why there are none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.errors import RendererError, RunStopped
+from airhilt.messages import Message, ModalityState
+from airhilt.metrics.collector import pair_of
+from airhilt.record.pictures import KeyPictures, require_pillow
+from airhilt.record.video import VideoRecorder
+from airhilt.run.participants import Team
+from airhilt.run.router import Exchange
+from airhilt.run.setup import Prepared
+from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import RendererName
+from airhilt.sim import Director
+
+if TYPE_CHECKING:
+    from airhilt.sensors.cameras.renderer_process import RemoteStudio
+    from airhilt.sensors.cameras.scene.bodies import BodyState
+    from airhilt.sensors.cameras.scene_renderer import Frame
+    from airhilt.sensors.cameras.sensor import CameraRig
+
+
+class Recorder(Protocol):
+    """Keeps something of what is published, until it is closed."""
+
+    def take(self, key: str, message: Message, payload: bytes) -> None: ...  # noqa: D102
+
+    def close(self) -> None: ...  # noqa: D102
+
+
+class Vision:
+    """How a run sees, if it does: `mount`, `start` and `finish` do nothing where it does not.
+
+    Parameters
+    ----------
+    studio
+        What draws; None where nothing is to be drawn, or nothing can.
+    blindness
+        Why what was to be drawn cannot be; empty if that is not so.
+    is_watched
+        Whether a worker looks at the pictures.
+    notice
+        Called with what a user should know at once.
+    """
+
+    def __init__(
+        self,
+        prepared: Prepared,
+        studio: RemoteStudio | None,
+        blindness: str,
+        is_watched: bool,
+        notice: Callable[[str], None],
+    ) -> None:
+        self._prepared = prepared
+        self._studio = studio
+        self._blindness = blindness
+        self._is_watched = is_watched
+        self._notice = notice
+        self._rig: CameraRig | None = None
+        self._recorders: list[Recorder] = []
+
+    @property
+    def state(self) -> tuple[ModalityState, str]:
+        """How it stands with vision when the run begins, and why."""
+        if self._blindness:
+            return "not evaluated", self._blindness
+        return "on" if self._studio is not None and self._is_watched else "off", ""
+
+    def mount(
+        self,
+        director: Director,
+        exchange: Exchange,
+        *,
+        state_at_ns: Callable[[], int],
+        closest_ns: Callable[[], int | None],
+        lost: Callable[[str], None],
+    ) -> None:
+        """Put the cameras into the world of a run, and let its recorders hear what is published.
+
+        Parameters
+        ----------
+        state_at_ns
+            Returns the time that the states of the performers are of.
+        closest_ns
+            Returns when the pair of the conflict was nearest up to now; None if there is no pair.
+        lost
+            Called with the cause when there will be no more pictures.
+        """
+        if self._studio is None:
+            return
+        from airhilt.sensors.cameras.sensor import CameraRig
+
+        prepared = self._prepared
+        actors = pair_of(prepared.scenario) or tuple(prepared.cast)
+        pictures_path, video_path = prepared.folder.pictures_path, prepared.folder.video_path
+        self._recorders = [KeyPictures(pictures_path, actors=actors, closest_ns=closest_ns)]
+        if prepared.options.video:
+            self._recorders.append(VideoRecorder(video_path, notice=self._notice))
+        for recorder in self._recorders:
+            exchange.observe(recorder.take)
+        loss = prepared.recorded.cameras_lost
+        self._rig = CameraRig(
+            director,
+            self._studio if loss is None else _UntilLost(self._studio, *loss),
+            prepared.scenario.cameras,
+            prepared.setting,
+            prepared.cast,
+            state_at_ns=state_at_ns,
+            publish=exchange.publish,
+            lost=lost,
+        )
+
+    def start(self) -> None:
+        """Tell of the cameras, and let them expose."""
+        if self._rig is not None:
+            self._rig.start()
+
+    def finish(self) -> None:
+        """Write what is still to be kept of the pictures.
+
+        Raises
+        ------
+        RunFolderError
+            The disk takes no more.
+        """
+        with ExitStack() as stack:
+            for recorder in self._recorders:
+                stack.callback(recorder.close)
+
+
+@contextmanager
+def open_vision(prepared: Prepared, team: Team, notice: Callable[[str], None]) -> Iterator[Vision]:
+    """Let the renderer be there for the time of a run, if somebody might look at its pictures.
+
+    Parameters
+    ----------
+    notice
+        Called with what a user should know at once, such as why nothing can be drawn.
+
+    Raises
+    ------
+    CameraError
+        A camera could see nothing.
+    RendererError
+        Nothing can be drawn here of what was drawn when the run was recorded.
+    RunStopped
+        Nothing can be drawn, and the run is strict.
+    """
+    options, recorded = prepared.options, prepared.recorded
+    studio, blindness = None, recorded.blindness
+    with ExitStack() as stack:
+        if not blindness and (_has_viewers(prepared, team) or recorded.has_pictures):
+            try:
+                studio = stack.enter_context(_open_studio(prepared.scenario, options.renderer))
+            except RendererError as error:
+                if recorded.latency is not None:
+                    raise RendererError(f"cannot be replayed here: {error}") from None
+                blindness = str(error)
+                _tell(f"vision is not evaluated: {blindness}", options.strict, notice)
+        yield Vision(prepared, studio, blindness, team.does("vision"), notice)
+
+
+def _has_viewers(prepared: Prepared, team: Team) -> bool:
+    """Return whether there are cameras, and somebody might look at their pictures."""
+    options = prepared.options
+    is_watched = team.does("vision") or bool(team.programs) or options.listen is not None
+    return options.cameras and bool(prepared.scenario.cameras) and (is_watched or options.video)
+
+
+def _open_studio(scenario: Scenario, renderer: RendererName) -> RemoteStudio:
+    # Not at the top: a run without cameras starts without the libraries behind them.
+    from airhilt.sensors.cameras.renderer_process import RemoteStudio
+
+    require_pillow()  # A run with pictures keeps some.
+    return RemoteStudio(scenario, renderer=renderer)
+
+
+def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
+    if is_strict:
+        raise RunStopped(
+            f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+        )
+    notice(text)
+
+
+class _UntilLost:
+    """Takes pictures up to the instant at which an earlier run could take no more."""
+
+    def __init__(self, studio: RemoteStudio, lost_ns: int, cause: str) -> None:
+        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = studio.own_aircraft
+        self._studio = studio
+        self._lost_ns = lost_ns
+        self._cause = cause
+
+    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+        """Take them.
+
+        Raises
+        ------
+        RendererError
+            The earlier run could not.
+        """
+        if t_ns >= self._lost_ns:
+            raise RendererError(self._cause)
+        return self._studio.shoot(names, bodies, t_ns)

@@ -1,0 +1,402 @@
+"""Runs a run again from its folder, and tells where the two diverge."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import takewhile, zip_longest
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from airhilt.assistant.reference import DETECTOR
+from airhilt.errors import RunFolderError, SpeechError, first_problem
+from airhilt.messages import (
+    WORKER_OUTPUTS,
+    AdvisoryAudio,
+    Event,
+    SpokenTruth,
+    Status,
+    Transmission,
+    WorkerDescription,
+)
+from airhilt.options import Foreign, Options, Recorded
+from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
+from airhilt.record.audio import recorded_pcm
+from airhilt.record.folder import RunOptions, sha256, versions
+from airhilt.record.latency import RecordedLatencies
+from airhilt.run.router import FOREIGN
+from airhilt.run.simulation import Observer, run
+from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import RENDERER, RENDERERS, RendererName
+from airhilt.sensors.radio.backend import Reception
+from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.services import is_service
+from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
+from airhilt.units import SECOND_NS
+from airhilt.workers.pool import Participant
+
+if TYPE_CHECKING:
+    from airhilt.sensors.radio.channel import Background
+
+UNENDING_S = 86_400.0
+"""A call lasts longer than any run that its run has cut off."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a replay compares with its recording."""
+
+    identical: bool
+    messages: int
+    """Compared."""
+    difference: str
+    notes: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return {
+            "identical": self.identical,
+            "messages": self.messages,
+            "difference": self.difference or None,
+            "notes": list(self.notes),
+        }
+
+    def __str__(self) -> str:
+        head = f"identical: {self.messages} messages" if self.identical else self.difference
+        return "\n".join([head, *(f"note: {note}" for note in self.notes)])
+
+
+def replay(path: Path, observer: Observer | None = None) -> Verdict:
+    """Run a run again with the seed and the latencies that it had, and compare.
+
+    Workers of this process compute afresh; what came from other processes, and from services,
+    comes from the record.
+
+    Raises
+    ------
+    RunFolderError
+        There is no run, or it cannot be read.
+    """
+    folder = RunFolder.open(path)
+    info = folder.info()
+    latencies = read_latencies(folder.latency_path)
+    recorded_log = list(read_log(folder.log_path))
+    try:
+        scenario = Scenario.model_validate(info.scenario)
+    except ValidationError as error:
+        raise RunFolderError(
+            f"{folder.info_path}: its scenario is not valid here: {first_problem(error)}; "
+            f"expected AIRHILT {info.versions.get('airhilt')}"
+        ) from None
+    with tempfile.TemporaryDirectory(prefix="airhilt-replay-") as scratch:
+        options = Options(
+            seed=info.options.seed,
+            out=Path(scratch) / "run",
+            assistant=info.options.assistant,
+            cameras=info.options.cameras,
+            speech=info.options.speech,
+            snr_db=info.options.snr_db,
+            radio_profile=info.options.radio_profile,
+            topology=info.options.topology,
+            asr=info.options.asr,
+            tts=info.options.tts,
+            renderer=_renderer(info.options.renderer),
+            detector=info.options.detector or DETECTOR,
+            run_name=info.run,
+        )
+        recorded = _recorded(folder, info, latencies, recorded_log)
+        result = run(scenario, options, observer, recorded)
+        repeated = list(read_log(RunFolder(result.folder).log_path))
+    return _compare(recorded_log, repeated, info)
+
+
+def _recorded(
+    folder: RunFolder, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
+) -> Recorded:
+    breaks_off = info.phase != "finished"
+    attached = {worker.description.name for worker in info.workers if worker.where == "attached"}
+    programs = tuple(set(info.options.attached) - attached)
+    losses = {name: loss for name, loss in latencies.losses.items() if name in programs}
+    workers = []
+    for description in _elsewhere(info):
+        name = description.name
+        loss, unfinished = latencies.losses.get(name), latencies.unfinished.get(name)
+        failure = None
+        if loss is not None and unfinished is not None and unfinished.due_ns == loss.t_ns:
+            failure = (unfinished.seq, loss.cause)
+        elif loss is not None:
+            losses[name] = loss
+        given = [_given(folder, logged) for logged in log if logged.publisher == name]
+        worker = RecordedWorker(
+            given, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
+        )
+        workers.append(Participant(description, worker, attached=True))
+    return Recorded(
+        latency=LatencySpec(
+            "replay",
+            replay_of=str(folder.path),
+            recorded=latencies.latencies_ns,
+            breaks_off=breaks_off,
+        ),
+        end_ns=log[-1].t_ns if breaks_off and log else None,
+        blindness=_blindness(log),
+        cameras_lost=_cameras_lost(log),
+        has_pictures=any(logged.key.startswith("camera/") for logged in log),
+        sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
+        workers=tuple(workers),
+        programs=programs,
+        losses=losses,
+        foreign=tuple(
+            Foreign(logged.key, logged.t_ns, logged.data)
+            for logged in log
+            if logged.publisher == FOREIGN
+        ),
+    )
+
+
+def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
+    """Return the workers whose results cannot be had again by computing them here."""
+    options = info.options
+    engines = {"speech": options.asr, "voice": options.tts, "vision": options.detector}
+    return [
+        worker.description
+        for worker in info.workers
+        if worker.where == "attached" or is_service(engines.get(worker.description.modality, ""))
+    ]
+
+
+def _renderer(name: str) -> RendererName:
+    """Return the renderer of a run; one from before there were any has none."""
+    return next((known for known in RENDERERS if known == name), RENDERER)
+
+
+def _blindness(log: Sequence[Logged]) -> str:
+    """Return why no pictures could be drawn from the start; empty if they could."""
+    for logged in log:
+        if logged.key == "status/vision":
+            status = Status.model_validate_json(logged.data)
+            return status.cause if status.state == "not evaluated" else ""
+    return ""
+
+
+def _cameras_lost(log: Sequence[Logged]) -> tuple[int, str] | None:
+    """Return when there were no more pictures, and why; None if there were to the end."""
+    for logged in log:
+        if logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            if event.kind == "cameras_lost":
+                return event.t_ns, event.text
+    return None
+
+
+def _is_spoken_elsewhere(options: RunOptions) -> bool:
+    return options.speech and is_service(options.tts)
+
+
+def _sound(folder: RunFolder, log: Sequence[Logged]) -> RecordedSound:
+    """Return what was on the air, and why that ended."""
+    durations_s: dict[tuple[str, str], float] = {}
+    received: dict[str, Transmission] = {}
+    lost: Event | None = None
+    is_over = False
+    for logged in log:
+        kind = logged.key.split("/")
+        if kind[:2] == ["truth", "radio"]:
+            said = SpokenTruth.model_validate_json(logged.data)
+            if lost is None or said.t_tx_ns < lost.t_ns:
+                duration_s = (said.t_end_ns - said.t_tx_ns) / SECOND_NS
+                durations_s.setdefault(
+                    (said.speaker, said.text), UNENDING_S if is_over else duration_s
+                )
+        elif kind[0] == "radio":
+            header = Transmission.model_validate_json(logged.data)
+            received[header.id] = header
+        elif logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            is_over = is_over or event.kind in ("finished", "stopped")
+            lost = event if event.kind == "radio_lost" else lost
+    return RecordedSound(folder.audio_path, durations_s, received, lost.text if lost else None)
+
+
+def _given(folder: RunFolder, logged: Logged) -> Output:
+    """Return what a worker gave: the message, or the raw bytes that it is the header of."""
+    model = WORKER_OUTPUTS[logged.key.split("/")[0]]
+    if not issubclass(model, AdvisoryAudio):
+        return Output(logged.key, logged.data, logged.t_ns)
+    header = model.model_validate_json(logged.data)
+    pcm = recorded_pcm(folder.audio_path, header)
+    return Output(logged.key, pcm, logged.t_ns, header.model_dump(mode="json"))
+
+
+class RecordedWorker:
+    """Gives what a worker of another process gave, step by step.
+
+    Parameters
+    ----------
+    given
+        All that it gave, in order.
+    outputs
+        How many of them each step gave.
+    wakes_ns
+        When each step asked to be called again.
+    failure
+        The step in which it was lost, and why; None if it was lost between steps or not at all.
+    """
+
+    def __init__(
+        self,
+        given: Sequence[Output],
+        outputs: dict[int, int],
+        wakes_ns: dict[int, int | None],
+        failure: tuple[int, str] | None,
+    ) -> None:
+        self._given = deque(given)
+        self._outputs = outputs
+        self._wakes_ns = wakes_ns
+        self._failure = failure
+
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RecordedStep:  # noqa: ARG002
+        """Return the step as it was."""
+        if self._failure is not None and self._failure[0] == seq:
+            return RecordedStep(Reply((), 0.0), self._failure[1])
+        count = min(self._outputs.get(seq, 0), len(self._given))
+        outputs = tuple(self._given.popleft() for _ in range(count))
+        return RecordedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
+
+
+@dataclass(frozen=True)
+class RecordedStep:
+    """A step of an earlier run."""
+
+    reply: Reply
+    failure: str | None
+
+    def result(self) -> Reply:
+        """Return what it gave.
+
+        Raises
+        ------
+        WorkerLost
+            The worker was lost in it.
+        """
+        if self.failure is not None:
+            raise WorkerLost(self.failure)
+        return self.reply
+
+
+class RecordedSound:
+    """The voices of an earlier run, and what its receiver gave out.
+
+    Parameters
+    ----------
+    audio
+        Folder with the sound of what was received.
+    durations_s
+        Of each text, by its speaker.
+    received
+        Headers by the ids of the calls.
+    failure
+        Why the sound was lost; None if it was not.
+    """
+
+    def __init__(
+        self,
+        audio: Path,
+        durations_s: Mapping[tuple[str, str], float],
+        received: Mapping[str, Transmission],
+        failure: str | None,
+    ) -> None:
+        self._audio = audio
+        self._durations_s = durations_s
+        self._received = received
+        self._failure = failure
+
+    def speak(self, speaker: str, text: str) -> tuple[None, float]:
+        """Return how long it took to say a text.
+
+        Raises
+        ------
+        SpeechError
+            It was this text that could not be said.
+        """
+        duration_s = self._durations_s.get((speaker, text))
+        if duration_s is None and self._failure is not None:
+            raise SpeechError(self._failure)
+        return None, UNENDING_S if duration_s is None else duration_s
+
+    def receive(
+        self,
+        on_air: OnAir,
+        heard_over: tuple[OnAir, ...],  # noqa: ARG002
+        snr_db: float | None,  # noqa: ARG002
+        background: Background,  # noqa: ARG002
+    ) -> Reception:
+        """Return the transmission as it was received.
+
+        Raises
+        ------
+        SpeechError
+            It was in this transmission that the sound was lost.
+        """
+        header = self._received.get(on_air.utterance.id)
+        if header is None or not header.samples:
+            raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")
+        return Reception(header, recorded_pcm(self._audio, header))
+
+
+def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:
+    notes = []
+    now = versions()
+    changed = [
+        f"{name} {was} -> {now.get(name)}"
+        for name, was in info.versions.items()
+        if now.get(name) != was
+    ]
+    if changed:
+        notes.append(f"versions differ from the recording: {', '.join(changed)}")
+    notes += [
+        f"{name} is not the file of the recording any more"
+        for name, was_sha256 in info.models.items()
+        if not Path(name).is_file() or sha256(Path(name)) != was_sha256
+    ]
+    if info.phase != "finished":
+        recorded = list(takewhile(lambda logged: not _is_stop(logged), recorded))
+        repeated = repeated[: len(recorded)]
+        notes.append("the recording breaks off; compared up to there")
+    for index, (was, now_is) in enumerate(zip_longest(recorded, repeated)):
+        if was != now_is:
+            return Verdict(False, index, _difference(index, was, now_is), tuple(notes))
+    return Verdict(True, len(recorded), "", tuple(notes))
+
+
+def _is_stop(logged: Logged) -> bool:
+    return logged.key == "truth/event" and Event.model_validate_json(logged.data).kind == "stopped"
+
+
+def _difference(index: int, was: Logged | None, now_is: Logged | None) -> str:
+    first = was or now_is
+    t_s = first.t_ns / SECOND_NS if first else 0.0
+    head = f"differs first at message {index}, {t_s:.3f} s"
+    if was is None or now_is is None:
+        longer, found = ("replay", now_is) if was is None else ("recording", was)
+        return f"{head}: only the {longer} has {found.key if found else ''}"
+    if was[:3] != now_is[:3]:
+        return (
+            f"{head}: recorded {was.key} by {was.publisher} at {was.t_ns} ns, "
+            f"now {now_is.key} by {now_is.publisher} at {now_is.t_ns} ns"
+        )
+    fields = _first_field(json.loads(was.data), json.loads(now_is.data), "")
+    return f"{head}: {was.key}{fields}"
+
+
+def _first_field(was: Any, now_is: Any, path: str) -> str:
+    if isinstance(was, dict) and isinstance(now_is, dict):
+        for key in sorted({*was, *now_is}):
+            if was.get(key) != now_is.get(key):
+                return _first_field(was.get(key), now_is.get(key), f"{path}/{key}")
+    return f"{path}: recorded {was!r}, now {now_is!r}"

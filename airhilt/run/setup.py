@@ -1,0 +1,196 @@
+"""What a run is set up with: all that is settled before anybody takes part in it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from airhilt.errors import AirhiltError, first_problem
+from airhilt.options import Options, Recorded
+from airhilt.record import RunFolder, RunInfo, read_latencies
+from airhilt.record.folder import RecordedWorker, RunOptions, machine, versions
+from airhilt.record.video import require_video
+from airhilt.run.participants import Team
+from airhilt.scenario import Scenario
+from airhilt.scenario.failures import HappeningLine, as_it_happens
+from airhilt.scenario.loading import draw
+from airhilt.scenario.models import Radio
+from airhilt.scenario.perturbation import Draw
+from airhilt.sensors.radio.backend import Sound, Text
+from airhilt.sensors.radio.backends import models_of, sound_of
+from airhilt.sensors.radio.script import planned_ends_ns
+from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
+from airhilt.world.actors import Performer, build_cast
+from airhilt.world.site import Setting
+
+TICK_S = 0.05
+"""Control tick of the aircraft; the flight dynamics take six steps in it."""
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """What a run is set up with.
+
+    Attributes
+    ----------
+    scenario
+        With its perturbations drawn, and the radio that the options give it.
+    given
+        The scenario as it was before.
+    pace
+        Until it is known who takes part.
+    ends_ns
+        When each line would end if all went as planned, by its id.
+    """
+
+    name: str
+    options: Options
+    recorded: Recorded
+    given: Scenario
+    scenario: Scenario
+    draws: Sequence[Draw]
+    latency: LatencySpec
+    pace: Pace
+    folder: RunFolder
+    setting: Setting
+    cast: dict[str, Performer]
+    sound: Sound
+    lines: Sequence[HappeningLine]
+    ends_ns: Mapping[str, int]
+
+    def info(self, team: Team, pace: Pace, endpoint: str) -> RunInfo:
+        """Return what ``run.json`` says of the run when it begins."""
+        options = self.options
+        return RunInfo(
+            run=self.name,
+            options=RunOptions(
+                seed=options.seed,
+                assistant=team.assistant,
+                pace=pace.name,
+                latency=self.latency.text,
+                attached=options.attach,
+                cameras=options.cameras,
+                speech=options.speech,
+                strict=options.strict,
+                snr_db=options.snr_db,
+                radio_profile=options.radio_profile,
+                topology=options.topology,
+                asr=options.asr,
+                tts=options.tts,
+                renderer=options.renderer,
+                detector=options.detector,
+            ),
+            scenario=self.given.model_dump(mode="json"),
+            realised=self.scenario.model_dump(mode="json"),
+            draws=[draw.model_dump() for draw in self.draws],
+            workers=[
+                RecordedWorker(
+                    description=participant.description,
+                    where="attached" if participant.attached else "in process",
+                )
+                for participant in team.participants
+            ],
+            endpoint=endpoint,
+            started_at=datetime.now(UTC).isoformat(timespec="seconds"),
+            versions=versions(),
+            platform=machine(),
+            models=models_of(self.scenario.radio) if options.speech else {},
+        )
+
+
+def prepare(given: Scenario, options: Options, recorded: Recorded) -> Prepared:
+    """Settle what a run needs, and put everybody where they begin.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong; nothing is written yet.
+    """
+    scenario, draws = draw(given, options.seed)
+    scenario = _with_radio_of(options, scenario)
+    latency = recorded.latency or _latency(options.latency, given, options.seed)
+    pace = parse_pace(options.pace or "virtual")
+    name = options.run_name or f"{given.name}-{options.seed}"
+    folder = RunFolder(options.out or _default_folder(name))
+    folder.require_free(options.overwrite)
+    if options.video:
+        _require_something_to_film(options, scenario)
+    setting = Setting.of(scenario)
+    cast = build_cast(scenario, setting, options.seed, TICK_S)
+    tts = options.tts if options.speech else None
+    sound = recorded.sound or sound_of(scenario.radio, options.seed, tts)
+    lines = as_it_happens(scenario)
+    # For the summary alone; a record knows what was said, but not what was planned and was not.
+    planned = sound if recorded.sound is None else Text(scenario.radio.words_per_minute)
+    return Prepared(
+        name=name,
+        options=options,
+        recorded=recorded,
+        given=given,
+        scenario=scenario,
+        draws=draws,
+        latency=latency,
+        pace=pace,
+        folder=folder,
+        setting=setting,
+        cast=cast,
+        sound=sound,
+        lines=lines,
+        ends_ns=planned_ends_ns(lines, planned),
+    )
+
+
+def _require_something_to_film(options: Options, scenario: Scenario) -> None:
+    require_video()
+    if not (options.cameras and scenario.cameras):
+        raise AirhiltError(
+            f"--video: there are no cameras in this run of {scenario.name!r}; expected a "
+            "scenario with cameras, and no --no-cameras"
+        )
+
+
+def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
+    spec = parse_latency(text)
+    if spec.replay_of is None:
+        return spec
+    earlier = RunFolder.open(Path(spec.replay_of))
+    info = earlier.info()
+    if info.scenario != scenario.model_dump(mode="json") or info.options.seed != seed:
+        raise AirhiltError(
+            f"latency {text}: that run is of {info.scenario.get('name')!r} with seed "
+            f"{info.options.seed}; expected the same scenario and seed as this one, "
+            f"{scenario.name!r} with {seed}"
+        )
+    recorded = read_latencies(earlier.latency_path)
+    return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
+
+
+def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
+    """Return a scenario with those settings of its radio that the options give."""
+    given = {
+        "snr_db": options.snr_db,
+        "profile": options.radio_profile,
+        "topology": options.topology,
+    }
+    changes = {name: value for name, value in given.items() if value is not None}
+    if not changes:
+        return scenario
+    try:
+        radio = Radio.model_validate(scenario.radio.model_dump() | changes)
+    except ValidationError as error:
+        raise AirhiltError(f"radio: {first_problem(error)}") from None
+    return scenario.model_copy(update={"radio": radio})
+
+
+def _default_folder(name: str) -> Path:
+    stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
+    path, count = Path("runs") / f"{name}-{stamp}", 1
+    while path.exists():
+        count += 1
+        path = Path("runs") / f"{name}-{stamp}-{count}"
+    return path

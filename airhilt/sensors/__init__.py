@@ -1,0 +1,1 @@
+"""Sensors: radio, cameras and surveillance, which show the world to the assistant."""

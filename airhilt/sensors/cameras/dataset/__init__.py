@@ -1,0 +1,1 @@
+"""Pictures with their truth, exported to train and to judge detectors."""

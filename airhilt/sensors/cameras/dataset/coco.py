@@ -1,0 +1,311 @@
+"""Pictures with the truth about them, as COCO, to train and to judge detectors.
+
+The format is that of T.-Y. Lin et al., Microsoft COCO, ECCV 2014: a folder of pictures and one
+``annotations.json``. What COCO has no word for stands beside it under names of AIRHILT's own.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, get_args
+
+import numpy as np
+
+from airhilt import library
+from airhilt._version import __version__
+from airhilt.errors import CameraError
+from airhilt.files import replace_file
+from airhilt.imaging.masks import Mask, runs_of
+from airhilt.messages import VisibleClass
+from airhilt.scenario import Scenario
+from airhilt.scenario.loading import draw
+from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, cast
+from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.scene.bodies import state_of
+from airhilt.sensors.cameras.scene.builder import light_of, open_studio
+from airhilt.sensors.cameras.scene_renderer import Frame, Sighting, Studio
+from airhilt.sensors.cameras.snapshot import TICK_S
+from airhilt.sim.streams import stream
+from airhilt.units import DEGREE, seconds_to_ns
+from airhilt.world.actors import build_cast
+from airhilt.world.site import Setting
+
+CLASSES: tuple[VisibleClass, ...] = get_args(VisibleClass)
+"""A category's id is its place here, from 1."""
+QUALITY = 95
+"""Of the JPEGs; colours are not subsampled."""
+FAINTEST_PX = 0.5
+"""Of what shows less of itself than this, nothing is said."""
+LAST_INSTANT_NS = 100 * 10**9
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A frame, and under what conditions it was taken."""
+
+    frame: Frame
+    actors: tuple[str, ...]
+    airport: str | None
+    visibility_m: float
+    solar_time_h: float
+    sun_elevation_deg: float
+    rain_mm_h: float
+    station: str
+    carrier: str | None
+
+
+def random_pictures(
+    count: int,
+    seed: int = 0,
+    airports: Sequence[str] = (),
+    renderer: RendererName = "open3d",
+    size: tuple[int, int] = (640, 360),
+    empty: float = 0.35,
+) -> Iterator[Picture]:
+    """Return pictures of random scenes, to be taken one by one.
+
+    Parameters
+    ----------
+    airports
+        ICAO location indicators, or `dataset_scenes.EN_ROUTE`; none: all that there are.
+    empty
+        Part of the pictures that have nobody in them.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such airport, or pictures cannot be drawn.
+    """
+    places = [place if place == EN_ROUTE else place.upper() for place in airports]
+    known = [name.upper() for name in library.names("airports")]
+    casting = Casting(places or [*known, EN_ROUTE], size)
+    return _shots(casting, count, seed, renderer, empty)
+
+
+def _shots(
+    casting: Casting, count: int, seed: int, renderer: RendererName, empty: float
+) -> Iterator[Picture]:
+    taken = number = 0
+    while taken < count:
+        sitting = casting.sitting(number, stream(seed, "dataset", number))
+        studio = studio_of(sitting, renderer)
+        try:
+            for turn, camera in enumerate(sitting.order[: count - taken]):
+                draws = stream(seed, "dataset/shot", number, turn)
+                bodies = cast(sitting, camera, draws, empty)
+                t_ns = int(draws.integers(LAST_INSTANT_NS))
+                yield Picture(
+                    studio.shoot([camera], bodies, t_ns)[0],
+                    studio.actors,
+                    None if sitting.layout is None else sitting.place,
+                    sitting.light.visibility_m,
+                    sitting.daylight.solar_time_h,
+                    sitting.light.sun_elevation_rad / DEGREE,
+                    sitting.weather.rain_mm_h,
+                    sitting.stations[camera],
+                    sitting.cameras[camera].carrier,
+                )
+        finally:
+            studio.close()
+        taken += len(sitting.order)
+        number += 1
+
+
+def studio_of(sitting: Sitting, renderer: RendererName) -> Studio:
+    """Return the studio in which a sitting is drawn; close it."""
+    return Studio(
+        sitting.world,
+        sitting.light,
+        sitting.models,
+        sitting.cameras.values(),
+        renderer,
+        sitting.weather.rain_mm_h,
+    )
+
+
+def scenario_pictures(
+    scenario: Scenario,
+    count: int,
+    seed: int = 0,
+    renderer: RendererName = "open3d",
+    size: tuple[int, int] | None = None,
+) -> Iterator[Picture]:
+    """Return pictures of a scenario's own cameras while its actors move, to be taken one by one.
+
+    All cameras look at the same instants, which are spread over the whole scenario; nothing is
+    said in it.
+
+    Raises
+    ------
+    AirhiltError
+        It has no camera, or pictures cannot be drawn.
+    """
+    realised, _ = draw(scenario, seed)
+    if not realised.cameras:
+        raise CameraError(
+            f"scenario {scenario.name!r} declares no cameras; expected one at least: add it "
+            "under 'cameras', or leave --scenario out for random scenes"
+        )
+    if size is not None:
+        width, height = size
+        cameras = [
+            camera.model_copy(update={"width_px": width, "height_px": height})
+            for camera in realised.cameras
+        ]
+        realised = realised.model_copy(update={"cameras": tuple(cameras)})
+    return _moving(realised, count, seed, renderer)
+
+
+def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -> Iterator[Picture]:
+    setting = Setting.of(realised)
+    light, frame = light_of(realised, setting), frame_of(setting)
+    performers = list(build_cast(realised, setting, seed, TICK_S).values())
+    stations = {
+        camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
+        for camera in realised.cameras
+    }
+    carriers = {camera.name: camera.carrier for camera in realised.cameras}
+    names = list(stations)
+    instants = -(-count // len(names))
+    ticks = round(realised.duration_s / TICK_S)
+    studio = open_studio(realised, setting, None, renderer)
+    try:
+        tick = 0
+        for index in range(instants):
+            due = ticks * index // instants
+            for _ in range(due - tick):
+                for performer in performers:
+                    if performer.body.ended is None:
+                        performer.body.advance()
+            tick = due
+            t_s = tick * TICK_S
+            bodies = [state_of(each, frame, setting.ground_m, t_s) for each in performers]
+            wanted = names[: count - index * len(names)]
+            for taken in studio.shoot(wanted, bodies, seconds_to_ns(t_s)):
+                yield Picture(
+                    taken,
+                    studio.actors,
+                    None if setting.layout is None else setting.layout.airport.icao,
+                    light.visibility_m,
+                    realised.daylight.solar_time_h,
+                    light.sun_elevation_rad / DEGREE,
+                    realised.weather.rain_mm_h,
+                    stations[taken.camera],
+                    carriers[taken.camera],
+                )
+    finally:
+        studio.close()
+
+
+def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) -> dict[str, int]:
+    """Write pictures and the truth about them, and return how many bodies of each class there are.
+
+    What there is when it breaks off is complete: the truth about those pictures is written too.
+    Before the first picture nothing is written.
+
+    Parameters
+    ----------
+    about
+        What stands under ``info``, beside the version.
+
+    Raises
+    ------
+    AirhiltError
+        The folder is not empty or cannot be written, or pictures cannot be drawn.
+    """
+    try:
+        from PIL import Image
+    except ImportError:
+        raise CameraError("pictures need Pillow: pip install 'airhilt[vision]'") from None
+    images: list[dict[str, Any]] = []
+    annotations: list[dict[str, Any]] = []
+    try:
+        if folder.exists() and any(folder.iterdir()):
+            raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
+        try:
+            for number, picture in enumerate(pictures, start=1):
+                (folder / "images").mkdir(parents=True, exist_ok=True)
+                name = f"images/{number:06}.jpg"
+                buffer = io.BytesIO()
+                Image.fromarray(picture.frame.colour).save(
+                    buffer, format="JPEG", quality=QUALITY, subsampling=0
+                )
+                replace_file(folder / name, buffer.getvalue())
+                images.append(_image(number, name, picture))
+                for sighting in picture.frame.sightings:
+                    if sighting.pixels >= FAINTEST_PX:
+                        identity = len(annotations) + 1
+                        annotations.append(_annotation(identity, number, picture, sighting))
+        finally:
+            if images:
+                document = {
+                    "info": {"description": "AIRHILT", "version": __version__, **about},
+                    "images": images,
+                    "annotations": annotations,
+                    "categories": [{"id": _category(name), "name": name} for name in CLASSES],
+                }
+                data = json.dumps(document, separators=(",", ":")).encode()
+                replace_file(folder / "annotations.json", data)
+    except OSError as error:
+        raise CameraError(
+            f"{folder}: cannot be written: {error.strerror}; make room, or choose another --out"
+        ) from None
+    found = [CLASSES[annotation["category_id"] - 1] for annotation in annotations]
+    return {name: found.count(name) for name in CLASSES}
+
+
+def _category(label: VisibleClass) -> int:
+    return CLASSES.index(label) + 1
+
+
+def _image(number: int, name: str, picture: Picture) -> dict[str, Any]:
+    lens = picture.frame.view.intrinsics
+    own = {}
+    if picture.carrier is not None:
+        number_of_own = picture.actors.index(picture.carrier) + 1
+        own = {"own_aircraft": run_lengths(picture.frame.instance == number_of_own)}
+    return {
+        "id": number,
+        "file_name": name,
+        "width": lens.width_px,
+        "height": lens.height_px,
+        "airport": picture.airport,
+        "camera": picture.frame.camera,
+        "camera_kind": picture.station,
+        "horizontal_fov_deg": round(lens.horizontal_fov_rad / DEGREE, 3),
+        "visibility_m": round(picture.visibility_m, 1),
+        "rain_mm_h": round(picture.rain_mm_h, 2),
+        "solar_time_h": round(picture.solar_time_h, 3),
+        "sun_elevation_deg": round(picture.sun_elevation_deg, 2),
+        **own,
+    }
+
+
+def _annotation(identity: int, image: int, picture: Picture, sighting: Sighting) -> dict[str, Any]:
+    left, top, right, bottom = sighting.box
+    actor = picture.actors.index(sighting.actor) + 1
+    return {
+        "id": identity,
+        "image_id": image,
+        "category_id": _category(sighting.label),
+        "bbox": [round(value, 2) for value in (left, top, right - left, bottom - top)],
+        "area": round(sighting.pixels, 2),
+        "segmentation": run_lengths(picture.frame.instance == actor),
+        "iscrowd": 0,
+        "actor": sighting.actor,
+        "range_m": round(sighting.range_m, 1),
+        "visible_fraction": round(sighting.visible_fraction, 3),
+        "truncation": round(sighting.truncation, 3),
+        "transmission": round(sighting.transmission, 4),
+    }
+
+
+def run_lengths(mask: Mask) -> dict[str, list[int]]:
+    """Return a mask as COCO's uncompressed run lengths: column by column, the first one free."""
+    counts = runs_of(np.ascontiguousarray(mask.T)) or (mask.size,)
+    return {"size": list(mask.shape), "counts": list(counts)}

@@ -1,0 +1,158 @@
+"""The cameras of a scenario and of an airport, and where they look from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from airhilt.errors import CameraError
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.library import nearest
+from airhilt.scenario import Scenario
+from airhilt.scenario.models import ActorMount, FixedMount
+from airhilt.scenario.models import Camera as DeclaredCamera
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.units import DEGREE, FOOT
+from airhilt.world.site import Setting
+from airhilt.world.surface.airport import Camera as AirportCamera
+
+AIRPORT_CAMERA_PX = (640, 360)
+NOSE_LOOKS_DOWN_RAD = 4.0 * DEGREE
+"""About the angle of attack of an airliner in level flight: the horizon is in the middle."""
+TAIL_LOOKS_DOWN_RAD = 7.0 * DEGREE
+
+
+@dataclass(frozen=True)
+class Mount:
+    """A camera on an aircraft: its pose in the aircraft's axes.
+
+    A camera on the nose sees nothing of its aircraft; one on the tail does.
+    """
+
+    actor: str
+    pose: Pose
+    sees_own_aircraft: bool
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera and where it is: a pose in the world if it stands, or a mount."""
+
+    name: str
+    intrinsics: Intrinsics
+    at: Pose | Mount
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it never moves."""
+        return isinstance(self.at, Pose)
+
+    @property
+    def carrier(self) -> str | None:
+        """The actor that carries it; None if it stands."""
+        return self.at.actor if isinstance(self.at, Mount) else None
+
+    def view(self, bodies: Mapping[str, BodyState]) -> View:
+        """Return what it looks at while bodies are where they are.
+
+        Raises
+        ------
+        CameraError
+            It is mounted on something that is not there, or nowhere.
+        """
+        if isinstance(self.at, Pose):
+            return View(self.intrinsics, self.at)
+        carrier = bodies.get(self.at.actor)
+        if carrier is None:
+            raise CameraError(f"camera {self.name!r} is on {self.at.actor}, which is not there")
+        return View(self.intrinsics, self.at.pose.on(carrier.pose))
+
+
+def frame_of(setting: Setting) -> LocalFrame:
+    """Return the local frame in which a setting is drawn."""
+    if setting.layout is not None:
+        return setting.layout.frame
+    return LocalFrame((setting.centre.lat_deg * DEGREE, setting.centre.lon_deg * DEGREE))
+
+
+def cameras_of(
+    scenario: Scenario, setting: Setting, models: Mapping[str, Model]
+) -> dict[str, Camera]:
+    """Return the cameras that a scenario declares, and those of its airport, by name.
+
+    Raises
+    ------
+    CameraError
+        One is none.
+    """
+    frame = frame_of(setting)
+    cameras: dict[str, Camera] = {}
+    if setting.layout is not None:
+        for given in setting.layout.airport.cameras:
+            cameras[given.name] = _of_airport(given, frame)
+    for declared in scenario.cameras:
+        cameras[declared.name] = _declared(declared, setting, frame, models)
+    return cameras
+
+
+def find_camera(cameras: Mapping[str, Camera], name: str) -> Camera:
+    """Return the camera of that name.
+
+    Raises
+    ------
+    CameraError
+        There is none.
+    """
+    if name not in cameras:
+        raise CameraError(f"no camera named {name!r}{nearest(name, sorted(cameras))}")
+    return cameras[name]
+
+
+def _of_airport(given: AirportCamera, frame: LocalFrame) -> Camera:
+    east, north = frame.to_local(given.place)
+    pose = Pose.of(
+        (east, north, given.height_m), given.azimuth_deg * DEGREE, given.elevation_deg * DEGREE
+    )
+    lens = Intrinsics(*AIRPORT_CAMERA_PX, given.horizontal_fov_deg * DEGREE)
+    return Camera(given.name, lens, pose)
+
+
+def _declared(
+    declared: DeclaredCamera, setting: Setting, frame: LocalFrame, models: Mapping[str, Model]
+) -> Camera:
+    lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
+    match declared.mount:
+        case FixedMount() as fixed:
+            east, north = frame.to_local(setting.place(fixed.position))
+            pose = Pose.of(
+                (east, north, fixed.height_ft * FOOT),
+                fixed.azimuth_deg * DEGREE,
+                fixed.elevation_deg * DEGREE,
+            )
+            return Camera(declared.name, lens, pose)
+        case ActorMount(actor=actor, station=station):
+            return Camera(declared.name, lens, station_mount(declared.name, actor, station, models))
+
+
+def station_mount(name: str, actor: str, station: str, models: Mapping[str, Model]) -> Mount:
+    """Return where a camera sits on the nose or the tail of an aircraft.
+
+    Raises
+    ------
+    CameraError
+        The actor is no aircraft.
+    """
+    kind = models[actor].aircraft if actor in models else None
+    if kind is None:
+        raise CameraError(
+            f"camera {name!r} is mounted on {actor!r}; expected the callsign of an aircraft"
+        )
+    size = kind.dimensions
+    if station == "nose":
+        axis = size.height_m - size.wheel_height_offset_m - kind.mesh.fin_height_m
+        place = (0.0, size.length_m / 2.0 + 0.4, min(axis, 1.0))
+        return Mount(actor, Pose.of(place, 0.0, -NOSE_LOOKS_DOWN_RAD), False)
+    top = size.height_m - size.wheel_height_offset_m
+    place = (0.0, -0.45 * size.length_m, top + 0.35)
+    return Mount(actor, Pose.of(place, 0.0, -TAIL_LOOKS_DOWN_RAD), True)

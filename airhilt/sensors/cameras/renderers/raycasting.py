@@ -1,0 +1,379 @@
+"""Pictures by Open3D's `RaycastingScene` (Embree): no display, no graphics driver.
+
+The world is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel of
+every second row; where the four about a pixel meet the same piece, so does the pixel, and its
+distance follows from the plane. Only the other pixels cost rays of their own.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.machinery import PathFinder
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.errors import RendererError, first_line
+from airhilt.imaging.masks import Mask
+from airhilt.sensors.cameras.renderers import Part, Samples
+from airhilt.sensors.cameras.scene.illumination import (
+    LEVELS,
+    SKY_STEPS,
+    Light,
+    encode,
+    encode_levels,
+)
+from airhilt.sensors.cameras.view import Pose, View, Window
+from airhilt.shapes.mesh import Floats, Mesh
+
+BINDINGS = "open3d.cpu.pybind"
+SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
+THREADS = 2
+"""Of a cast: while pictures are drawn a run waits for them."""
+Number = TypeVar("Number", bound=np.generic)
+Doubles = npt.NDArray[np.float64]
+Pieces = npt.NDArray[np.intp]
+"""Numbers of pieces."""
+RAISED_M = 0.5
+"""Above the ground: what reaches higher may stand before the sky."""
+LEAST_RADIUS_M, SQUARES = 4.0, 8.0
+"""What stands is taken together in squares whose sides are so many times the radius of its
+triangles, or of triangles of the least radius."""
+MISSED = 0
+"""Number of the piece that is the sky."""
+
+
+@dataclass(frozen=True)
+class _Body:
+    scene: Any
+    normals: Floats
+    colours: Floats
+    glow: Floats
+
+
+class _Glare(NamedTuple):
+    """Light about the sun, shape (3, n), and in which samples it is."""
+
+    at: npt.NDArray[np.intp]
+    colour: Floats
+
+
+class Open3DRenderer:
+    """Draws by casting rays.
+
+    Raises
+    ------
+    RendererError
+        Open3D is not installed, or not able to start.
+    """
+
+    def __init__(self, world: Mesh, light: Light) -> None:
+        self._open3d = _import_open3d()
+        self._light = light
+        self._world = self._scene(world)
+        self._piece_of, self._normals, self._heights, colours = _pieces(world, light)
+        tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
+        self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
+        self._raised = _raised(world)
+        self._bodies: dict[str, _Body] = {}
+
+    def add_shape(self, name: str, mesh: Mesh) -> None:
+        """Take in the shape of a body."""
+        self._bodies[name] = _Body(self._scene(mesh), mesh.normals, mesh.colours, mesh.glow)
+
+    def close(self) -> None:
+        """Give back what was taken."""
+        self._bodies.clear()
+
+    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
+        """Return the world behind all bodies, with the sky and the air."""
+        x, y = _on_focal_plane(view, *view.sample_places(window, samples))
+        if samples == 1:
+            pieces = self._adaptively(view, x, y)
+        else:
+            pieces = self._pieces_at(view, *np.broadcast_arrays(x, y))
+        length = np.sqrt(x * x + (y * y + np.float32(1.0)))
+        sky = pieces == MISSED
+        glare = self._look_up(view, x, y, length, pieces, sky)
+        # A plane n p = h is met at the depth h / (n d): its inverse is linear in the picture.
+        right, down, ahead = self._slopes(view, pieces)
+        inverse_depth = _of(right, pieces)
+        inverse_depth *= x
+        part = _of(down, pieces)
+        part *= y
+        inverse_depth += part
+        inverse_depth += _of(ahead, pieces)
+        with np.errstate(divide="ignore"):
+            distance = np.divide(length, inverse_depth, out=inverse_depth)
+        left = np.exp(distance * np.float32(-self._light.backdrop_extinction_per_m))
+        np.copyto(left, np.float32(1.0), where=sky)
+        return Samples(self._colour_of(pieces, left, glare), distance)
+
+    def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
+        """Return bodies through the air, and shadows."""
+        return [self._shadow(view, *part[:4]) if part.is_shadow else self._body(view, *part[:4])
+                for part in parts]  # fmt: skip
+
+    def _body(self, view: View, shape: str, pose: Pose, window: Window, samples: int) -> Samples:
+        body = self._bodies[shape]
+        directions = view.directions(*view.sample_places(window, samples))
+        size = directions.shape[1:]
+        rotation = pose.rotation.astype(np.float32)
+        origin = (np.asarray(view.pose.position_m) - np.asarray(pose.position_m)) @ pose.rotation
+        answer = self._cast(body.scene, _rays(origin, rotation.T @ directions.reshape(3, -1)))
+        distance = answer["t_hit"].numpy()
+        colour = np.zeros((len(distance), 3), dtype=np.uint8)
+        hit = np.flatnonzero(np.isfinite(distance))
+        if len(hit):
+            faces = answer["primitive_ids"].numpy()[hit]
+            u, v = answer["primitive_uvs"].numpy()[hit].T
+            weights = np.stack((1.0 - u - v, u, v), axis=1)
+            normals = np.einsum("nk,nki->ni", weights, body.normals[faces]) @ rotation.T
+            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+            lit = self._light.shade(body.colours[faces], normals)
+            lit += (body.glow[faces] * self._light.darkness)[:, None] * body.colours[faces]
+            air = self._light.extinction_per_m
+            seen = self._light.through_air(np.ascontiguousarray(lit.T), distance[hit], air)
+            colour[hit] = encode(seen)
+        return Samples(colour.reshape(*size, 3), distance.reshape(size))
+
+    def _shadow(self, view: View, shape: str, pose: Pose, window: Window, samples: int) -> Samples:
+        directions = view.directions(*view.sample_places(window, samples))
+        size = directions.shape[1:]
+        shaded = np.full(size, np.inf, dtype=np.float32)
+        drawn = Samples(np.zeros((*size, 3), dtype=np.uint8), shaded)
+        below = directions[2] < -1e-5
+        if not below.any():
+            return drawn
+        towards = directions[:, below].T.astype(np.float64)
+        position = np.asarray(view.pose.position_m, dtype=np.float64)
+        away = -position[2] / towards[:, 2]
+        ground = position + towards * away[:, None] - np.asarray(pose.position_m)
+        sun = np.broadcast_to(
+            (self._light.sun @ pose.rotation).astype(np.float32)[:, None], (3, len(ground))
+        )
+        tensor = self._open3d.core.Tensor.from_numpy(_rays(ground @ pose.rotation, sun))
+        scene = self._bodies[shape].scene
+        hidden = scene.test_occlusions(tensor, nthreads=THREADS).numpy()
+        shaded[below] = np.where(hidden, np.float32(0.0), np.float32(np.inf))
+        return drawn
+
+    def _adaptively(self, view: View, x: Floats, y: Floats) -> Pieces:
+        """Return the piece that each sample meets."""
+        rows, columns = y.shape[0], x.shape[1]
+        coarse = self._pieces_at(view, *np.broadcast_arrays(x[:, ::2], y[::2]))
+        height, width = coarse.shape
+        # The neighbours below and to the right; the last ones are their own.
+        below = np.vstack((coarse[1:], coarse[-1:]))
+        alike = coarse == below
+        alike[:, :-1] &= (coarse[:, 1:] == coarse[:, :-1]) & (below[:, 1:] == coarse[:, :-1])
+        pieces = np.empty((height, 2, width, 2), dtype=np.intp)
+        pieces[...] = coarse[:, None, :, None]
+        found = pieces.reshape(2 * height, 2 * width)[:rows, :columns]
+        # The other three of each block that is not sure.
+        row, column = np.divmod(np.flatnonzero(~alike), width)
+        row, column = (2 * row + [[0], [1], [1]]).ravel(), (2 * column + [[1], [0], [1]]).ravel()
+        inside = (row < rows) & (column < columns)
+        row, column = row[inside], column[inside]
+        found[row, column] = self._pieces_at(view, x[0, column], y[row, 0])
+        return np.ascontiguousarray(found)
+
+    def _pieces_at(self, view: View, x: Floats, y: Floats) -> Pieces:
+        """Return the pieces towards places of the focal plane, of their shape."""
+        towards = _towards(view, x.reshape(-1), y.reshape(-1))
+        pieces = np.full(x.size, MISSED, dtype=np.intp)
+        eye = np.asarray(view.pose.position_m)
+        # Whatever looks higher than all that stands looks into the sky.
+        asked = np.flatnonzero(towards[2] <= self._highest(eye) * np.hypot(*towards[:2]))
+        answer = self._cast(self._world, _rays(eye, towards[:, asked]))
+        # Open3D marks a miss with the greatest number, which wraps to the entry before the first.
+        faces = answer["primitive_ids"].numpy().view(np.int32)
+        pieces[asked] = _of(self._piece_of, faces + 1)
+        return pieces.reshape(x.shape)
+
+    def _highest(self, eye: Doubles) -> np.float32:
+        """Return a slope, up over along, above which nothing of the world is seen; at least 0."""
+        middles, radii, tops = self._raised
+        if not len(tops):
+            return np.float32(0.0)
+        along = np.hypot(middles[:, 0] - eye[0], middles[:, 1] - eye[1]) - radii
+        return np.float32(max(float(((tops - eye[2]) / np.maximum(along, 1.0)).max()), 0.0))
+
+    def _look_up(
+        self, view: View, x: Floats, y: Floats, length: Floats, pieces: Pieces, sky: Mask
+    ) -> _Glare | None:
+        """Tell pieces of the sky apart by their elevation; return the glare of the sun on them."""
+        rows = np.flatnonzero(sky.any(axis=1))
+        if not len(rows):
+            return None
+        block = slice(int(rows[0]), int(rows[-1]) + 1)
+        axes = view.axes.astype(np.float32)
+        up = (x * axes[2, 0] + (y[block] * axes[2, 1] + axes[2, 2])) / length[block]
+        steps = self._light.sky_steps(up)
+        steps += len(self._heights)
+        np.copyto(pieces[block], steps, where=sky[block])
+        # The sun's glare, if any of it is in the picture.
+        sun = view.axes.T @ self._light.sun
+        across = sun[0] * x + (sun[1] * y[block] + sun[2])
+        near = np.flatnonzero((across > self._light.glare_from * length[block]) & sky[block])
+        if not len(near) or not self._light.glare.any():
+            return None
+        apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
+        return _Glare(near + block.start * pieces.shape[1], self._light.glare_at(apart))
+
+    def _slopes(self, view: View, pieces: Pieces) -> Floats:
+        """Return how the inverse depth grows to the right and down, and ahead.
+
+        It has a column for each piece, of which only those of ``pieces`` are filled in; those of
+        the sky are 0.
+        """
+        slopes = np.zeros((3, len(self._heights) + SKY_STEPS), dtype=np.float32)
+        is_there = np.zeros(slopes.shape[1], dtype=bool)
+        is_there[pieces] = True
+        is_there[MISSED] = False
+        met = np.flatnonzero(is_there[: len(self._heights)])
+        normals = self._normals.take(met, axis=1)
+        heights = self._heights[met] - np.asarray(view.pose.position_m) @ normals
+        # No ray meets a plane in which the camera lies.
+        heights[heights == 0.0] = np.inf
+        slopes[:, met] = (view.axes.T @ normals) / heights
+        return slopes
+
+    def _colour_of(
+        self, pieces: Pieces, left: Floats, glare: _Glare | None
+    ) -> npt.NDArray[np.uint8]:
+        """Return what pieces look like when some of their light is left."""
+        colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
+        for index, air in enumerate(self._light.airlight.tolist()):
+            seen = _of(self._beyond_air[index], pieces)
+            seen *= left
+            seen += np.float32(air * LEVELS)
+            if glare is not None:
+                seen.reshape(-1)[glare.at] += glare.colour[index] * np.float32(LEVELS)
+            colour[..., index] = encode_levels(seen)
+        return colour
+
+    def _scene(self, mesh: Mesh) -> Any:
+        scene = self._open3d.t.geometry.RaycastingScene(nthreads=THREADS)
+        corners = np.ascontiguousarray(mesh.corners.reshape(-1, 3))
+        faces = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
+        scene.add_triangles(corners, faces)
+        return scene
+
+    def _cast(self, scene: Any, rays: Floats) -> Any:
+        return scene.cast_rays(self._open3d.core.Tensor.from_numpy(rays), nthreads=THREADS)
+
+
+def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDArray[Number]:
+    """Return entries of a table; clipping spares NumPy a look at each before."""
+    return table.take(entries, mode="clip")
+
+
+def _raised(world: Mesh) -> tuple[Doubles, Doubles, Doubles]:
+    """Return what stands up from the ground: circles about parts of it, and how high they are.
+
+    A part is what has about the same size and stands in one square of `SQUARES` times that.
+    """
+    tops = world.corners[..., 2].max(axis=1).astype(np.float64)
+    standing, tops = (
+        world.corners[tops > RAISED_M][..., :2].astype(np.float64),
+        tops[tops > RAISED_M],
+    )
+    middles = standing.mean(axis=1)
+    radii = np.linalg.norm(standing - middles[:, None], axis=2).max(axis=1)
+    level = np.ceil(np.log2(np.maximum(radii, LEAST_RADIUS_M)))
+    squares = np.floor(middles / (SQUARES * 2.0**level)[:, None])
+    _, part = np.unique(np.column_stack((level, squares)), axis=0, return_inverse=True)
+    order = np.argsort(part.reshape(-1), kind="stable")
+    first = np.flatnonzero(np.diff(part.reshape(-1)[order], prepend=-1))
+    if not len(first):
+        return np.zeros((0, 2)), np.zeros(0), np.zeros(0)
+    low = np.minimum.reduceat(standing.min(axis=1)[order], first)
+    high = np.maximum.reduceat(standing.max(axis=1)[order], first)
+    half = (high - low) / 2.0
+    return low + half, np.hypot(*half.T), np.maximum.reduceat(tops[order], first)
+
+
+def _on_focal_plane(view: View, columns: Floats, rows: Floats) -> tuple[Floats, Floats]:
+    """Return places in the picture as they are at a depth of 1, right of the axis and below it."""
+    lens = view.intrinsics
+    focal = np.float32(lens.focal_px)
+    x = (columns - np.float32(lens.width_px / 2.0)) / focal
+    return x, (rows - np.float32(lens.height_px / 2.0)) / focal
+
+
+def _towards(view: View, x: Floats, y: Floats) -> Floats:
+    """Return the ways, of depth 1, towards n places of the focal plane; shape (3, n)."""
+    axes = view.axes.astype(np.float32)
+    return np.stack([x * axis[0] + y * axis[1] + axis[2] for axis in axes])
+
+
+def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
+    """Return rays as Open3D takes them; directions are of shape (3, n)."""
+    rays = np.empty((directions.shape[1], 6), dtype=np.float32)
+    rays[:, :3] = origin
+    rays[:, 3:] = directions.T
+    return rays
+
+
+def _pieces(world: Mesh, light: Light) -> tuple[Pieces, Doubles, Doubles, Floats]:
+    """Return the piece of each triangle; normals, heights and colours of pieces in columns.
+
+    Triangles of one colour in one plane are one piece. The first entry stands for no triangle,
+    and piece 0 is the sky: its plane is infinitely far in every direction.
+    """
+    baked = light.baked(world)
+    normals = world.face_normals.astype(np.float64)
+    heights = np.einsum("ij,ij->i", normals, world.corners[:, 0].astype(np.float64))
+    keys = np.column_stack((np.round(normals, 5), np.round(heights, 2), np.round(baked, 5)))
+    _, first, piece = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    none = np.zeros((1, 3))
+    return (
+        np.concatenate(([MISSED], piece.reshape(-1) + 1)).astype(np.intp),
+        np.ascontiguousarray(np.vstack((none, normals[first])).T),
+        np.concatenate(([1.0], heights[first])),
+        np.ascontiguousarray(np.vstack((none, baked[first])).T, dtype=np.float32),
+    )
+
+
+def _import_open3d() -> Any:
+    try:
+        return _bindings()
+    except ImportError as error:
+        is_alone = importlib.util.find_spec("moderngl") is None
+        other = "" if is_alone else "; or choose --renderer moderngl"
+        raise RendererError(
+            "the renderer open3d needs Open3D 0.19 and its system libraries: "
+            f"pip install 'airhilt[vision]' and apt install {SYSTEM_LIBRARIES} "
+            f"({first_line(error)}){other}"
+        ) from None
+
+
+def _bindings() -> Any:
+    """Return what of Open3D is in C++: the package about it imports tools to show things in.
+
+    Those take three times as long as this does.
+    """
+    package = importlib.util.find_spec("open3d")
+    if package is None or not package.submodule_search_locations:
+        raise ImportError("no module named 'open3d'")
+    folder = Path(package.submodule_search_locations[0]) / "cpu"
+    if BINDINGS in sys.modules:
+        return sys.modules[BINDINGS]
+    spec = PathFinder.find_spec(BINDINGS, [str(folder)])
+    if spec is None or spec.loader is None or sys.platform == "win32":
+        return importlib.import_module("open3d")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[BINDINGS] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[BINDINGS]
+        raise
+    return module

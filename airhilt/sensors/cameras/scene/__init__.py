@@ -1,0 +1,1 @@
+"""The scene before the cameras: landscape, bodies, light and weather."""

@@ -1,0 +1,157 @@
+"""The ground as one sheet of triangles: each spot belongs to the topmost thing that lies there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely import MultiPoint, Point, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from airhilt.errors import RendererError
+from airhilt.shapes.mesh import Colour, Floats, Mesh, join
+from airhilt.sim.streams import stream
+
+EARTH_RADIUS_M = 6_371_000.0
+FLAT_M = 9000.0
+"""Around the origin the ground is flat, as it is for what moves on it; beyond it falls away."""
+GRID_M = 0.01
+"""Corners lie on a grid of this width, so that neighbours meet exactly."""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """An area of one colour, or of cells that vary from one to the next.
+
+    Attributes
+    ----------
+    colours
+        Of which each cell has one.
+    cells
+        That cover the area and do not overlap; none: all of it is one.
+    mottle
+        Greatest part by which a cell is lighter or darker.
+    """
+
+    area: BaseGeometry
+    colours: tuple[Colour, ...]
+    cells: tuple[BaseGeometry, ...] = ()
+    mottle: float = 0.0
+
+
+def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
+    """Return layers, the topmost first, as triangles that neither overlap nor leave gaps."""
+    taken: BaseGeometry = Polygon()
+    shapely.prepare(shadows)
+    draws = stream(seed, "ground")
+    pieces: list[Mesh] = []
+    for layer in layers:
+        area = _surfaces(layer.area)
+        left = shapely.difference(area, taken, grid_size=GRID_M)
+        taken = _surfaces(shapely.union(taken, area, grid_size=GRID_M))
+        shapely.prepare(left)
+        for cell in layer.cells or (left,):
+            piece = left
+            if layer.cells:
+                piece = shapely.intersection(left, cell, grid_size=GRID_M)
+            if piece.is_empty:
+                continue
+            colour = layer.colours[int(draws.integers(len(layer.colours)))]
+            change = 1.0 + layer.mottle * float(draws.uniform(-1.0, 1.0))
+            red, green, blue = (part * change for part in colour)
+            for part, sunlit in _split(piece, shadows):
+                pieces.append(_triangles(part, (red, green, blue), sunlit))
+    return join(pieces)
+
+
+def _surfaces(area: BaseGeometry) -> BaseGeometry:
+    """Return an area without the points and lines that overlays leave where areas touch."""
+    if area.geom_type != "GeometryCollection":
+        return area
+    parts = shapely.get_parts(area)
+    return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+
+
+def _split(area: BaseGeometry, shadows: BaseGeometry) -> Iterator[tuple[BaseGeometry, float]]:
+    """Yield what of an area the sun reaches, and what lies in the shadow."""
+    if not shadows.intersects(area):
+        yield area, 1.0
+        return
+    for part, sunlit in (
+        (shapely.difference(area, shadows, grid_size=GRID_M), 1.0),
+        (shapely.intersection(area, shadows, grid_size=GRID_M), 0.0),
+    ):
+        if not part.is_empty:
+            yield part, sunlit
+
+
+def _triangles(area: BaseGeometry, colour: Colour, sunlit: float) -> Mesh:
+    polygons = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon"]
+    faces = [shapely.constrained_delaunay_triangles(polygon) for polygon in polygons]
+    corners = [
+        shapely.get_coordinates(face)[:3] for group in faces for face in shapely.get_parts(group)
+    ]
+    flat = np.zeros((len(corners), 3, 3), dtype=np.float64)
+    if corners:
+        flat[..., :2] = np.stack(corners)
+    edges = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    area_2 = edges[0][:, 0] * edges[1][:, 1] - edges[0][:, 1] * edges[1][:, 0]
+    flat = flat[np.abs(area_2) > 1e-3]
+    clockwise = area_2[np.abs(area_2) > 1e-3] < 0.0
+    flat[clockwise] = flat[clockwise][:, ::-1]
+    flat[..., 2] = -drop_m(np.hypot(flat[..., 0], flat[..., 1]))
+    count = len(flat)
+    up = np.zeros((count, 3, 3), dtype=np.float32)
+    up[..., 2] = 1.0
+    return Mesh(
+        flat.astype(np.float32),
+        up,
+        np.tile(np.asarray(colour, dtype=np.float32), (count, 1)),
+        np.zeros(count, dtype=np.float32),
+        np.full(count, sunlit, dtype=np.float32),
+    )
+
+
+def drop_m(distance_m: Floats | float) -> Floats:
+    """Return how far the ground has fallen below the plane at some distance from the origin."""
+    beyond = np.maximum(np.asarray(distance_m, dtype=np.float64) - FLAT_M, 0.0)
+    return np.asarray(beyond * beyond / (2.0 * EARTH_RADIUS_M))
+
+
+def ring(inner_m: float, outer_m: float) -> BaseGeometry:
+    """Return the ground between two distances from the origin."""
+    outer = Point(0.0, 0.0).buffer(outer_m, quad_segs=24)
+    if inner_m <= 0.0:
+        return outer
+    return outer.difference(Point(0.0, 0.0).buffer(inner_m, quad_segs=24))
+
+
+def cells(
+    inner_m: float, outer_m: float, count: int, seed: int, name: str
+) -> tuple[BaseGeometry, ...]:
+    """Return irregular cells that cover a ring about the origin, smaller towards its middle."""
+    draws = stream(seed, name)
+    part = draws.uniform(size=count)
+    radii = inner_m * (outer_m / inner_m) ** part if inner_m > 0.0 else outer_m * np.sqrt(part)
+    angles = draws.uniform(0.0, math.tau, size=count)
+    points = MultiPoint(np.column_stack((radii * np.cos(angles), radii * np.sin(angles))))
+    around = ring(0.0, outer_m)
+    return tuple(shapely.get_parts(shapely.voronoi_polygons(points, extend_to=around)))
+
+
+def require_triangulation() -> None:
+    """Complain where Shapely's GEOS cannot triangulate polygons with holes.
+
+    Raises
+    ------
+    RendererError
+        It is too old.
+    """
+    if not hasattr(shapely, "constrained_delaunay_triangles"):
+        raise RendererError(
+            f"cameras need shapely 2.1 or newer, here is {shapely.__version__}: "
+            "pip install 'shapely>=2.1'"
+        )

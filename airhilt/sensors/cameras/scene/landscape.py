@@ -1,0 +1,263 @@
+"""What never moves: an airport and the land about it, or the land below a flight."""
+
+from __future__ import annotations
+
+import math
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely import LineString, Point, Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
+
+from airhilt.errors import CameraError
+from airhilt.sensors.cameras.scene import markings, scenery
+from airhilt.sensors.cameras.scene.ground import Layer, cells, require_triangulation, ring, sheet
+from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.lights import Lamp, airport_lamps
+from airhilt.shapes.mesh import Colour, Mesh, join, srgb
+from airhilt.world.surface.layout import Layout
+
+ASPHALT = srgb(72, 74, 78)
+TAXI_ASPHALT = srgb(96, 97, 99)
+SHOULDER = srgb(112, 110, 104)
+APRON = srgb(150, 149, 145)
+PAINT = srgb(222, 222, 216)
+YELLOW = srgb(228, 178, 34)
+GRASS = srgb(104, 122, 62)
+MOWN = srgb(116, 132, 70)
+WATER = srgb(70, 92, 104)
+ROAD = srgb(120, 118, 116)
+LAND = (srgb(96, 112, 62), srgb(78, 98, 56), srgb(112, 112, 80), srgb(128, 124, 108),
+        srgb(66, 88, 54), srgb(140, 134, 120))  # fmt: skip
+FIELDS = (srgb(104, 122, 66), srgb(132, 128, 80), srgb(72, 94, 56), srgb(150, 138, 96),
+          srgb(88, 110, 60), srgb(56, 80, 52), srgb(122, 104, 78))  # fmt: skip
+APRON_REACH_M = 48.0
+HOLD_WIDTH_M = 22.0
+NEAR_M = 7000.0
+FAR_M = 70_000.0
+HORIZON_M = 420_000.0
+DEEPEST_CLOUDS_M = 1_400.0
+"""From the bases to the highest tops: fair-weather clouds are no towers."""
+SHADOW_REACH = 6.0
+"""Metres of shadow for a metre of height, at most: the sun is that low only for minutes."""
+CLEARANCE_M = 0.2
+ARC = 8
+"""Edges for a quarter of a circle: at the end of a taxiway they are within 6 cm of it."""
+SIGN_RED = srgb(190, 24, 28)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A body in which no camera can stand."""
+
+    name: str
+    outline: Polygon
+    height_m: float
+
+
+@dataclass(frozen=True)
+class World:
+    """All that stands still.
+
+    Attributes
+    ----------
+    mesh
+        Its triangles, in metres east, north and up of the scene's centre at ground level.
+    lamps
+        Points of light that are on at dusk and at night.
+    blocks
+        What cameras must not stand in.
+    tallest_m
+        Nothing reaches higher.
+    """
+
+    mesh: Mesh
+    lamps: tuple[Lamp, ...]
+    blocks: tuple[Block, ...]
+    tallest_m: float
+
+    def require_free(self, name: str, position_m: tuple[float, float, float]) -> None:
+        """Complain about a camera that could see nothing.
+
+        Raises
+        ------
+        CameraError
+            It is in the ground or in a building.
+        """
+        east, north, up = position_m
+        if not up > CLEARANCE_M:
+            raise CameraError(
+                f"camera {name!r} is {up:.1f} m above the ground; expected more than "
+                f"{CLEARANCE_M} m: raise its height"
+            )
+        for block in self.blocks:
+            if up < block.height_m and block.outline.covers(Point(east, north)):
+                raise CameraError(
+                    f"camera {name!r} is inside {block.name!r}, which is {block.height_m:.0f} m "
+                    f"high: raise it above that, or move it"
+                )
+
+
+def airport_world(layout: Layout, light: Light) -> World:
+    """Return an airport."""
+    require_triangulation()
+    return _Airport(layout, light).world()
+
+
+def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
+    """Return land without an airport, with a layer of clouds below some height."""
+    require_triangulation()
+    seed = _seed(name)
+    layers = [
+        _land(0.0, 9_000.0, 480, FIELDS, seed, "fields"),
+        _land(9_000.0, 40_000.0, 420, (*FIELDS, *FIELDS, WATER), seed, "far fields"),
+        _land(40_000.0, HORIZON_M, 240, (*FIELDS, *FIELDS, WATER), seed, "farthest fields"),
+    ]
+    parts = [sheet(layers, Polygon(), seed), _base()]
+    woods = scenery.trees(scenery.scattered(300.0, 9000.0, 500, Polygon(), seed, "woods"), seed)
+    if woods is not None:
+        parts.append(woods)
+    tallest = 60.0
+    if cloud_tops_m is not None and light.overcast < 0.7:
+        base = max(0.55 * cloud_tops_m, cloud_tops_m - DEEPEST_CLOUDS_M)
+        parts.append(scenery.clouds(base, cloud_tops_m, 30_000.0, 60, seed))
+        tallest = cloud_tops_m
+    return World(join(parts), (), (), tallest)
+
+
+class _Airport:
+    def __init__(self, layout: Layout, light: Light) -> None:
+        self._layout = layout
+        self._airport = layout.airport
+        self._frame = layout.frame
+        self._light = light
+        self._seed = _seed(layout.airport.icao)
+        to_local = layout.frame.to_local
+        nodes = {node.name: to_local(node.place) for node in self._airport.taxiways.nodes}
+        self._legs = [
+            ((nodes[edge.nodes[0]], nodes[edge.nodes[1]]), edge.width_m)
+            for edge in self._airport.taxiways.edges
+        ]
+        self._blocks = tuple(
+            Block(building.name, self._polygon(building.footprint), building.height_m)
+            for building in self._airport.buildings
+        )
+        self._runways = unary_union([strip.pavement for strip in layout.strips.values()])
+        self._taxiways = unary_union(
+            [LineString(leg).buffer(width / 2.0, ARC) for leg, width in self._legs]
+        )
+        self._apron = self._apron_area()
+        self._water = unary_union([self._polygon(water.outline) for water in self._airport.water])
+        paved = [self._runways, self._taxiways, self._apron, *(b.outline for b in self._blocks)]
+        reach = unary_union([geometry.buffer(140.0, ARC) for geometry in paved])
+        self._inside = reach.buffer(160.0, ARC).buffer(-160.0, ARC)
+
+    def _polygon(self, outline: tuple[tuple[float, float], ...]) -> Polygon:
+        corners = [
+            self._frame.to_local((math.radians(lat), math.radians(lon))) for lat, lon in outline
+        ]
+        return Polygon(corners).buffer(0.0)
+
+    def world(self) -> World:
+        parts = [sheet(self._layers(), self._shadows(), self._seed), _base()]
+        for block in self._blocks:
+            shape = scenery.tower if block.name == "Tower" else scenery.building
+            parts.append(shape(block.outline, block.height_m))
+        parts += list(self._furniture())
+        forbidden = unary_union([self._inside, self._water])
+        reach = max(math.hypot(*corner) for corner in self._inside.convex_hull.exterior.coords)
+        woods = scenery.scattered(200.0, reach + 3500.0, 650, forbidden, self._seed, "woods")
+        town = scenery.scattered(200.0, reach + 5000.0, 420, forbidden, self._seed, "town")
+        for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
+            if found is not None:
+                parts.append(found)
+        tallest = max([60.0, *(block.height_m for block in self._blocks)])
+        return World(join(parts), airport_lamps(self._layout), self._blocks, tallest)
+
+    # --- ground -------------------------------------------------------------------------------
+
+    def _layers(self) -> Iterator[Layer]:
+        layout = self._layout
+        paint = [markings.runway_paint(strip, self._frame) for strip in layout.strips.values()]
+        yield Layer(unary_union(paint), (PAINT,))
+        holds = [
+            mark
+            for hold in layout.holds.values()
+            for mark in markings.hold_lines(hold, self._frame, HOLD_WIDTH_M)
+        ]
+        yield Layer(unary_union(holds).intersection(self._taxiways), (YELLOW,))
+        lines = markings.taxiway_lines([leg for leg, _ in self._legs])
+        yield Layer(lines.difference(self._runways), (YELLOW,))
+        yield self._mottled(self._runways, ASPHALT, 90, 0.05, "asphalt")
+        yield self._mottled(self._taxiways, TAXI_ASPHALT, 90, 0.05, "taxiways")
+        yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,))
+        yield self._mottled(self._apron, APRON, 120, 0.05, "slabs")
+        yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,))
+        yield Layer(self._water, (WATER,))
+        yield self._mottled(self._inside, GRASS, 420, 0.13, "grass")
+        reach = 1.15 * max(NEAR_M, math.hypot(*np.abs(self._inside.bounds).reshape(2, 2).max(0)))
+        yield _land(0.0, reach, 420, LAND, self._seed, "land")
+        yield _land(reach, FAR_M, 160, LAND, self._seed, "far land")
+        yield _land(FAR_M, HORIZON_M, 60, LAND[4:5], self._seed, "farthest land")
+
+    def _mottled(
+        self, area: BaseGeometry, colour: Colour, count: int, mottle: float, name: str
+    ) -> Layer:
+        """Return an area in cells that differ a little, as they do where repaired or mown."""
+        reach = max(abs(bound) for bound in area.bounds) * 1.5 if not area.is_empty else 1.0
+        return Layer(area, (colour,), cells(0.0, reach, count, self._seed, name), mottle)
+
+    def _apron_area(self) -> BaseGeometry:
+        stands = [
+            Point(self._frame.to_local(node.place)).buffer(APRON_REACH_M, ARC)
+            for node in self._airport.taxiways.nodes
+            if node.kind == "stand"
+        ]
+        around = [block.outline.buffer(38.0, join_style="mitre") for block in self._blocks]
+        joined = unary_union([*stands, *around]).buffer(60.0, ARC).buffer(-60.0, ARC)
+        keep_off = unary_union(
+            [strip.pavement.buffer(60.0, ARC) for strip in self._layout.strips.values()]
+        )
+        return joined.difference(keep_off)
+
+    def _shadows(self) -> BaseGeometry:
+        sun = self._light.sun
+        if sun[2] < math.sin(math.radians(2.0)) or self._light.overcast > 0.8:
+            return Polygon()
+        length = min(math.hypot(sun[0], sun[1]) / float(sun[2]), SHADOW_REACH)
+        level = max(math.hypot(sun[0], sun[1]), 1e-6)
+        away = -float(sun[0]) / level * length, -float(sun[1]) / level * length
+        return unary_union(
+            [scenery.shadow(block.outline, block.height_m, away) for block in self._blocks]
+        )
+
+    def _furniture(self) -> Iterator[Mesh]:
+        """Yield the boards that stand beside holding positions."""
+        for hold in self._layout.holds.values():
+            east, north = self._frame.to_local(hold.place)
+            sin, cos = math.sin(hold.heading_rad), math.cos(hold.heading_rad)
+            yield scenery.sign(east - cos * 16.0, north + sin * 16.0, hold.heading_rad, SIGN_RED)
+
+
+def _base() -> Mesh:
+    """Return a floor just below the ground, that shows through no more than hairline cracks."""
+    floor = shapely.get_coordinates(Point(0.0, 0.0).buffer(NEAR_M, quad_segs=8))[:-1]
+    vertices = np.column_stack((floor, np.full(len(floor), -4.0)))
+    middle = np.arange(1, len(vertices) - 1)
+    faces = np.column_stack((np.zeros_like(middle), middle, middle + 1))[:, ::-1]
+    return Mesh.of(vertices, faces, GRASS)
+
+
+def _land(
+    inner_m: float, outer_m: float, count: int, colours: tuple[Colour, ...], seed: int, name: str
+) -> Layer:
+    found = cells(inner_m, outer_m, count, seed, name)
+    return Layer(ring(inner_m, outer_m), colours, found, 0.12)
+
+
+def _seed(name: str) -> int:
+    return zlib.crc32(name.encode())

@@ -1,0 +1,256 @@
+"""Points of light: beside runways, on aircraft and on vehicles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from shapely import Point
+
+from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.view import NEAR_M, Pose, View
+from airhilt.shapes.aircraft import wing_tip_m
+from airhilt.shapes.mesh import Colour, Floats, srgb
+from airhilt.world.flight.aircraft_type import AircraftType
+from airhilt.world.mover import Size
+from airhilt.world.surface.layout import Layout
+
+WHITE = srgb(255, 244, 224)
+GREEN = srgb(40, 255, 120)
+RED = srgb(255, 40, 30)
+BLUE = srgb(60, 90, 255)
+AMBER = srgb(255, 170, 40)
+
+EDGE_SPACING_M = 60.0
+"""ICAO Annex 14 volume I, 5.3.9.5: at most 60 m."""
+EDGE_CD = 3000.0
+THRESHOLD_CD = 5000.0
+TAXIWAY_CD = 20.0
+NAVIGATION_CD = 40.0
+"""14 CFR 25.1389: 40 cd ahead for position lights."""
+BEACON_CD = 400.0
+"""14 CFR 25.1401(f): at least 400 cd for anticollision lights."""
+STROBE_CD = 2000.0
+LANDING_CD = 300_000.0
+LANDING_BEAM = 60.0
+"""Sharpness of a landing light's beam: half of the light within some 9 degrees."""
+BEACON_HZ = 0.9
+STROBE_HZ = 1.0
+"""14 CFR 25.1401(c): 40 to 100 flashes a minute."""
+FLASH_PART = 0.12
+DAY_LUX = 3e-2
+NIGHT_LUX = 4e-6
+"""Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
+GREATEST_RADIUS_PX = 9.0
+FAINTEST_LAMP = 0.02
+"""Part of the light that saturates a pixel: what is fainter is not drawn."""
+
+
+class Lamp(NamedTuple):
+    """A point of light.
+
+    ``beam`` points where it shines most; None: it shines all round.
+    """
+
+    place_m: tuple[float, float, float]
+    colour: Colour
+    candela: float
+    beam: tuple[float, float, float] | None = None
+    beam_sharpness: float = LANDING_BEAM
+
+
+def airport_lamps(layout: Layout) -> tuple[Lamp, ...]:
+    """Return the lights of runways and taxiways."""
+    return tuple(_runway_lamps(layout)) + tuple(_taxiway_lamps(layout))
+
+
+def _runway_lamps(layout: Layout) -> Iterator[Lamp]:
+    for strip in layout.strips.values():
+        first, second = strip.ends
+        low, high = (layout.frame.to_local(end.start) for end in (first, second))
+        along = np.subtract(high, low)
+        length = float(np.hypot(*along))
+        ahead = along / length
+        across = np.array((ahead[1], -ahead[0]))
+        half = first.width_m / 2.0 + 1.5
+        for part in np.linspace(0.0, length, max(int(length // EDGE_SPACING_M), 1) + 1)[1:-1]:
+            for side in (-half, half):
+                yield _lamp(np.asarray(low) + part * ahead + side * across, WHITE, EDGE_CD)
+        for corner, way in ((low, 1.0), (high, -1.0)):
+            for side in np.linspace(-half, half, 12):
+                place = np.asarray(corner) - way * 2.0 * ahead + side * across
+                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
+                inwards = (-out[0], -out[1], 0.05)
+                yield _lamp(place, GREEN, THRESHOLD_CD, out, 1.0)
+                yield _lamp(place, RED, THRESHOLD_CD, inwards, 1.0)
+            for row in range(1, 15):
+                place = np.asarray(corner) - way * row * 30.0 * ahead
+                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
+                for side in np.linspace(-2.0, 2.0, 5) if row != 10 else np.linspace(-15, 15, 15):
+                    yield _lamp(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
+
+
+def _taxiway_lamps(layout: Layout) -> Iterator[Lamp]:
+    nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
+    runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
+    for edge in layout.airport.taxiways.edges:
+        start, end = (np.asarray(nodes[name]) for name in edge.nodes)
+        length = float(np.hypot(*(end - start)))
+        if length < 1.0:
+            continue
+        ahead = (end - start) / length
+        across = np.array((ahead[1], -ahead[0])) * (edge.width_m / 2.0 + 2.0)
+        for part in np.arange(20.0, length - 10.0, 50.0):
+            for side in (-1.0, 1.0):
+                place = start + part * ahead + side * across
+                if not any(pavement.contains(Point(*place)) for pavement in runways):
+                    yield _lamp(place, BLUE, TAXIWAY_CD)
+
+
+def _lamp(
+    place: npt.NDArray[np.float64],
+    colour: Colour,
+    candela: float,
+    beam: tuple[float, float, float] | None = None,
+    sharpness: float = LANDING_BEAM,
+) -> Lamp:
+    return Lamp((float(place[0]), float(place[1]), 0.4), colour, candela, beam, sharpness)
+
+
+def aircraft_lamps(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Lamp]:
+    """Yield the lights of an aircraft, in its own axes, that are on at an instant."""
+    half, at, tip_up = wing_tip_m(kind)
+    length = kind.dimensions.length_m
+    yield Lamp((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
+    yield Lamp((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
+    yield Lamp((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
+    if (t_s * BEACON_HZ) % 1.0 < FLASH_PART:
+        top = 0.6 * kind.mesh.fuselage_diameter_m + 0.3
+        yield Lamp((0.0, 0.0, top), RED, BEACON_CD)
+        yield Lamp((0.0, 0.0, -top), RED, BEACON_CD)
+    if (t_s * STROBE_HZ + 0.5) % 1.0 < FLASH_PART:
+        for side in (-1.0, 1.0):
+            yield Lamp((side * half, at - 0.5, tip_up), WHITE, STROBE_CD)
+    if landing:
+        root = 0.14 * half if kind.category in ("jet", "heavy_jet") else 0.5 * half
+        for side in (-1.0, 1.0):
+            beam = (0.0, 0.998, -0.06)
+            yield Lamp((side * root, 0.12 * length, -0.3), WHITE, LANDING_CD / 2.0, beam)
+
+
+def vehicle_lamps(size: Size, t_s: float) -> Iterator[Lamp]:
+    """Yield the flashing beacon and the headlamps of a vehicle, in its own axes."""
+    if (t_s * 1.3) % 1.0 < 0.35:
+        yield Lamp((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
+    for side in (-0.35, 0.35):
+        place = (side * min(size.span_m, 2.5), size.length_m / 2.0, 0.8)
+        yield Lamp(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
+
+
+class Spot(NamedTuple):
+    """A light in a picture: where, how far, and how bright if nothing stands before it."""
+
+    column: float
+    row: float
+    away_m: float
+    strength: float
+    colour: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Lamps:
+    """Points of light, in columns.
+
+    Attributes
+    ----------
+    places_m, colours, beams
+        Of shape (n, 3); what shines all round has a beam of sharpness 0.
+    """
+
+    places_m: npt.NDArray[np.float64]
+    colours: npt.NDArray[np.float64]
+    candela: npt.NDArray[np.float64]
+    beams: npt.NDArray[np.float64]
+    sharpness: npt.NDArray[np.float64]
+
+    @classmethod
+    def of(cls, lamps: Sequence[Lamp]) -> Lamps:
+        """Return lamps that are given one by one."""
+        rows = [
+            (*lamp.place_m, *lamp.colour, lamp.candela, *(lamp.beam or (0.0, 0.0, 0.0)),
+             lamp.beam_sharpness if lamp.beam else 0.0)
+            for lamp in lamps
+        ]  # fmt: skip
+        table = np.array(rows, dtype=np.float64).reshape(-1, 11)
+        return cls(table[:, :3], table[:, 3:6], table[:, 6], table[:, 7:10], table[:, 10])
+
+    @classmethod
+    def carried(cls, groups: Sequence[tuple[Pose, Sequence[Lamp]]]) -> Lamps:
+        """Return lamps that are given in the axes of what carries them."""
+        lamps = cls.of([lamp for _, group in groups for lamp in group])
+        counts = [len(group) for _, group in groups]
+        if not sum(counts):
+            return lamps
+        turns = np.repeat([pose.rotation for pose, _ in groups], counts, axis=0)
+        moves = np.repeat([pose.position_m for pose, _ in groups], counts, axis=0)
+        return replace(
+            lamps,
+            places_m=np.einsum("nij,nj->ni", turns, lamps.places_m) + moves,
+            beams=np.einsum("nij,nj->ni", turns, lamps.beams),
+        )
+
+    def seen(self, view: View, light: Light) -> list[Spot]:
+        """Return those that are in the picture and bright enough to be seen."""
+        if not len(self.places_m):
+            return []
+        offset = self.places_m - np.asarray(view.pose.position_m)
+        away = np.maximum(np.linalg.norm(offset, axis=1), 1.0)
+        threshold = NIGHT_LUX**light.darkness * DAY_LUX ** (1.0 - light.darkness)
+        strength = self.candela / away**2 * np.exp(-light.extinction_per_m * away) / threshold
+        cosine = -np.einsum("ij,ij->i", offset, self.beams) / away
+        strength *= np.exp(self.sharpness * (cosine - 1.0))
+        bright = np.flatnonzero(strength > FAINTEST_LAMP)
+        inside = offset[bright] @ view.axes
+        ahead = inside[:, 2] > NEAR_M
+        bright, inside = bright[ahead], inside[ahead]
+        lens = view.intrinsics
+        found = []
+        for index, (column, row) in zip(bright.tolist(), view.pixels(inside).tolist(), strict=True):
+            if 0.0 <= column < lens.width_px and 0.0 <= row < lens.height_px:
+                colour = tuple(self.colours[index].tolist())
+                found.append(Spot(column, row, float(away[index]), float(strength[index]), colour))
+        return found
+
+
+def shine(picture: npt.NDArray[np.uint8], distance_m: Floats, spots: Sequence[Spot]) -> None:
+    """Add lights to a picture where nothing stands before them."""
+    for spot in spots:
+        if distance_m[int(spot.row), int(spot.column)] >= spot.away_m - 1.5:
+            _splat(picture, spot.column, spot.row, spot.strength, spot.colour)
+
+
+def _splat(
+    picture: npt.NDArray[np.uint8],
+    column: float,
+    row: float,
+    strength: float,
+    colour: tuple[float, ...],
+) -> None:
+    """Screen a spot over a picture; what is brighter than white grows instead."""
+    peak = min(strength, 1.0)
+    radius = min(0.7 + 0.45 * math.log2(1.0 + strength), GREATEST_RADIUS_PX)
+    reach = math.ceil(2.2 * radius)
+    top, left = max(int(row) - reach, 0), max(int(column) - reach, 0)
+    part = picture[top : int(row) + reach + 1, left : int(column) + reach + 1]
+    rows = np.arange(top, top + part.shape[0])[:, None] + 0.5 - row
+    columns = np.arange(left, left + part.shape[1])[None, :] + 0.5 - column
+    spot = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
+    core = min(1.0, strength / 20.0)
+    tint = np.asarray(colour) ** (1.0 / 2.2)
+    tint = tint + (1.0 - tint) * core * 0.7
+    covered = spot[..., None] * tint
+    part[...] = (255.0 - (255.0 - part) * (1.0 - covered)).astype(np.uint8)

@@ -1,0 +1,92 @@
+"""The box around a body in a picture, by projecting it: masks would lose thin wings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import ConvexHull
+
+from airhilt.sensors.cameras.view import NEAR_M, Pose, View, Window
+from airhilt.shapes.mesh import Mesh
+
+
+class Box(NamedTuple):
+    """A rectangle in a picture, in pixels."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @property
+    def area(self) -> float:
+        """In square pixels; 0 where it is empty."""
+        return max(self.right - self.left, 0.0) * max(self.bottom - self.top, 0.0)
+
+    def within(self, view: View) -> Box:
+        """Return what of it is in the picture."""
+        lens = view.intrinsics
+        width, height = float(lens.width_px), float(lens.height_px)
+        return Box(
+            min(max(self.left, 0.0), width),
+            min(max(self.top, 0.0), height),
+            min(max(self.right, 0.0), width),
+            min(max(self.bottom, 0.0), height),
+        )
+
+    def window(self, view: View, margin_px: int = 1) -> Window:
+        """Return the whole pixels of the picture that it touches, and some more."""
+        lens = view.intrinsics
+        return Window(
+            max(math.floor(self.left) - margin_px, 0),
+            max(math.floor(self.top) - margin_px, 0),
+            min(math.ceil(self.right) + margin_px, lens.width_px),
+            min(math.ceil(self.bottom) + margin_px, lens.height_px),
+        )
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The corners and edges of the convex hull of a mesh."""
+
+    points: npt.NDArray[np.float64]
+    edges: npt.NDArray[np.int64]
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> Outline:
+        """Return that of a mesh."""
+        points = np.unique(mesh.corners.reshape(-1, 3), axis=0).astype(np.float64)
+        hull = ConvexHull(points)
+        number = np.full(len(points), -1)
+        number[hull.vertices] = np.arange(len(hull.vertices))
+        faces = number[hull.simplices]
+        edges = np.sort(np.vstack((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
+        return cls(points[hull.vertices], np.unique(edges, axis=0))
+
+    def box(self, pose: Pose, view: View) -> Box | None:
+        """Return the box about the body, also outside of the picture; None behind the camera."""
+        return self._box(self.points @ pose.rotation.T + np.asarray(pose.position_m), view)
+
+    def shadow_box(self, pose: Pose, view: View, sun: npt.NDArray[np.float64]) -> Box | None:
+        """Return the box about the body's shadow on flat ground."""
+        world = self.points @ pose.rotation.T + np.asarray(pose.position_m)
+        return self._box(world - np.outer(np.maximum(world[:, 2], 0.0) / sun[2], sun), view)
+
+    def _box(self, world: npt.NDArray[np.float64], view: View) -> Box | None:
+        points = view.in_camera(world)
+        ahead = points[:, 2] >= NEAR_M
+        if not ahead.any():
+            return None
+        if not ahead.all():
+            start, end = points[self.edges[:, 0]], points[self.edges[:, 1]]
+            crossing = ahead[self.edges[:, 0]] != ahead[self.edges[:, 1]]
+            start, end = start[crossing], end[crossing]
+            part = (NEAR_M - start[:, 2]) / (end[:, 2] - start[:, 2])
+            points = np.vstack((points[ahead], start + part[:, None] * (end - start)))
+        pixels = view.pixels(points)
+        low, high = pixels.min(axis=0), pixels.max(axis=0)
+        return Box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))

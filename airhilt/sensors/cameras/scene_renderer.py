@@ -1,0 +1,497 @@
+"""Takes pictures: puts still world, bodies, shadows, lights and rain together, with the truth.
+
+A picture is the world behind everything, and before it one layer for each body. Each body is
+drawn alone in its own window, finer than the pixels the smaller it is, so that what a pixel shows
+of it, and how much of it others hide, are counted and not guessed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.errors import CameraError
+from airhilt.imaging.masks import Mask
+from airhilt.messages import VisibleClass
+from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
+from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
+from airhilt.sensors.cameras.scene.background import KEPT_PX, Backdrop
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model
+from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.landscape import World
+from airhilt.sensors.cameras.scene.layers import Layer, by_sample
+from airhilt.sensors.cameras.scene.lights import Lamp, Lamps, Spot, shine
+from airhilt.sensors.cameras.scene.projected_box import Box, Outline
+from airhilt.sensors.cameras.scene.rain import Streaks
+from airhilt.sensors.cameras.view import Pose, View, Window
+from airhilt.shapes.mesh import Floats
+
+FINENESS = ((900, 4), (2500, 3), (16_000, 2))
+"""Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
+MOST_ACTORS = int(np.iinfo(np.uint8).max)
+"""That the numbers of ``Frame.instance`` tell apart."""
+STILL_SAMPLES = 3
+"""Along each side of a pixel of a background that is drawn once."""
+FAINTEST = 1.0 / 512.0
+"""Pixels, times what the air leaves of their contrast: less changes no level of any pixel."""
+SHADOW_BELOW_M = 150.0
+SMALLEST_SHADOW_PX = 4.0
+ON_GROUND_M = 0.3
+SMALL_PX = 4000
+"""Area of a window in which a body may be coarse."""
+OWN_SAMPLES = 2
+OWN_MARGIN_PX = 2
+"""By which the mask of the own aircraft is larger than what is seen of it."""
+AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
+TURN_STEPS = 24
+"""A picture of the own aircraft is kept while the light turns less than a step of this part of
+a radian."""
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """What is true of a body in a picture.
+
+    Attributes
+    ----------
+    box
+        About all of the body that is within the picture, whether hidden or not; pixels.
+    pixels
+        Area that is seen; 0 also of what is too small, or too far in the haze, to change any
+        pixel.
+    visible_fraction
+        Of the body's area within the picture, that nothing hides; 0 where ``pixels`` is 0.
+    truncation
+        Part of the box about the whole body that lies outside of the picture.
+    range_m
+        From the camera to the body's reference point.
+    transmission
+        Part of the body's contrast that the air leaves.
+    """
+
+    actor: str
+    label: VisibleClass
+    box: Box
+    pixels: float
+    visible_fraction: float
+    truncation: float
+    range_m: float
+    transmission: float
+
+    @property
+    def occlusion(self) -> float:
+        """Part of the body's area within the picture that something hides."""
+        return 1.0 - self.visible_fraction
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A picture and what is true of it; its arrays cannot be written to.
+
+    Attributes
+    ----------
+    colour
+        8-bit sRGB, shape (rows, columns, 3).
+    distance_m
+        From the camera along the ray, infinite in the sky. Of the still world before a camera
+        that moves it may be that of some pictures before: see
+        `airhilt.sensors.cameras.scene.background`.
+    instance
+        0 where no body fills the pixel, else the number of the actor in the studio, from 1.
+    unchanged
+        The picture is the camera's last one again: colours, distances and instances.
+    """
+
+    camera: str
+    t_ns: int
+    view: View
+    colour: npt.NDArray[np.uint8]
+    distance_m: Floats
+    instance: npt.NDArray[np.uint8]
+    sightings: tuple[Sighting, ...]
+    unchanged: bool = False
+
+    def sealed(self) -> Frame:
+        """Return it, its arrays being safe from writing: several frames may have them."""
+        for plane in (self.colour, self.distance_m, self.instance):
+            plane.flags.writeable = False
+        return self
+
+
+class _Seen(NamedTuple):
+    """A body that reaches into a picture: which mesh of it fits, where, and about it a box."""
+
+    body: BodyState
+    pose: Pose
+    shape: str
+    window: Window
+    box: Box
+    whole: Box
+    range_m: float
+    transmission: float
+
+    @property
+    def leaves_a_trace(self) -> bool:
+        return self.box.area * self.transmission > FAINTEST
+
+
+class _Plain(NamedTuple):
+    """A picture of the world with at most the own aircraft before it, and what it shows."""
+
+    drawn: int
+    own: Layer | None
+    frame: Frame
+
+
+class Studio:
+    """A scene with cameras and bodies in it, and what draws it.
+
+    Parameters
+    ----------
+    models
+        How each actor looks, by callsign.
+    rain_mm_h
+        Of which streaks are drawn; what the rain does to the visibility is in ``light``.
+    fine
+        Samples along each side of a pixel, at least.
+
+    Raises
+    ------
+    CameraError
+        A fixed camera stands in something, or there are more actors than pictures tell apart.
+    RendererError
+        The renderer cannot be opened.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        light: Light,
+        models: Mapping[str, Model],
+        cameras: Iterable[Camera],
+        renderer: RendererName = "open3d",
+        rain_mm_h: float = 0.0,
+        fine: int = 1,
+    ) -> None:
+        self._world = world
+        self._light = light
+        self._models = dict(models)
+        if len(self._models) > MOST_ACTORS:
+            raise CameraError(
+                f"there are {len(self._models)} actors, and cameras tell at most {MOST_ACTORS} "
+                "apart; take some out of the scenario, or run it with --no-cameras"
+            )
+        self._numbers = {actor: number for number, actor in enumerate(self._models, start=1)}
+        self._cameras = {camera.name: camera for camera in cameras}
+        for camera in self._cameras.values():
+            if isinstance(camera.at, Pose):
+                world.require_free(camera.name, camera.at.position_m)
+        shapes = {
+            f"{model.kind}/{name}": mesh
+            for model in self._models.values()
+            for name, mesh in model.shapes.items()
+        }
+        self._outlines = {name: Outline.of(mesh) for name, mesh in shapes.items()}
+        far = {
+            f"{model.kind}/{name}/far": mesh
+            for model in self._models.values()
+            for name, mesh in model.far.items()
+        }
+        self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
+        self._far = frozenset(far)
+        self._fine = fine
+        self._lights = Lamps.of(world.lamps)
+        self._backdrops = {camera.name: self._backdrop(camera) for camera in self._cameras.values()}
+        self._plain: dict[str, _Plain] = {}
+        self._own: dict[str, tuple[tuple[object, ...], Layer]] = {}
+        self._streaks = {
+            camera.name: Streaks(
+                (camera.intrinsics.width_px, camera.intrinsics.height_px), rain_mm_h, camera.name
+            )
+            for camera in self._cameras.values()
+            if rain_mm_h > 0.0
+        }
+        self._taken = dict.fromkeys(self._cameras, 0)
+
+    @property
+    def actors(self) -> tuple[str, ...]:
+        """Those of the numbers in ``Frame.instance``, from 1."""
+        return tuple(self._numbers)
+
+    def close(self) -> None:
+        """Give back what was taken."""
+        self._renderer.close()
+
+    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+        """Take the pictures of all cameras that are due at an instant.
+
+        Raises
+        ------
+        CameraError
+            A pose is not finite, or a camera is mounted on something that is not there.
+        """
+        there = {body.actor: body for body in bodies}
+        poses = {actor: body.pose for actor, body in there.items()}
+        lamps = self._lamps(there, t_ns)
+        return [self._picture(self._cameras[name], there, poses, lamps, t_ns) for name in names]
+
+    def own_aircraft(self, name: str) -> Mask:
+        """Return the pixels of a camera that its own aircraft may cover, shape (rows, columns).
+
+        It is in its place with wheels up or down, and some pixels larger; none of a camera that
+        does not see the aircraft that carries it.
+
+        Raises
+        ------
+        CameraError
+            There is no such camera.
+        """
+        camera = find_camera(self._cameras, name)
+        lens = camera.intrinsics
+        covered = np.zeros((lens.height_px, lens.width_px), dtype=bool)
+        if isinstance(camera.at, Pose) or not camera.at.sees_own_aircraft:
+            return covered
+        model = self._models[camera.at.actor]
+        view = View(lens, camera.at.pose)
+        for name in model.shapes:
+            shape = f"{model.kind}/{name}"
+            whole = self._outlines[shape].box(AT_ORIGIN, view)
+            if whole is None or whole.within(view).area <= 0.0:
+                continue
+            window = whole.within(view).window(view)
+            part = Part(shape, AT_ORIGIN, window, OWN_SAMPLES)
+            drawn = by_sample(self._renderer.parts(view, [part])[0].distance_m, OWN_SAMPLES)
+            covered[window.slices] |= np.isfinite(drawn).any(axis=0)
+        return _grown(covered, OWN_MARGIN_PX)
+
+    # --- one picture ----------------------------------------------------------------------
+
+    def _picture(
+        self,
+        camera: Camera,
+        bodies: Mapping[str, BodyState],
+        poses: Mapping[str, Pose],
+        lamps: Mapping[str, Sequence[Lamp]],
+        t_ns: int,
+    ) -> Frame:
+        view = camera.view(bodies)
+        backdrop = self._backdrops[camera.name]
+        backdrop.look(view)
+        mount = camera.at if isinstance(camera.at, Mount) else None
+        carrier = camera.carrier
+        others = [body for actor, body in bodies.items() if actor != carrier]
+        seen = [one for body in others if (one := self._seen(body, poses[body.actor], view))]
+        drawn = [one for one in seen if one.leaves_a_trace]
+        faint = [one for one in seen if not one.leaves_a_trace]
+        shadows = [part for body in others if (part := self._shadow(body, poses[body.actor], view))]
+        own = None
+        if mount is not None and mount.sees_own_aircraft:
+            own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
+        spots = self._spots(camera, view, lamps, poses, carrier)
+        is_plain = not (drawn or shadows or spots or camera.name in self._streaks)
+        last = self._plain.get(camera.name)
+        if is_plain and last and last.drawn == backdrop.drawn and last.own is own:
+            sightings = self._sightings([], faint)
+            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
+
+        colour, distance = backdrop.colour.copy(), backdrop.distance_m.copy()
+        instance = np.zeros(distance.shape, dtype=np.uint8)
+        parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
+        pictures = self._renderer.parts(view, [*shadows, *parts])
+        for part, picture in zip(shadows, pictures, strict=False):
+            self._darken(part, picture, view, backdrop, colour)
+        layers = [
+            self._layer(one, part, picture, backdrop.distance_m[one.window.slices])
+            for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
+        ]
+        if own is not None:
+            layers.append(own)
+        layers.sort(key=lambda layer: -layer.range_m)
+        for layer in layers:
+            layer.lay(colour, distance, instance)
+        shine(colour, distance, spots)
+        if camera.name in self._streaks:
+            bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
+            self._streaks[camera.name].fall(colour, self._taken[camera.name], bright)
+        self._taken[camera.name] += 1
+        sightings = self._sightings(layers, faint, own)
+        frame = Frame(camera.name, t_ns, view, colour, distance, instance, sightings).sealed()
+        if is_plain:
+            self._plain[camera.name] = _Plain(backdrop.drawn, own, frame)
+        else:
+            self._plain.pop(camera.name, None)
+        return frame
+
+    def _backdrop(self, camera: Camera) -> Backdrop:
+        if not camera.is_fixed:
+            return Backdrop(self._renderer, self._fine)
+        return Backdrop(self._renderer, max(STILL_SAMPLES, self._fine), self._light_up)
+
+    def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
+        """Draw the lights of the world, which are always on, into what is drawn once."""
+        if self._light.needs_lamps:
+            shine(colour, distance_m, self._lights.seen(view, self._light))
+
+    def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
+        """Return a body if it is in the picture, hidden or not."""
+        shape = self._shape(body)
+        whole = self._outlines[shape].box(pose, view)
+        if whole is None:
+            return None
+        box = whole.within(view)
+        if box.area <= 0.0:
+            return None
+        away = math.dist(pose.position_m, view.pose.position_m)
+        window = box.window(view)
+        left = math.exp(-self._light.extinction_per_m * away)
+        return _Seen(body, pose, self._fitting(shape, window), window, box, whole, away, left)
+
+    def _layer(self, seen: _Seen, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
+        number = self._numbers[seen.body.actor]
+        return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
+                        part.samples, behind_m)  # fmt: skip
+
+    def _own_layer(self, name: str, body: BodyState, pose: Pose, view: View) -> Layer | None:
+        """Return the camera's own aircraft; it is drawn anew when its light has changed."""
+        light = np.round(np.asarray(self._light.sun) @ pose.rotation * TURN_STEPS)
+        key = (body.shape, *light.tolist())
+        kept = self._own.get(name)
+        if kept is None or kept[0] != key:
+            seen = self._seen(body, pose, view)
+            if seen is None:
+                return None
+            part = Part(seen.shape, pose, seen.window, self._samples(seen.window))
+            drawn = self._renderer.parts(view, [part])[0]
+            nothing = np.full((seen.window.height, seen.window.width), np.inf, dtype=np.float32)
+            layer = self._layer(seen, part, drawn, nothing)
+            layer.range_m = 0.0
+            kept = self._own[name] = (key, layer)
+        return kept[1]
+
+    def _shadow(self, body: BodyState, pose: Pose, view: View) -> Part | None:
+        """Return the shadow of a body on flat ground if it is in the picture."""
+        light = self._light
+        if (
+            body.up_m > SHADOW_BELOW_M
+            or light.sun[2] < math.sin(math.radians(4.0))
+            or light.overcast > 0.8
+        ):
+            return None
+        shape = self._shape(body)
+        whole = self._outlines[shape].shadow_box(pose, view, light.sun)
+        if whole is None:
+            return None
+        box = whole.within(view)
+        left = math.exp(-light.extinction_per_m * math.dist(pose.position_m, view.pose.position_m))
+        if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
+            return None
+        window = box.window(view)
+        samples = max(min(_fineness(window), 2), self._fine)
+        return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
+
+    def _darken(
+        self, part: Part, drawn: Samples, view: View, backdrop: Backdrop,
+        colour: npt.NDArray[np.uint8],
+    ) -> None:  # fmt: skip
+        """Darken the flat ground where a body keeps the sun off."""
+        light = self._light
+        shaded = np.isfinite(by_sample(drawn.distance_m, part.samples))
+        down = view.directions(*view.sample_places(part.window, 1))[2]
+        away = backdrop.distance_m[part.window.slices]
+        with np.errstate(invalid="ignore"):
+            # The ground may have been drawn when it was a little out of its place.
+            near = np.float32(ON_GROUND_M) + np.float32(KEPT_PX / view.intrinsics.focal_px) * away
+            on_ground = np.abs(away * down + np.float32(view.pose.position_m[2])) < near
+            kept = shaded.mean(axis=0, dtype=np.float32) * on_ground
+            kept *= np.exp(-np.float32(light.extinction_per_m) * away)
+        lit = light.diffuse + light.direct * max(float(light.sun[2]), 0.0)
+        darker = 1.0 - (light.diffuse / lit) ** (1.0 / 2.2)
+        ground = colour[part.window.slices]
+        ground[...] = (ground * (1.0 - kept[..., None] * darker)).astype(np.uint8)
+
+    def _samples(self, window: Window) -> int:
+        return max(_fineness(window), self._fine)
+
+    # --- lights and truth -----------------------------------------------------------------
+
+    def _lamps(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Lamp]]:
+        """Return the lights that are on, in the axes of the actors that carry them."""
+        # Nobody's lights flash together with another's.
+        return {
+            actor: list(self._models[actor].lamps(t_ns / 1e9 + 0.37 * number, body.lit))
+            for number, (actor, body) in enumerate(bodies.items())
+        }
+
+    def _spots(
+        self,
+        camera: Camera,
+        view: View,
+        lamps: Mapping[str, Sequence[Lamp]],
+        poses: Mapping[str, Pose],
+        carrier: str | None,
+    ) -> list[Spot]:
+        carried = [(poses[actor], group) for actor, group in lamps.items() if actor != carrier]
+        found = Lamps.carried(carried).seen(view, self._light)
+        if not camera.is_fixed and self._light.needs_lamps:
+            found.extend(self._lights.seen(view, self._light))
+        return found
+
+    def _sightings(
+        self, layers: Sequence[Layer], faint: Sequence[_Seen], own: Layer | None = None
+    ) -> tuple[Sighting, ...]:
+        """Return what is true of each body; layers are in order, the nearest last."""
+        found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
+        for index, layer in enumerate(layers):
+            if layer is own:
+                continue
+            seen = layer.cover.copy()
+            for nearer in layers[index + 1 :]:
+                nearer.hide(seen, layer.window)
+            pixels = float(seen.sum())
+            fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
+            actor = self.actors[layer.number - 1]
+            found.append(
+                self._sighting(actor, layer.box, layer.whole, layer.range_m, pixels, fraction)
+            )
+        return tuple(sorted(found, key=lambda sighting: sighting.range_m))
+
+    def _sighting(
+        self,
+        actor: str,
+        box: Box,
+        whole: Box,
+        range_m: float,
+        pixels: float = 0.0,
+        visible_fraction: float = 0.0,
+    ) -> Sighting:
+        inside = min(box.area / max(whole.area, 1e-9), 1.0)
+        left = math.exp(-self._light.extinction_per_m * range_m)
+        label = self._models[actor].label
+        return Sighting(actor, label, box, pixels, visible_fraction, 1.0 - inside, range_m, left)
+
+    def _fitting(self, shape: str, window: Window) -> str:
+        """Return the mesh of a shape that fits the size in which it is seen."""
+        far = f"{shape}/far"
+        return far if window.area < SMALL_PX and far in self._far else shape
+
+    def _shape(self, body: BodyState) -> str:
+        return f"{self._models[body.actor].kind}/{body.shape}"
+
+
+def _fineness(window: Window) -> int:
+    return next((samples for area, samples in FINENESS if window.area <= area), 1)
+
+
+def _grown(mask: Mask, margin_px: int) -> Mask:
+    """Return a mask with all pixels that are as near as some margin, along rows and columns."""
+    grown = np.pad(mask, margin_px)
+    for axis in (0, 1):
+        steps = range(-margin_px, margin_px + 1)
+        grown = np.logical_or.reduce([np.roll(grown, step, axis) for step in steps])
+    return grown[margin_px:-margin_px, margin_px:-margin_px]

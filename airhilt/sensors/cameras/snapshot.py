@@ -1,0 +1,86 @@
+"""One picture of a scenario at a time."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+from airhilt.errors import CameraError
+from airhilt.files import replace_file
+from airhilt.scenario import Scenario
+from airhilt.scenario.loading import draw
+from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.renderer_process import RemoteStudio
+from airhilt.sensors.cameras.scene.bodies import states_of
+from airhilt.sensors.cameras.scene_renderer import Frame
+from airhilt.units import seconds_to_ns
+from airhilt.world.actors import build_cast
+from airhilt.world.site import Setting
+
+TICK_S = 0.05
+"""Control tick of the actors, as in a run."""
+FINE = 3
+"""Samples along each side of a pixel."""
+
+
+def still(
+    scenario: Scenario,
+    camera: str,
+    at_s: float,
+    seed: int = 0,
+    renderer: RendererName = "open3d",
+) -> Frame:
+    """Return what a camera sees at a time, in a run in which nothing is said.
+
+    Between two control ticks everybody has moved straight on, as in the pictures of a run.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such camera, it could see nothing, or pictures cannot be drawn.
+    """
+    now_ns, tick_ns = seconds_to_ns(at_s), seconds_to_ns(TICK_S)
+    ticks = now_ns // tick_ns
+    realised, _ = draw(scenario, seed)
+    setting = Setting.of(realised)
+    with RemoteStudio(realised, [camera], renderer, FINE) as studio:
+        cast = build_cast(realised, setting, seed, TICK_S)
+        for _ in range(ticks):
+            for performer in cast.values():
+                if performer.body.ended is None:
+                    performer.body.advance()
+        frame = frame_of(setting)
+        bodies = states_of(cast.values(), frame, setting.ground_m, now_ns, ticks * tick_ns)
+        return studio.shoot([camera], bodies, now_ns)[0]
+
+
+def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
+    """Write a picture, with the boxes of what is in it if wanted: all of the file or nothing.
+
+    Raises
+    ------
+    CameraError
+        Pillow is not installed, or the file cannot be written.
+    """
+    try:
+        from PIL import Image, ImageDraw
+    except ImportError:
+        raise CameraError("pictures need Pillow: pip install 'airhilt[vision]'") from None
+    picture = Image.fromarray(frame.colour)
+    if boxes:
+        pen = ImageDraw.Draw(picture)
+        for sighting in frame.sightings:
+            left, top, right, bottom = sighting.box
+            pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=(255, 220, 40))
+            text = f"{sighting.label} {sighting.range_m:.0f} m"
+            above = (left, max(top - 14, 0))
+            pen.text(above, text, (255, 220, 40), stroke_width=2, stroke_fill="black")
+    buffer = io.BytesIO()
+    picture.save(buffer, format="PNG")
+    try:
+        replace_file(path, buffer.getvalue())
+    except OSError as error:
+        raise CameraError(
+            f"{path}: cannot be written: {error.strerror}; make room, or choose another --out"
+        ) from None

@@ -1,0 +1,290 @@
+"""The VHF channel: what becomes of speech between a microphone and somebody else's headset.
+
+Double-sideband amplitude modulation (ICAO Annex 10 volume III part II, 2.1 to 2.3): the audio
+band is narrow, the receiver's gain follows the carrier, noise comes through at a level that
+depends on the received power, and two carriers at once whistle over all that is said.
+
+The signal-to-noise ratio is that of speech to noise within the audio band, over the time in
+which somebody speaks (`active`), and is met exactly before the receiver's gain control.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft
+
+from airhilt.errors import SpeechError
+from airhilt.scenario.radio_profiles import ChannelProfile
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+
+Background = Literal["cockpit", "tower", "none"]
+"""What else the microphone picks up."""
+
+LEVEL_RMS = 0.1
+"""Of active speech in what is received: -20 dB of full scale, as ITU-T P.56 recommends levels."""
+_FRAME = SAMPLE_RATE_HZ // 50
+_MARGIN = 10.0**-1.59
+"""Below the active level by 15.9 dB, a frame is a pause (ITU-T P.56, 5.2)."""
+PEAK_MODULATION = 0.85
+"""Of a carrier, which every transmitter reaches (ICAO Annex 10 volume III part II, chapter 2)."""
+MODULATION = PEAK_MODULATION * 10.0 ** (-12.0 / 20.0)
+"""Of a carrier by active speech, RMS: 0.21, as the peaks of speech lie some 12 dB above its level
+(10 to 13 dB in what this channel makes of synthetic voices)."""
+_OPEN_MICROPHONE = PEAK_MODULATION / 3.0
+"""Of a carrier by noise, RMS. Where nobody speaks, the transmitter raises what there is: it is to
+keep its average modulation as high as it can (ibid.), and the peaks of noise are 3 sigma."""
+WHISTLES_HZ = (400.0, 1_200.0)
+"""How far two carriers are apart. Airborne transmitters may be off by 5 parts in a million where
+channels are 8.33 kHz wide (ibid.): two of them by 1.2 kHz at most at 120 MHz."""
+
+
+class Other(NamedTuple):
+    """Somebody who talks at the same time."""
+
+    speech: Audio
+    begin: int
+    """Sample of ours at which it begins."""
+    whistle_hz: float
+    """How far the two carriers are apart."""
+
+
+class Channel(Protocol):
+    """What takes speech from one to another."""
+
+    @property
+    def name(self) -> str:
+        """In logs."""
+        ...
+
+    def transmit(
+        self,
+        speech: Audio,
+        snr_db: float | None,
+        rng: np.random.Generator,
+        others: Sequence[Other] = (),
+        background: Background = "none",
+    ) -> Audio:
+        """Return what is heard of ``speech``; at least as long as it.
+
+        Parameters
+        ----------
+        snr_db
+            Speech to noise; None leaves noise out.
+        others
+            Who talks at the same time.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What a receiver's detector gives, before gain control: wanted signal, and all else."""
+
+    signal: Audio
+    noise: Audio
+    interference: Audio
+    active: NDArray[np.bool_]
+
+
+class VhfChannel:
+    """A VHF channel of one profile."""
+
+    def __init__(self, profile: ChannelProfile) -> None:
+        self._profile = profile
+        self.name = profile.name
+
+    def transmit(
+        self,
+        speech: Audio,
+        snr_db: float | None,
+        rng: np.random.Generator,
+        others: Sequence[Other] = (),
+        background: Background = "none",
+    ) -> Audio:
+        """Return what is heard: the call, noise, and the squelch tail."""
+        profile = self._profile
+        parts = self.parts(speech, snr_db, rng, others, background)
+        heard = parts.signal + parts.noise + parts.interference
+        heard = _even_out(heard, profile.gain_control)
+        heard = np.tanh(2.0 * heard) / 2.0
+        tail = round(profile.squelch_tail_s * SAMPLE_RATE_HZ)
+        if tail:
+            loudness = LEVEL_RMS * 10.0 ** (-(20.0 if snr_db is None else max(snr_db, 0.0)) / 40.0)
+            burst = _band(rng.standard_normal(tail, np.float32), profile)
+            heard = np.concatenate([heard, loudness * burst])
+        if profile.wet < 1.0:
+            dry = np.zeros_like(heard)
+            dry[: len(speech)] = _level(speech)[0]
+            heard = profile.wet * heard + (1.0 - profile.wet) * dry
+        return np.asarray(np.clip(heard, -1.0, 1.0), np.float32)
+
+    def parts(
+        self,
+        speech: Audio,
+        snr_db: float | None,
+        rng: np.random.Generator,
+        others: Sequence[Other] = (),
+        background: Background = "none",
+    ) -> Parts:
+        """Return the parts of what is received, each as long as ``speech``.
+
+        Raises
+        ------
+        SpeechError
+            The speech is empty, or a sample or the ratio is no number.
+        """
+        speech = _checked(speech)
+        if snr_db is not None and not np.isfinite(snr_db):
+            raise SpeechError(f"radio channel: a signal-to-noise ratio of {snr_db} dB is no number")
+        signal, is_active = self._modulated(speech, rng, background)
+        count = len(signal)
+        noise = np.zeros(count, np.float32)
+        if snr_db is not None:
+            noise = _band(rng.standard_normal(count, np.float32), self._profile)
+            wanted = _power(signal, is_active) if is_active.any() else LEVEL_RMS**2
+            noise *= np.sqrt(wanted / 10.0 ** (snr_db / 10.0) / _power(noise, is_active))
+        interference = self.interference(signal, others, rng)
+        return Parts(signal, noise, interference, is_active)
+
+    def _modulated(
+        self, speech: Audio, rng: np.random.Generator, background: Background
+    ) -> tuple[Audio, NDArray[np.bool_]]:
+        profile = self._profile
+        levelled, is_active = _level(speech)
+        if background != "none":
+            level_db = profile.cockpit_db if background == "cockpit" else profile.tower_db
+            surroundings = _surroundings(len(speech), background, rng)
+            levelled = levelled + LEVEL_RMS * 10.0 ** (level_db / 20.0) * surroundings
+        drive = profile.microphone_drive / (4.0 * LEVEL_RMS)
+        signal = _band(np.tanh(drive * levelled) / drive, profile)
+        if profile.fade_db:
+            signal = signal * _fading(len(signal), profile, rng)
+        if is_active.any():
+            signal = signal * np.float32(LEVEL_RMS / np.sqrt(_power(signal, is_active)))
+        return signal, is_active
+
+    def interference(
+        self, signal: Audio, others: Sequence[Other], rng: np.random.Generator
+    ) -> Audio:
+        """Return what others add to a detected signal, and take from it, shape (count,).
+
+        Carriers add up before the detector, which gives out the envelope of their sum, as far as
+        one fully modulated carrier would drive it. All are taken to be received as strongly as
+        ours, and to come from cockpits. Their beat then is nearly the whole carrier, 7 to 9 dB
+        more than speech, which modulates it by `MODULATION`; speech comes through in shreds.
+        """
+        count = len(signal)
+        field = (1.0 + MODULATION / LEVEL_RMS * signal).astype(np.complex64)
+        begin, end = count, 0
+        for other in others:
+            overlap = _checked(other.speech)[max(-other.begin, 0) : max(count - other.begin, 0)]
+            if not len(overlap):
+                continue
+            theirs, speaks = self._modulated(overlap, rng, "cockpit")
+            depth = MODULATION / LEVEL_RMS
+            if not speaks.any():
+                depth = _OPEN_MICROPHONE / (theirs.std() or 1.0)
+            first, after = max(other.begin, 0), max(other.begin, 0) + len(overlap)
+            turns = other.whistle_hz / SAMPLE_RATE_HZ * np.arange(len(overlap))
+            field[first:after] += np.exp(2j * np.pi * turns) * (1.0 + depth * theirs)
+            begin, end = min(begin, first), max(end, after)
+        placed = np.zeros(count, np.float32)
+        if begin < end:
+            envelope = np.abs(field[begin:end])
+            audio = np.clip(envelope - envelope.mean(), -PEAK_MODULATION, PEAK_MODULATION)
+            detected = _band(audio * np.float32(LEVEL_RMS / MODULATION), self._profile)
+            placed[begin:end] = detected - signal[begin:end]
+        return placed
+
+
+def active(speech: Audio) -> NDArray[np.bool_]:
+    """Return where somebody speaks, shape (n,), after ITU-T P.56, method B, in frames of 20 ms."""
+    count = -(-len(speech) // _FRAME)
+    padded = np.zeros(count * _FRAME, np.float32)
+    padded[: len(speech)] = speech
+    powers = np.mean(padded.reshape(count, _FRAME) ** 2, axis=1)
+    speaks = powers > 0.0
+    for _ in range(6):
+        if not speaks.any():
+            break
+        speaks = powers > _MARGIN * float(np.mean(powers[speaks]))
+    return np.repeat(speaks, _FRAME)[: len(speech)]
+
+
+def _checked(speech: Audio) -> Audio:
+    samples = np.asarray(speech, np.float32)
+    if samples.ndim != 1 or not len(samples):
+        raise SpeechError(
+            f"radio channel: expected mono samples, got an array of shape {samples.shape}"
+        )
+    if not np.isfinite(samples).all():
+        raise SpeechError("radio channel: the speech has samples that are no numbers (NaN)")
+    return samples
+
+
+def _power(samples: Audio, where: NDArray[np.bool_]) -> float:
+    chosen = samples[where] if where.any() else samples
+    return float(np.mean(np.square(chosen, dtype=np.float64)))
+
+
+def _level(speech: Audio) -> tuple[Audio, NDArray[np.bool_]]:
+    is_active = active(speech)
+    power = _power(speech, is_active)
+    return (speech * np.float32(LEVEL_RMS / np.sqrt(power)) if power else speech), is_active
+
+
+def _band(samples: Audio, profile: ChannelProfile) -> Audio:
+    """Return samples with the magnitude response of a Butterworth band-pass, without its delay."""
+    size = next_fast_len(len(samples) + _FRAME, real=True)
+    frequency = np.maximum(np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ), 1.0).astype(np.float32)
+    steepness = 2 * profile.order
+    response = 1.0 / np.sqrt(1.0 + (profile.low_hz / frequency) ** steepness)
+    response /= np.sqrt(1.0 + (frequency / profile.high_hz) ** steepness)
+    return np.asarray(irfft(rfft(samples, size) * response, size)[: len(samples)], np.float32)
+
+
+def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Audio:
+    """Return a slowly varying gain."""
+    phase = rng.uniform(0.0, 2.0 * np.pi, 3)
+    rates = profile.fade_hz * np.array([1.0, 1.7, 0.4])
+    times_s = np.arange(0, count + _FRAME, _FRAME) / SAMPLE_RATE_HZ
+    swing = np.sin(2.0 * np.pi * rates[:, None] * times_s + phase[:, None]).mean(axis=0)
+    gain = 10.0 ** (profile.fade_db * (swing - 0.5) / 20.0)
+    evenly = np.interp(np.arange(count), np.arange(len(gain)) * _FRAME, gain)
+    return np.asarray(evenly, np.float32)
+
+
+def _surroundings(count: int, background: Background, rng: np.random.Generator) -> Audio:
+    """Return the noise of a place, of power one: rumble and airflow, or a room's murmur."""
+    size = next_fast_len(count, real=True)
+    frequency = np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ).astype(np.float32)
+    corner = 400.0 if background == "cockpit" else 900.0
+    shape = 1.0 / (1.0 + (frequency / corner) ** 2)
+    shape[0] = 0.0
+    noise = irfft(rfft(rng.standard_normal(size, np.float32)) * shape, size)[:count]
+    if background == "cockpit":
+        times_s = np.arange(count, dtype=np.float32) / SAMPLE_RATE_HZ
+        hum = 400.0 + rng.uniform(-5.0, 5.0)
+        noise = noise + 0.3 * noise.std() * np.sin(2.0 * np.pi * hum * times_s, dtype=np.float32)
+    return np.asarray(noise / (noise.std() or 1.0), np.float32)
+
+
+def _even_out(samples: Audio, strength: float) -> Audio:
+    """Return samples whose level is drawn towards `LEVEL_RMS`, as gain control does."""
+    if strength == 0.0:
+        return samples
+    count = -(-len(samples) // _FRAME)
+    padded = np.zeros(count * _FRAME, np.float32)
+    padded[: len(samples)] = samples
+    powers = np.mean(padded.reshape(count, _FRAME) ** 2, axis=1)
+    kernel = np.exp(-np.arange(25) / 8.0)
+    level = np.sqrt(np.convolve(powers, kernel / kernel.sum())[:count])
+    gain = (np.maximum(level, 0.02 * LEVEL_RMS) / LEVEL_RMS) ** -strength
+    gain = np.minimum(gain, 6.0)
+    centres = (np.arange(count) + 0.5) * _FRAME
+    return samples * np.interp(np.arange(len(samples)), centres, gain).astype(np.float32)

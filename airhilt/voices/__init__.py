@@ -1,0 +1,5 @@
+"""Voices: text to speech for those who talk on the radio, and for the assistant."""
+
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine, VoiceSpec
+
+__all__ = ["SAMPLE_RATE_HZ", "Audio", "TtsEngine", "VoiceSpec"]

@@ -1,0 +1,87 @@
+"""CMU Flite, by its command ``flite``: few voices, more natural than espeak-ng."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from airhilt.audio.wav import read_wav
+from airhilt.errors import SpeechError
+from airhilt.voices.engine import Audio, VoiceSpec
+
+VOICES = ("slt", "rms", "awb", "kal16")
+"""Built into Debian's ``flite``; each gives 16 kHz."""
+TIMEOUT_S = 60.0
+
+
+class Flite:
+    """Speaks with flite, one process an utterance."""
+
+    name = "flite"
+
+    def __init__(self, command: str = "flite") -> None:
+        found = shutil.which(command)
+        if found is None:
+            raise SpeechError(
+                f"voice flite: there is no command {command!r} on PATH; install it with "
+                "`apt install flite`, or choose another voice with --tts"
+            )
+        self._command = found
+        version = re.search(rb"version: *(\S+)", self._run("--version").stdout)
+        self.version = version.group(1).decode() if version else "unknown"
+
+    def voice_of(self, speaker: str) -> VoiceSpec:
+        """Return the voice of a speaker: timbre, rate and pitch drawn from the name."""
+        digest = hashlib.sha256(speaker.encode()).digest()
+        rate = 0.9 + 0.3 * digest[1] / 255.0
+        pitch = 0.85 + 0.3 * digest[2] / 255.0
+        return VoiceSpec(VOICES[digest[0] % len(VOICES)], round(rate, 3), round(pitch, 3))
+
+    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
+        """Return the text as speech."""
+        if voice.name not in VOICES:
+            raise SpeechError(
+                f"voice flite: there is no voice {voice.name!r}; expected one of "
+                f"{', '.join(VOICES)}"
+            )
+        with tempfile.TemporaryDirectory(prefix="airhilt-flite-") as folder:
+            path = Path(folder) / "speech.wav"
+            done = self._run(
+                *("-voice", voice.name),
+                *("--setf", f"duration_stretch={1.0 / voice.rate:.4f}"),
+                *("--setf", f"f0_shift={voice.pitch:.4f}"),
+                *("-o", str(path)),
+                *("-t", text),
+            )
+            if done.returncode:
+                raise SpeechError(
+                    f"voice flite: {self._command} failed with exit code {done.returncode}: "
+                    f"{_last_line(done.stderr)}"
+                )
+            return read_wav(path)
+
+    def _run(self, *arguments: str) -> subprocess.CompletedProcess[bytes]:
+        try:
+            return subprocess.run(  # noqa: S603  (arguments, not a shell's line)
+                [self._command, *arguments],
+                capture_output=True,
+                check=False,
+                timeout=TIMEOUT_S,
+                stdin=subprocess.DEVNULL,
+            )
+        except subprocess.TimeoutExpired:
+            raise SpeechError(
+                f"voice flite: {self._command} has not answered for {TIMEOUT_S:g} s; expected "
+                "speech within a second"
+            ) from None
+        except (OSError, ValueError) as error:
+            raise SpeechError(f"voice flite: {self._command} cannot be run: {error}") from None
+
+
+def _last_line(text: bytes) -> str:
+    lines = text.decode("utf-8", "replace").strip().splitlines()
+    return lines[-1] if lines else "it did not say why"

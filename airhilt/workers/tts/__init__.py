@@ -1,5 +1,0 @@
-"""The reference TTS worker: advisories in, the assistant's voice out."""
-
-from airhilt.workers.tts.worker import TtsWorker
-
-__all__ = ["TtsWorker"]

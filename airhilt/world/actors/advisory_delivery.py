@@ -1,0 +1,94 @@
+"""How advisories reach crews and drivers, and what they make them do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+
+from airhilt.messages import Advisory, AdvisoryAudio, EventKind, Message
+from airhilt.scenario.models import WildlifeActor
+from airhilt.sim import Director, Priority
+from airhilt.units import seconds_to_ns
+from airhilt.world.actors.actor import Performer, Reaction, Unable
+from airhilt.world.actors.reactions import FOLLOWED_FROM
+
+
+class Advised:
+    """Lets actors react to advisories: to one that is spoken, when its voice begins to be heard.
+
+    Spoken are those at or above `FOLLOWED_FROM` that are active; others, and all of them without a
+    voice, are read as soon as they are decided.
+
+    Parameters
+    ----------
+    is_voiced
+        Whether somebody speaks advisories.
+    event
+        Called with kind, subject and text of what comes of one.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        cast: Mapping[str, Performer],
+        event: Callable[[EventKind, str, str], None],
+        *,
+        is_voiced: bool,
+    ) -> None:
+        self._director = director
+        self._event = event
+        self._is_voiced = is_voiced
+        addresses = {
+            performer.actor.icao24: performer
+            for performer in cast.values()
+            if not isinstance(performer.actor, WildlifeActor)
+        }
+        self._by_address: dict[str, Performer] = {**addresses, **cast}
+        """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
+        self._unspoken: dict[tuple[str, str], Advisory] = {}
+        """The last revision of those that wait for their voice, by id and recipient."""
+
+    def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+        """Take in what was published."""
+        match message:
+            case Advisory() if message.recipient in self._by_address:
+                name = (message.id, message.recipient)
+                if self._is_spoken(message):
+                    self._unspoken[name] = message
+                else:
+                    self._unspoken.pop(name, None)
+                    self._tell(message)
+            case AdvisoryAudio(id=identity, recipient=recipient, revision=revision):
+                waiting = self._unspoken.get((identity, recipient))
+                if waiting is not None and waiting.revision == revision:
+                    del self._unspoken[identity, recipient]
+                    self._tell(waiting)
+
+    def voice_lost(self) -> None:
+        """Go on without a voice: what waits for it is read now."""
+        self._is_voiced = False
+        waiting: Sequence[Advisory] = list(self._unspoken.values())
+        self._unspoken.clear()
+        for advisory in waiting:
+            self._tell(advisory)
+
+    def _is_spoken(self, advisory: Advisory) -> bool:
+        return self._is_voiced and advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
+
+    def _tell(self, advisory: Advisory) -> None:
+        performer = self._by_address[advisory.recipient]
+        reaction = performer.hear(advisory)
+        if reaction is not None:
+            due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
+            react = partial(self._react, performer, advisory, reaction)
+            self._director.at(due_ns, react, Priority.SCRIPT)
+
+    def _react(self, performer: Performer, advisory: Advisory, reaction: Reaction) -> None:
+        if performer.body.ended is not None:
+            return
+        try:
+            if reaction.act():
+                text = f"{reaction.text} ({advisory.id})"
+                self._event("pilot_reacts", advisory.recipient, text)
+        except Unable as unable:
+            self._event("unable", advisory.recipient, str(unable))

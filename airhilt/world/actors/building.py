@@ -1,0 +1,245 @@
+"""The performers of a scenario: aircraft with their crews, vehicles with drivers, wildlife."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from airhilt.commands import Command
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.local_frame import onward
+from airhilt.geodesy.positions import RunwayPosition
+from airhilt.messages import Advisory, EmitterCategory
+from airhilt.scenario.models import (
+    Actor,
+    Airborne,
+    AircraftActor,
+    GroundStart,
+    HoldingShort,
+    LinedUp,
+    OnFinal,
+    Scenario,
+    Standing,
+    VehicleActor,
+    Weather,
+    WildlifeActor,
+)
+from airhilt.sim.streams import stream
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
+from airhilt.world.actors.actor import Performer, Reaction, Unable
+from airhilt.world.actors.crew import Crew
+from airhilt.world.actors.driver import Driver
+from airhilt.world.actors.ground_paths import NOSE_MARGIN_M
+from airhilt.world.actors.reactions import Person
+from airhilt.world.actors.wildlife import Beast
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.aircraft_type import load_aircraft_type
+from airhilt.world.flight.model import ModelError
+from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
+from airhilt.world.site import Setting, azimuth
+from airhilt.world.surface.kinds import load_kind
+from airhilt.world.surface.runway import Place
+
+AIM_POINT_M = 300.0
+"""Past the threshold, where the glide path meets the runway (ICAO Annex 14 volume I, 5.2.5)."""
+LINED_UP_M = 30.0
+"""Of an aircraft's tail past the beginning of the runway."""
+EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
+    "jet": "A3",
+    "heavy_jet": "A5",
+    "piston_single": "A1",
+    "piston_twin": "A1",
+}
+
+
+@dataclass(frozen=True)
+class Flight:
+    """One aircraft of the scenario, with its crew."""
+
+    actor: AircraftActor
+    body: Aircraft
+    crew: Crew
+    category: Literal["aircraft"] = "aircraft"
+
+    @property
+    def bound_runway(self) -> str | None:
+        """The runway that the crew means to use."""
+        return self.crew.runway_work.bound_runway
+
+    @property
+    def emitter_category(self) -> EmitterCategory:
+        """What its transponder says that it is."""
+        return EMITTER_CATEGORIES[self.body.kind.category]
+
+    def command(self, command: Command) -> None:
+        """Tell the crew.
+
+        Raises
+        ------
+        Unable
+            It cannot be done.
+        """
+        self.crew.command(command)
+
+    def hear(self, advisory: Advisory) -> Reaction | None:
+        """Return how the crew will react to an advisory."""
+        return self.crew.hear(advisory)
+
+    def attend(self) -> None:
+        """Let the crew go on with what waits for its moment."""
+        self.crew.attend()
+
+
+def atmosphere_of(weather: Weather) -> Atmosphere:
+    """Return the air that a scenario's weather describes."""
+    towards = weather.wind.from_deg * DEGREE + math.pi
+    speed = weather.wind.speed_kt * KNOT
+    return Atmosphere(
+        wind_north_m_s=speed * math.cos(towards),
+        wind_east_m_s=speed * math.sin(towards),
+        turbulence_wind_at_20ft_m_s=weather.turbulence.wind_at_20ft_kt * KNOT,
+        turbulence_severity=weather.turbulence.severity,
+    )
+
+
+def build_cast(
+    scenario: Scenario, setting: Setting, seed: int, tick_s: float
+) -> dict[str, Performer]:
+    """Return the performers of a scenario by callsign.
+
+    Raises
+    ------
+    ScenarioError
+        One cannot begin as the scenario says, or cannot do what it is told at the start.
+    """
+    builder = _Builder(scenario, setting, seed, tick_s, {})
+    for actor in scenario.actors:
+        try:
+            builder.cast[actor.callsign] = builder.build(actor)
+        except (ValueError, ModelError, Unable, ScenarioError) as error:
+            raise ScenarioError(
+                f"actors/{actor.callsign}: cannot begin like that: {error}"
+            ) from None
+    return builder.cast
+
+
+@dataclass(frozen=True)
+class _Builder:
+    scenario: Scenario
+    setting: Setting
+    seed: int
+    tick_s: float
+    cast: dict[str, Performer]
+
+    def build(self, actor: Actor) -> Performer:
+        match actor:
+            case AircraftActor():
+                return self._flight(actor)
+            case VehicleActor():
+                return self._driver(actor)
+            case WildlifeActor():
+                return self._beast(actor)
+
+    def _seed_of(self, name: str) -> int:
+        return int(stream(self.seed, name).integers(2**31))
+
+    def _flight(self, actor: AircraftActor) -> Flight:
+        setting = self.setting
+        kind = load_aircraft_type(actor.aircraft)
+        route = [setting.place(position) for position in actor.route]
+        condition: InitialCondition | OnGround
+        match actor.initial:
+            case Airborne() as initial:
+                condition = _airborne(initial, setting, route)
+            case OnFinal() as initial:
+                condition = _on_final(initial, setting, kind.speeds.approach_kt * KNOT)
+            case initial:
+                place, heading = _on_ground(initial, setting, kind.dimensions.length_m)
+                condition = OnGround(*place, heading, isinstance(initial, LinedUp))
+        aircraft = Aircraft(
+            kind,
+            condition,
+            seed=self._seed_of(f"turbulence/{actor.callsign}"),
+            atmosphere=atmosphere_of(self.scenario.weather),
+            terrain_elevation_m=setting.ground_m,
+            tick_s=self.tick_s,
+        )
+        crew = Crew(Person(actor.callsign, actor.pilot, self.seed), aircraft, setting)
+        match actor.initial:
+            case OnFinal(runway=runway):
+                crew.runway_work.begin_on_final(runway)
+            case LinedUp(runway=runway):
+                crew.runway_work.bind(runway)
+        if route:
+            crew.fly_route(route)
+        for command in actor.commands:
+            crew.command(command)
+        return Flight(actor, aircraft, crew)
+
+    def _driver(self, actor: VehicleActor) -> Driver:
+        kind = load_kind(actor.kind, "vehicle")
+        place, heading = _on_ground(actor.initial, self.setting, kind.dimensions.length_m)
+        body = kind.create(
+            place, heading, ground_m=self.setting.ground_m, tick_s=self.tick_s, seed=self.seed
+        )
+        person = Person(actor.callsign, actor.driver, self.seed)
+        driver = Driver(actor, body, self.setting, person)
+        for command in actor.commands:
+            driver.command(command)
+        return driver
+
+    def _beast(self, actor: WildlifeActor) -> Beast:
+        place, heading = _on_ground(actor.initial, self.setting, 0.0)
+        body = load_kind(actor.kind, "wildlife").create(
+            place,
+            heading,
+            ground_m=self.setting.ground_m,
+            tick_s=self.tick_s,
+            seed=self._seed_of(f"wildlife/{actor.callsign}"),
+            height_m=actor.height_ft * FOOT,
+        )
+        return Beast(actor, body, self.setting, self.cast)
+
+
+def _airborne(initial: Airborne, setting: Setting, route: list[Place]) -> InitialCondition:
+    place = setting.place(initial.position)
+    track = azimuth(place, route[0]) if initial.track_deg is None else initial.track_deg * DEGREE
+    return InitialCondition(
+        *place,
+        altitude_m=initial.altitude_ft * FOOT,
+        track_rad=track,
+        calibrated_airspeed_m_s=initial.cas_kt * KNOT,
+    )
+
+
+def _on_final(initial: OnFinal, setting: Setting, speed_m_s: float) -> InitialCondition:
+    runway = setting.runway(initial.runway)
+    distance_m = initial.distance_nm * NAUTICAL_MILE
+    place = setting.place(RunwayPosition(type="runway", runway=initial.runway, along_m=-distance_m))
+    slope = math.tan(runway.glide_path_rad)
+    return InitialCondition(
+        *place,
+        altitude_m=setting.ground_m + (distance_m + AIM_POINT_M) * slope,
+        track_rad=azimuth(place, runway.end),
+        calibrated_airspeed_m_s=speed_m_s,
+        vertical_rate_m_s=-speed_m_s * slope,
+        on_approach=True,
+    )
+
+
+def _on_ground(initial: GroundStart, setting: Setting, length_m: float) -> tuple[Place, float]:
+    """Return where the centre of an actor of some length begins, and its heading."""
+    match initial:
+        case LinedUp(runway=ident):
+            runway = setting.runway(ident)
+            return (
+                onward(runway.start, runway.course_rad, LINED_UP_M + length_m / 2.0),
+                runway.course_rad,
+            )
+        case HoldingShort(runway=ident, taxiway=taxiway, before_m=before_m):
+            hold = setting.airport.hold(ident, taxiway)
+            back_m = length_m / 2.0 + NOSE_MARGIN_M + before_m
+            return onward(hold.place, hold.heading_rad, -back_m), hold.heading_rad
+        case Standing(position=position, heading_deg=heading_deg):
+            return setting.place(position), heading_deg * DEGREE

@@ -1,0 +1,199 @@
+"""The crew of an aircraft: carries out commands, and reacts to advisories after a while."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from airhilt.commands import (
+    AltitudeCommand,
+    Command,
+    DriftDownCommand,
+    EmergencyDescentCommand,
+    ResumeRouteCommand,
+    RouteCommand,
+    SpeedCommand,
+    TrackCommand,
+    TurnCommand,
+)
+from airhilt.errors import ScenarioError
+from airhilt.messages import (
+    Advisory,
+    CancelTakeoff,
+    Climb,
+    GoAround,
+    HoldPosition,
+    MaintainLevel,
+    Recommendation,
+    Turn,
+)
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.actors.actor import Reaction, Unable
+from airhilt.world.actors.departure_arrival import DepartureArrival
+from airhilt.world.actors.reactions import FOLLOWED_FROM, Person
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.site import Setting
+from airhilt.world.surface.runway import Place
+
+
+class Crew:
+    """Flies as told, unless an advisory that it follows says otherwise.
+
+    A command that comes while an advisory is followed is remembered and flown once the conflict
+    is over. Runways and taxiways are the matter of its `DepartureArrival`.
+    """
+
+    def __init__(self, person: Person, aircraft: Aircraft, setting: Setting) -> None:
+        self.callsign = person.callsign
+        self.aircraft = aircraft
+        self.runway_work = DepartureArrival(aircraft, setting)
+        self._person = person
+        self._setting = setting
+        self._return_lateral: Callable[[], None] = partial(
+            aircraft.hold_track, aircraft.state.track_rad
+        )
+        self._altitude_before_m = aircraft.target_altitude_m
+        self._followed: dict[str, int] = {}
+        self._over: set[str] = set()
+        self._deferred: list[Command] = []
+        self._has_turned = False
+        self._has_route = False
+
+    def fly_route(self, waypoints: list[Place]) -> None:
+        """Take a route and fly it."""
+        self.aircraft.fly_route(waypoints)
+        self._return_lateral = self.aircraft.resume_route
+        self._has_route = True
+
+    def command(self, command: Command) -> None:
+        """Carry a command out, now or after the advisory in hand.
+
+        Raises
+        ------
+        Unable
+            It cannot be done.
+        """
+        if self._followed:
+            self._deferred.append(command)
+        else:
+            self._carry_out(command)
+
+    def attend(self) -> None:
+        """Go on with what waits for its moment.
+
+        Raises
+        ------
+        Unable
+            It cannot be done.
+        """
+        try:
+            self.runway_work.attend()
+        except (ValueError, ScenarioError) as error:
+            raise Unable(f"unable, {error}") from None
+
+    def _carry_out(self, command: Command) -> None:
+        try:
+            if not self.runway_work.carry_out(command):
+                self._fly(command)
+        except (ValueError, ScenarioError) as error:
+            raise Unable(f"unable, {error}") from None
+
+    def _fly(self, command: Command) -> None:
+        aircraft = self.aircraft
+        match command:
+            case AltitudeCommand(altitude_ft=altitude, vertical_rate_fpm=rate):
+                aircraft.hold_altitude(
+                    altitude * FOOT, None if rate is None else rate * FOOT_PER_MINUTE
+                )
+            case TrackCommand(track_deg=track):
+                aircraft.hold_track(track * DEGREE)
+                self._return_lateral = partial(aircraft.hold_track, track * DEGREE)
+            case TurnCommand(degrees=degrees):
+                track = aircraft.state.track_rad + degrees * DEGREE
+                aircraft.turn_by(degrees * DEGREE)
+                self._return_lateral = partial(aircraft.hold_track, track)
+            case SpeedCommand(cas_kt=speed):
+                aircraft.hold_speed(speed * KNOT)
+            case RouteCommand(route=route):
+                self.fly_route([self._setting.place(position) for position in route])
+            case ResumeRouteCommand() if self._has_route:
+                aircraft.resume_route()
+                self._return_lateral = aircraft.resume_route
+            case DriftDownCommand():
+                aircraft.drift_down()
+            case EmergencyDescentCommand(altitude_ft=altitude):
+                aircraft.emergency_descent(altitude * FOOT)
+            case _:
+                raise Unable(f"unable to {command.action.replace('_', ' ')}")
+
+    # --- advisories -------------------------------------------------------------------------
+
+    def hear(self, advisory: Advisory) -> Reaction | None:
+        """Return how the crew will react to an advisory, None if it will not."""
+        person, again = self._person, advisory.id in self._followed
+        if not advisory.active:
+            self._over.add(advisory.id)
+            if not again:
+                return None
+            delay_s = person.delay_s(advisory, again)
+            return Reaction(delay_s, lambda: self._resume(advisory.id), "resumes")
+        self._over.discard(advisory.id)
+        recommendation = advisory.recommendation
+        if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
+            return None
+        if not person.complies(advisory.id):
+            return None
+        return Reaction(
+            person.delay_s(advisory, again),
+            lambda: self._follow(advisory, recommendation),
+            f"follows {recommendation.action}",
+        )
+
+    def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
+        if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
+            return False
+        try:
+            match recommendation:
+                case GoAround():
+                    return self.runway_work.go_around()
+                case CancelTakeoff():
+                    return self.runway_work.cancel_takeoff()
+                case HoldPosition():
+                    return self.runway_work.hold_position()
+                case Climb() | MaintainLevel() | Turn():
+                    return self._avoid(advisory, recommendation)
+        except ValueError as error:
+            raise Unable(f"unable, {error}") from None
+
+    def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
+        if not self._followed:
+            self._altitude_before_m = self.aircraft.target_altitude_m
+        match recommendation:
+            case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
+                self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+            case MaintainLevel(altitude_ft=altitude):
+                self.aircraft.hold_altitude(altitude * FOOT)
+            case Turn(degrees=degrees):
+                self.aircraft.turn_by(degrees * DEGREE)
+                self._has_turned = True
+        self._followed[advisory.id] = advisory.revision
+        return True
+
+    def _resume(self, advisory_id: str) -> bool:
+        """Go back to what was flown before, unless another advisory still holds."""
+        if self._followed.pop(advisory_id, None) is None or self._followed:
+            return False
+        self.aircraft.hold_altitude(self._altitude_before_m)
+        if self._has_turned:
+            self._has_turned = False
+            self._return_lateral()
+        deferred, self._deferred = self._deferred, []
+        refused: list[Unable] = []
+        for command in deferred:
+            try:
+                self._carry_out(command)
+            except Unable as unable:
+                refused.append(unable)
+        if refused:
+            raise refused[0]
+        return True

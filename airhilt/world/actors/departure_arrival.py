@@ -1,0 +1,283 @@
+"""What a crew does about runways and taxiways: line up, take off, land, taxi, or not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from airhilt.commands import (
+    CancelTakeoffCommand,
+    Command,
+    ContinueCommand,
+    GoAroundCommand,
+    HoldPositionCommand,
+    LandCommand,
+    LineUpCommand,
+    RouteCommand,
+    SideStepCommand,
+    TakeOffCommand,
+    TaxiCommand,
+    TrackCommand,
+    TurnCommand,
+)
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
+from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.ground_paths import FinalApproach, exit_for, hold_beside, taxi_path
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.site import Setting
+from airhilt.world.surface.runway import Place, RunwayEnd
+
+DECISION_SPEED_PART = 0.95
+"""V1 as a part of the rotation speed: with dry runways the two lie within a few knots."""
+DECISION_HEIGHT_M = 200.0 * FOOT
+"""Without a landing clearance here, the crew goes around (the usual minimum of category I)."""
+GO_AROUND_CLIMB_M = 3000.0 * FOOT
+"""Above the airport, where nothing else was said."""
+LEAST_CLIMB_M = 500.0 * FOOT
+"""Of a go-around that begins above that."""
+TOO_HIGH_M = 150.0 * FOOT
+"""Over the threshold; 50 ft is normal (ICAO Annex 10 volume I, 3.1.5.1.4)."""
+CAPTURE_ANGLE_RAD = math.radians(40.0)
+CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
+"""From the extended centre line, where the final approach is joined."""
+
+
+class DepartureArrival:
+    """One aircraft's dealings with runways."""
+
+    def __init__(self, aircraft: Aircraft, setting: Setting) -> None:
+        self._final: FinalApproach | None = None
+        """That of the runway it is bound for."""
+        self._aircraft = aircraft
+        self._setting = setting
+        self._cleared_to_land = False
+        self._next: Callable[[], bool] | None = None
+        """What comes next once its moment has come; tells whether it was done."""
+
+    @property
+    def bound_runway(self) -> str | None:
+        """The runway that the crew means to use, in the direction in which it will.
+
+        None before it has one, and once it is done with it.
+        """
+        return None if self._final is None else self._final.runway.ident
+
+    def bind(self, runway: str) -> RunwayEnd:
+        """Mean to use a runway from now on; return it.
+
+        Raises
+        ------
+        ScenarioError
+            There is none of that name.
+        """
+        end = self._setting.runway(runway)
+        self._final = FinalApproach(self._setting.airport, end)
+        return end
+
+    # --- as told ----------------------------------------------------------------------------
+
+    def carry_out(self, command: Command) -> bool:
+        """Do as told; return False for what is no matter of runways or taxiways.
+
+        Raises
+        ------
+        Unable, ValueError, ScenarioError
+            It cannot be done.
+        """
+        match command:
+            case TaxiCommand():
+                self._taxi(command)
+            case HoldPositionCommand():
+                self._aircraft.hold_position()
+                self._next = None
+            case ContinueCommand():
+                self._aircraft.resume_taxi()
+            case LineUpCommand(runway=runway):
+                self._line_up(runway)
+            case TakeOffCommand(runway=runway, climb_to_ft=altitude):
+                self._take_off(runway, altitude * FOOT)
+            case CancelTakeoffCommand():
+                self.cancel_takeoff()
+            case LandCommand():
+                self._land(command)
+            case GoAroundCommand(climb_to_ft=altitude):
+                self._break_off(altitude * FOOT)
+            case SideStepCommand(runway=runway):
+                self._side_step(runway)
+            case RouteCommand() | TrackCommand() | TurnCommand():
+                self._next = None
+                return False
+            case _:
+                return False
+        return True
+
+    def begin_on_final(self, runway: str) -> None:
+        """Fly the approach from where the aircraft is; it still needs a clearance to land."""
+        self._aircraft.land(self.bind(runway))
+        self._next = self._go_around_uncleared
+
+    def attend(self) -> None:
+        """Go on with what waits for its moment.
+
+        Raises
+        ------
+        Unable, ValueError, ScenarioError
+            Its moment has come, and it cannot be done.
+        """
+        following, self._next = self._next, None
+        if following is not None and not following() and self._next is None:
+            self._next = following
+        phase = self._aircraft.phase
+        has_left = phase == "en_route" and self._next is None
+        if phase in ("climb_out", "vacate") or has_left:
+            self._final = None
+        elif phase == "glide" and self._final is not None:
+            self._go_around_if_too_high(self._final)
+
+    # --- advised ----------------------------------------------------------------------------
+
+    def go_around(self) -> bool:
+        """Break the approach off, if there is one; return whether there was."""
+        aircraft = self._aircraft
+        if aircraft.phase not in ("glide", "flare") or aircraft.on_ground:
+            return False
+        usual_m = self._setting.ground_m + GO_AROUND_CLIMB_M
+        self._break_off(max(usual_m, aircraft.state.altitude_m + LEAST_CLIMB_M))
+        return True
+
+    def cancel_takeoff(self) -> bool:
+        """Do not take off, or reject the takeoff below the decision speed."""
+        aircraft = self._aircraft
+        match aircraft.phase:
+            case "takeoff_roll":
+                decision = DECISION_SPEED_PART * aircraft.kind.speeds.rotate_kt * KNOT
+                if aircraft.state.calibrated_airspeed_m_s > decision:
+                    return False
+                aircraft.reject_takeoff()
+            case "line_up" | "taxi":
+                aircraft.hold_position()
+            case "lined_up" | "standing":
+                pass
+            case _:
+                return False
+        self._next = None
+        return True
+
+    def hold_position(self) -> bool:
+        """Stop taxiing; return whether there was anything to stop."""
+        if self._aircraft.phase not in ("taxi", "line_up"):
+            return False
+        self._next = None
+        self._aircraft.hold_position()
+        return True
+
+    # --- how --------------------------------------------------------------------------------
+
+    def _here(self) -> Place:
+        state = self._aircraft.state
+        return state.latitude_rad, state.longitude_rad
+
+    def _taxi(self, command: TaxiCommand) -> None:
+        self._next = None
+        nose_m = self._aircraft.kind.dimensions.length_m / 2.0
+        path = taxi_path(self._setting, self._here(), command, nose_m)
+        speed = None if command.speed_kt is None else command.speed_kt * KNOT
+        self._aircraft.taxi(path, speed)
+
+    def _line_up(self, runway: str) -> None:
+        aircraft, here = self._aircraft, self._here()
+        final = FinalApproach(self._setting.airport, self._setting.runway(runway))
+        if aircraft.phase == "taxi":
+            self._next = partial(self._line_up_once_standing, runway)
+        elif aircraft.phase not in ("lined_up", "line_up"):
+            hold = hold_beside(self._setting, here, runway)
+            path = self._setting.airport.entry_path(hold, runway)
+            # Held on its way in, it goes on from there, and not back to the hold line.
+            aside_m = abs(final.right_m(here))
+            ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
+            aircraft.taxi([here, *(ahead or path[-1:])], then="lined_up")
+        self._final = final
+
+    def _line_up_once_standing(self, runway: str) -> bool:
+        if self._aircraft.phase != "standing":
+            return False
+        self._line_up(runway)
+        return True
+
+    def _take_off(self, runway: str, climb_to_m: float) -> None:
+        if self._aircraft.phase in ("takeoff_roll", "rotate"):
+            raise Unable("unable, already rolling")
+        self._line_up(runway)
+        self._next = partial(self._roll_once_lined_up, runway, climb_to_m)
+        self.attend()
+
+    def _roll_once_lined_up(self, runway: str, climb_to_m: float) -> bool:
+        if self._aircraft.phase == "standing":
+            self._line_up(runway)
+            return False
+        if self._aircraft.phase != "lined_up":
+            return False
+        self._aircraft.take_off(self.bind(runway), climb_to_m)
+        return True
+
+    def _land(self, command: LandCommand) -> None:
+        aircraft, setting = self._aircraft, self._setting
+        if aircraft.on_ground:
+            raise Unable("unable, on the ground")
+        runway = setting.runway(command.runway)
+        if aircraft.phase in ("glide", "flare") and not command.via:
+            self._require_final_of(runway)
+        exit_path: Sequence[Place] = ()
+        if command.vacate:
+            speed_m_s = aircraft.kind.speeds.approach_kt * KNOT
+            way_out = exit_for(setting, runway, speed_m_s, command.exit)
+            exit_path = way_out.path if way_out else ()
+        self.bind(command.runway)
+        self._cleared_to_land = True
+        if command.via:
+            via = [setting.place(position) for position in command.via]
+            aircraft.fly_route([*via, runway.threshold])
+        self._next = partial(self._land_once_on_final, exit_path)
+        if not command.via:
+            self.attend()
+
+    def _require_final_of(self, runway: RunwayEnd) -> None:
+        if self._final is not None and self._final.runway.ident != runway.ident:
+            raise Unable(f"unable, on final approach to runway {self._final.runway.ident}")
+
+    def _land_once_on_final(self, exit_path: Sequence[Place]) -> bool:
+        final, state = self._final, self._aircraft.state
+        here = self._here()
+        if (
+            final is None
+            or final.before_m(here) <= 0.0
+            or abs(final.angle_rad(state.track_rad)) > CAPTURE_ANGLE_RAD
+            or abs(final.right_m(here)) > CAPTURE_DISTANCE_M
+        ):
+            return False
+        self._aircraft.land(final.runway, exit_path)
+        return True
+
+    def _go_around_uncleared(self) -> bool:
+        if self._cleared_to_land or self._aircraft.phase not in ("glide", "flare"):
+            return True
+        if self._aircraft.state.height_agl_m > DECISION_HEIGHT_M:
+            return False
+        return self.go_around()
+
+    def _go_around_if_too_high(self, final: FinalApproach) -> None:
+        """Break an approach off that has come over the threshold far above it."""
+        too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
+        if too_high and final.before_m(self._here()) < 0.0:
+            self.go_around()
+
+    def _break_off(self, climb_to_m: float) -> None:
+        self._cleared_to_land = False
+        self._next = None
+        self._aircraft.go_around(climb_to_m)
+        self._final = None
+
+    def _side_step(self, runway: str) -> None:
+        self._aircraft.side_step(self._setting.runway(runway))
+        self.bind(runway)

@@ -1,0 +1,221 @@
+"""What somebody makes of the words that reached him: whether they are for him, and what to do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from airhilt.commands import (
+    AltitudeCommand,
+    CancelTakeoffCommand,
+    Command,
+    ContinueCommand,
+    GoAroundCommand,
+    HoldPositionCommand,
+    LandCommand,
+    LineUpCommand,
+    SpeedCommand,
+    TakeOffCommand,
+    TrackCommand,
+)
+from airhilt.phraseology import Call, Instruction, parse_call
+
+TAU_ASR = 0.8
+"""Below this confidence of a call its addressee asks again: the guard of arXiv 2511.18718."""
+
+Parse = Callable[[str, Iterable[str], Sequence[float] | None], Call]
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What a listener makes of a call."""
+
+    kind: Literal["as_said", "otherwise", "unclear", "not_for_me"]
+    call: Call | None = None
+    """As it was heard; None where it did not have to be taken apart."""
+    commands: tuple[Command, ...] = ()
+    """What to do, of a call that means something else than was said."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """Makes sense of words, with the callsigns that are on a frequency."""
+
+    callsigns: tuple[str, ...]
+    parse: Parse = parse_call
+
+    def make_sense(
+        self,
+        heard: str,
+        said: str,
+        known_by: tuple[str, ...],
+        bound_runway: str | None = None,
+        word_confidences: Sequence[float] | None = None,
+    ) -> Understanding:
+        """Return what somebody makes of a call that is for him.
+
+        By ear, the words that were said are sure. Who reads does not know what was said: he goes by
+        the confidence of what he reads.
+
+        Parameters
+        ----------
+        known_by
+            Callsigns by which he knows that it is: his own, or the caller's. Without any he takes
+            it as it comes.
+        bound_runway
+            Where he is going, which is what a call without a runway is about.
+        word_confidences
+            Of what he reads; None by ear.
+        """
+        is_the_same = words(heard) == words(said)
+        if is_the_same and word_confidences is None:
+            return Understanding("as_said")
+        taken = self.parse(heard, self.callsigns, word_confidences)
+        doubt = self._is_not_for(taken, known_by)
+        if doubt == "not_for_me" and not is_the_same:
+            return Understanding(doubt, taken)
+        meant = self.parse(said, self.callsigns, None)
+        is_in_doubt = doubt == "unclear" or taken.confidence < TAU_ASR
+        if is_in_doubt and (_wants_something(taken) or _wants_something(meant)):
+            return Understanding("unclear", taken)
+        if is_the_same or _mean_the_same(taken.instructions, meant.instructions):
+            return Understanding("as_said", taken)
+        if not taken.instructions:
+            return Understanding("unclear", taken)
+        return Understanding("otherwise", taken, commands_of(taken.instructions, bound_runway))
+
+    def overhear(
+        self,
+        heard: str,
+        said: str,
+        callsign: str,
+        bound_runway: str | None = None,
+        word_confidences: Sequence[float] | None = None,
+    ) -> Understanding:
+        """Return what somebody makes of a call that is not for him."""
+        if words(heard) == words(said):
+            return Understanding("not_for_me")
+        taken = self.parse(heard, self.callsigns, word_confidences)
+        commands = commands_of(taken.instructions, bound_runway)
+        is_mine = self._is_not_for(taken, (callsign,)) is None and taken.kind in (
+            "instruction",
+            "correction",
+        )
+        if not is_mine or not commands or taken.confidence < TAU_ASR:
+            return Understanding("not_for_me", taken)
+        return Understanding("otherwise", taken, commands)
+
+    def differs(self, read_back: str, said: str) -> bool:
+        """Return whether a readback says something that the call does not; less is no mistake."""
+        meant = self.parse(said, self.callsigns, None).instructions
+        return not all(
+            any(_agree(instruction, other) for other in meant)
+            for instruction in self.parse(read_back, self.callsigns, None).instructions
+        )
+
+    @staticmethod
+    def _is_not_for(
+        taken: Call, known_by: tuple[str, ...]
+    ) -> Literal["unclear", "not_for_me"] | None:
+        """Return why a call is not surely the one that is known by some callsigns, or None."""
+        match = taken.match
+        if match.ambiguous and any(one.callsign in known_by for one in match.candidates):
+            return "unclear"
+        return None if not known_by or taken.callsign in known_by else "not_for_me"
+
+
+def _wants_something(call: Call) -> bool:
+    """Return whether a call orders or asks something, so that its words matter."""
+    return bool(call.instructions) or call.kind in ("request", "say_again", "disregard")
+
+
+def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
+    """Return whether instructions come to the same: conditions may be worded in many ways."""
+    return len(heard) == len(said) and all(
+        _agree(one, other) and _numbers(one) == _numbers(other)
+        for one, other in zip(heard, said, strict=True)
+    )
+
+
+def _agree(one: Instruction, other: Instruction) -> bool:
+    """Return whether two are of one action, and nothing that both say differs."""
+    return one.action == other.action and all(
+        first is None or second is None or first == second
+        for first, second in zip(_details(one), _details(other), strict=True)
+    )
+
+
+def _details(instruction: Instruction) -> tuple[object, ...]:
+    """Return what may not differ; of a condition, which has many wordings, that there is one."""
+    return (
+        instruction.condition is not None,
+        instruction.runway,
+        instruction.hold_short,
+        instruction.sense,
+        instruction.turn,
+        *_numbers(instruction),
+    )
+
+
+def _numbers(instruction: Instruction) -> tuple[float | None, ...]:
+    return (
+        instruction.altitude_ft,
+        instruction.heading_deg,
+        instruction.speed_kt,
+        instruction.frequency_khz,
+    )
+
+
+def words(text: str) -> list[str]:
+    """Return the words of a call, however it is written."""
+    return re.findall(r"[a-z0-9]+", text.lower())
+
+
+def commands_of(
+    instructions: Iterable[Instruction], bound_runway: str | None
+) -> tuple[Command, ...]:
+    """Return what instructions make their addressee do, as far as there is a command for it.
+
+    What only holds on a condition is left undone: words do not tell when it is met. A level that
+    comes with a takeoff or a go-around is where that climbs to.
+    """
+    now = [instruction for instruction in instructions if instruction.condition is None]
+    level_ft = next((one.altitude_ft for one in now if one.altitude_ft is not None), None)
+    climbs = [one for one in now if one.action in ("cleared_for_takeoff", "go_around")]
+    found = [
+        _command_of(instruction, bound_runway, level_ft)
+        for instruction in now
+        if not climbs or instruction.action != "altitude"
+    ]
+    return tuple(dict.fromkeys(command for command in found if command is not None))
+
+
+def _command_of(
+    instruction: Instruction, bound_runway: str | None, level_ft: float | None
+) -> Command | None:
+    runway = instruction.runway or bound_runway
+    climb = {} if level_ft is None else {"climb_to_ft": level_ft}
+    match instruction.action:
+        case "go_around":
+            return GoAroundCommand(action="go_around", **climb)
+        case "cancel_takeoff":
+            return CancelTakeoffCommand(action="cancel_takeoff")
+        case "hold_short" | "hold_position" | "stop":
+            return HoldPositionCommand(action="hold_position")
+        case "cross" | "proceed":
+            return ContinueCommand(action="continue")
+        case "line_up" if runway is not None:
+            return LineUpCommand(action="line_up", runway=runway)
+        case "cleared_for_takeoff" if runway is not None:
+            return TakeOffCommand(action="take_off", runway=runway, **climb)
+        case "cleared_to_land" if runway is not None:
+            return LandCommand(action="land", runway=runway)
+        case "altitude" if level_ft is not None:
+            return AltitudeCommand(action="altitude", altitude_ft=level_ft)
+        case "heading" if instruction.heading_deg is not None:
+            return TrackCommand(action="track", track_deg=instruction.heading_deg)
+        case "speed" if instruction.speed_kt is not None:
+            return SpeedCommand(action="speed", cas_kt=instruction.speed_kt)
+    return None

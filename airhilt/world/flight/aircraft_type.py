@@ -1,0 +1,234 @@
+"""The ``aircraft/*.json`` files: what a type of aircraft is, and the gains that fly it."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import pydantic
+from pydantic import Field
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+
+
+class _Section(pydantic.BaseModel):
+    model_config = pydantic.ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Dimensions(_Section):
+    """Size of the real aircraft, and where the JSBSim model's wheels are."""
+
+    length_m: float = Field(gt=0)
+    span_m: float = Field(gt=0)
+    height_m: float = Field(gt=0)
+    wheel_height_offset_m: float = Field(ge=0)
+    """Of JSBSim's reference point above the ground when the model stands on its wheels."""
+
+
+class Speeds(_Section):
+    """Calibrated airspeeds in knots, and the limits that guidance keeps."""
+
+    approach_kt: float = Field(gt=0)
+    rotate_kt: float = Field(gt=0)
+    climb_safety_kt: float = Field(gt=0)
+    """V2."""
+    drift_down_kt: float = Field(gt=0)
+    """After an engine failure en route; the best glide speed of an aircraft with one engine."""
+    cruise_kt: float = Field(gt=0)
+    minimum_clean_kt: float = Field(gt=0)
+    maximum_kt: float = Field(gt=0)
+    """Vmo, or Vno for a piston aircraft."""
+    maximum_mach: float = Field(gt=0)
+    service_ceiling_ft: float = Field(gt=0)
+    climb_rate_fpm: float = Field(gt=0)
+    """Of a climb or descent for which no rate was asked."""
+    maximum_climb_rate_fpm: float = Field(gt=0)
+    maximum_descent_rate_fpm: float = Field(gt=0)
+
+
+class PitchGains(_Section):
+    """Attitude to pitch rate to elevator (normalised, -1..1).
+
+    Elevator and ailerons work against dynamic pressure: their gains hold at
+    ``reference_pressure_pa``.
+    """
+
+    attitude_per_s: float = Field(gt=0)
+    rate_limit_deg_s: float = Field(gt=0)
+    rate_s: float = Field(ge=0)
+    rate_integral: float = Field(ge=0)
+    zero_lift_angle_deg: float
+    """Angle of attack without lift, flaps up."""
+    reference_pressure_pa: float = Field(gt=0)
+
+
+class RollGains(_Section):
+    """Bank to roll rate to aileron (normalised, -1..1)."""
+
+    bank_limit_deg: float = Field(gt=0, le=45)
+    bank_rate_limit_deg_s: float = Field(gt=0)
+    bank_per_s: float = Field(gt=0)
+    rate_s: float = Field(ge=0)
+    rate_integral: float = Field(ge=0)
+
+
+class YawGains(_Section):
+    """Sideslip and yaw rate (against that of a coordinated turn) to rudder (normalised, -1..1)."""
+
+    sideslip: float = Field(ge=0)
+    sideslip_integral_per_s: float = Field(ge=0)
+    rate_s: float = Field(ge=0)
+
+
+class ThrustGains(_Section):
+    """Airspeed to throttle lever (0..1)."""
+
+    speed_s_m: float = Field(ge=0)
+    speed_integral_m: float = Field(ge=0)
+    acceleration_s2_m: float = Field(ge=0)
+    climb_angle: float = Field(ge=0)
+    lever_rate_per_s: float = Field(gt=0)
+
+
+class GuidanceGains(_Section):
+    """Course error to turn rate, altitude error to vertical rate."""
+
+    course_per_s: float = Field(gt=0)
+    altitude_per_s: float = Field(gt=0)
+
+
+class Gains(_Section):
+    """All control gains of a type; angles in radians where a gain multiplies one."""
+
+    pitch: PitchGains
+    roll: RollGains
+    yaw: YawGains
+    thrust: ThrustGains
+    guidance: GuidanceGains
+
+
+class Ground(_Section):
+    """Rolling and taxiing."""
+
+    model_nose_wheel_deg: float = Field(gt=0)
+    """To which the JSBSim model turns its nose wheel at full command; more than full is obeyed."""
+    nose_wheel_limit_deg: float = Field(gt=0, lt=90)
+    """Of the real aircraft."""
+    yaw_rate_s: float = Field(gt=0)
+    """Rudder per error of yaw rate, and of its integral."""
+    yaw_integral: float = Field(ge=0)
+    deceleration_m_s2: float = Field(gt=0)
+    """After touchdown."""
+    taxi_speed_kt: float = Field(gt=0)
+    look_ahead_m: float = Field(gt=0)
+    """Of the steering along a path, at least."""
+    tail_contact_deg: float = Field(gt=0)
+    """Pitch, on the main wheels, at which the tail touches the ground: of the Boeings as their
+    flight crew training manuals have it, of the Cessnas from the JSBSim model's tail skid."""
+    wing_contact_deg: float = Field(gt=0)
+    """Bank, on one main wheel, at which a wing tip or an engine touches the ground: of the 747 as
+    its flight manual warns (BFU Bulletin, October 2014), of the 737 about, of the Cessnas from the
+    JSBSim model's wing tips."""
+
+
+class Flare(_Section):
+    """The flare: sink rate ``height / time_constant_s + touchdown_rate_fpm``, and its pitch law."""
+
+    time_constant_s: float = Field(gt=0)
+    touchdown_rate_fpm: float = Field(gt=0)
+    decrab_height_m: float = Field(ge=0)
+    """Of the main wheels above the ground, below which the rudder points the nose along the
+    runway."""
+    idle_height_part: float = Field(ge=0, lt=1)
+    """Of the height at which the flare began: there the levers have come to idle."""
+    climb: float = Field(gt=0)
+    """Pitch per error of climb angle; `airhilt.world.flight.autopilot.PitchLaw` says the rest."""
+    climb_integral_per_s: float = Field(ge=0)
+    climb_rate_s: float = Field(ge=0)
+    attitude_per_s: float = Field(gt=0)
+
+
+class Landing(_Section):
+    """Configuration and guidance of approach and landing."""
+
+    flaps: float = Field(ge=0, le=1)
+    """Part of the model's full deflection."""
+    aim_m: float = Field(gt=0)
+    """From the threshold to where the main wheels' glide path meets the runway."""
+    configure_m: float = Field(gt=0)
+    """From the threshold, on approach, to where gear and flaps are lowered."""
+    course_per_s: float = Field(gt=0)
+    """Turn rate per course error on the localizer."""
+    glide_per_s: float = Field(gt=0)
+    """Vertical rate per height error on the glide path."""
+    flare: Flare
+
+
+class Takeoff(_Section):
+    """Configuration and rotation."""
+
+    flaps: float = Field(ge=0, le=1)
+    """Part of the model's full deflection."""
+    pitch_deg: float = Field(gt=0)
+    """Rotated to; below where the tail touches."""
+    pitch_rate_deg_s: float = Field(gt=0)
+    pull: float = Field(ge=0, lt=1)
+    """Elevator with which the rotation begins: what lifts the nose wheel at rotation speed."""
+    rejected_deceleration_m_s2: float = Field(gt=0)
+    """Of a rejected takeoff."""
+
+
+class Mesh(_Section):
+    """Free shape parameters for a lofted model; what is not here follows from `Dimensions`."""
+
+    fuselage_diameter_m: float = Field(gt=0)
+    wing_sweep_deg: float
+    """Of the quarter-chord line."""
+    wing_root_chord_m: float = Field(gt=0)
+    wing_tip_chord_m: float = Field(gt=0)
+    wing_position: Literal["low", "high"]
+    tail_span_m: float = Field(gt=0)
+    fin_height_m: float = Field(gt=0)
+    engines_m: tuple[tuple[float, float, float], ...]
+    """Front of each engine: aft of the nose, right of the centre line, above the fuselage axis."""
+
+
+class AircraftType(_Section):
+    """One ``aircraft/*.json``."""
+
+    name: str
+    jsbsim_model: str
+    """Folder of the model in the JSBSim wheel."""
+    icao_designator: str = Field(pattern=r"^[A-Z][A-Z0-9]{1,3}$")
+    """ICAO Doc 8643."""
+    description: str
+    category: Literal["jet", "heavy_jet", "piston_single", "piston_twin"]
+    dimensions: Dimensions
+    speeds: Speeds
+    start: Literal["trim", "settle"]
+    """How the model finds its equilibrium: JSBSim's trim, or flying until it is steady."""
+    gains: Gains
+    ground: Ground
+    takeoff: Takeoff
+    landing: Landing
+    mesh: Mesh
+
+
+def load_aircraft_type(name: str) -> AircraftType:
+    """Read the aircraft type of that name.
+
+    Raises
+    ------
+    ScenarioError
+        There is none, or its file is wrong: the message names the file, the place in it and
+        what was expected.
+    """
+    path = library.find("aircraft", name)
+    try:
+        return AircraftType.model_validate_json(path.read_bytes())
+    except pydantic.ValidationError as error:
+        problems = (
+            f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
+            for problem in error.errors(include_url=False)
+        )
+        raise ScenarioError("\n".join([f"{path} is not an aircraft type:", *problems])) from error

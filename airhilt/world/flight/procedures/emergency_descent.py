@@ -1,0 +1,54 @@
+"""The emergency descent: idle, speed brakes where there are any, nearly as fast as allowed."""
+
+from __future__ import annotations
+
+from airhilt.units import DEGREE, KNOT
+from airhilt.world.flight.guidance import Airspeed
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.en_route import EnRoute
+from airhilt.world.flight.state import AircraftState
+
+AIRSPEED_MARGIN = 10.0 * KNOT
+MACH_MARGIN = 0.02
+"""Below the greatest speed and Mach number."""
+STEEPEST_DESCENT = 9.0 * DEGREE
+"""While the airspeed builds up."""
+
+
+class EmergencyDescent:
+    """Descends as fast as the aircraft safely can, and levels off into what follows.
+
+    Parameters
+    ----------
+    cockpit
+        What it flies with.
+    then
+        En route on the track and to the altitude that follow.
+    """
+
+    name = "emergency_descent"
+    commandable = True
+    may_touch = False
+
+    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
+        self._cockpit = cockpit
+        self._then = then
+        speeds = cockpit.kind.speeds
+        self._speed = Airspeed(
+            speeds.maximum_kt * KNOT - AIRSPEED_MARGIN, speeds.maximum_mach - MACH_MARGIN
+        )
+        cockpit.airframe.set_speed_brakes(1.0)
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        if self._then.vertical.captures(state):
+            self._cockpit.airframe.set_speed_brakes(0.0)
+            return self._then.fly(state)
+        self._cockpit.autopilot.fly_on_pitch(
+            state,
+            self._then.lateral.turn_rate(state),
+            self._speed.airspeed(state),
+            0.0,
+            steepest_descent=STEEPEST_DESCENT,
+        )
+        return self

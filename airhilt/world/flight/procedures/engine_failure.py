@@ -1,0 +1,59 @@
+"""After an engine failure: the descent to where the remaining engines keep the altitude."""
+
+from __future__ import annotations
+
+from airhilt.units import FOOT_PER_MINUTE
+from airhilt.world.flight.guidance import Altitude, AltitudeClearance
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.en_route import EnRoute
+from airhilt.world.flight.state import AircraftState
+
+LEVEL_M_S = 100.0 * FOOT_PER_MINUTE
+"""Rate of descent below which the aircraft levels."""
+SPOOL_DOWN_S = 20.0
+"""Before it, the failed engine may still give thrust."""
+
+
+class DriftDown:
+    """Holds the drift-down speed on pitch at the greatest thrust, never climbing, then levels.
+
+    It levels where the engines keep the altitude, or where it was told to before.
+
+    Parameters
+    ----------
+    cockpit
+        What it flies with.
+    then
+        En route on the track, at the airspeed and down to the altitude that follow.
+    """
+
+    name = "drift_down"
+    commandable = True
+    may_touch = False
+
+    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
+        self._cockpit = cockpit
+        self._then = then
+        self._flown_s = 0.0
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        cockpit, then = self._cockpit, self._then
+        airspeed = then.speed.airspeed(state)
+        self._flown_s += cockpit.tick_s
+        if self._flown_s > SPOOL_DOWN_S and self._kept(state):
+            gain = cockpit.kind.gains.guidance.altitude_per_s
+            then.vertical = Altitude(AltitudeClearance(state.altitude_m, LEVEL_M_S), gain)
+            return then.fly(state)
+        if then.vertical.captures(state):
+            return then.fly(state)
+        cockpit.autopilot.fly_on_pitch(
+            state, then.lateral.turn_rate(state), airspeed, 1.0, steepest_climb=0.0
+        )
+        return self
+
+    def _kept(self, state: AircraftState) -> bool:
+        """Return whether the engines at full thrust keep this altitude, or nearly so."""
+        autopilot = self._cockpit.autopilot
+        potential_rate = autopilot.potential_climb * state.true_airspeed_m_s
+        return autopilot.lever >= 1.0 and potential_rate > -LEVEL_M_S

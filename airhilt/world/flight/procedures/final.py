@@ -1,0 +1,115 @@
+"""The final approach course and the glide path of a runway, and the way back to both."""
+
+from __future__ import annotations
+
+import math
+
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, wrap_angle
+from airhilt.world.flight.aircraft_type import AircraftType
+from airhilt.world.flight.autopilot import within
+from airhilt.world.flight.guidance import CROSS_TRACK_PART, INTERCEPT_ANGLE
+from airhilt.world.flight.route import Leg
+from airhilt.world.flight.state import AircraftState
+from airhilt.world.surface.runway import RunwayEnd
+
+WIDEST_INTERCEPT = 45.0 * DEGREE
+"""Off the course, seen from the threshold: within it an intercept is flown. Radar vectors keep to
+30 degrees (FAA Order JO 7110.65, 5-9-2); this leaves margin for a visual circuit."""
+FARTHEST_M = 25.0 * NAUTICAL_MILE
+"""From the threshold, along the course: the service volume of an ILS localizer reaches 18 NM (FAA
+Aeronautical Information Manual, 1-1-9), with some of the intercept before."""
+GREATEST_CORRECTION_M_S = 15.0 * FOOT
+"""Of vertical rate (15 ft/s), that leads back to the glide path."""
+
+
+class Final:
+    """The final approach course and the glide path to one runway, for one type of aircraft.
+
+    Parameters
+    ----------
+    runway
+        Where it leads.
+    kind
+        The type: its landing aim, and the height of its reference point above its wheels.
+    """
+
+    def __init__(self, runway: RunwayEnd, kind: AircraftType) -> None:
+        self.runway = runway
+        landing = kind.landing
+        self._line = Leg(runway.threshold, runway.end)
+        self._aim = landing.aim_m
+        self._slope = math.tan(runway.glide_path_rad)
+        self._wheels_at_threshold_m = runway.elevation_m + kind.dimensions.wheel_height_offset_m
+        self._course_gain = landing.course_per_s
+        self._cross_track_gain = CROSS_TRACK_PART * landing.course_per_s
+        self._glide_gain = landing.glide_per_s
+
+    def along_m(self, state: AircraftState) -> float:
+        """Return how far beyond the threshold the aircraft is, negative before it."""
+        return self._line.length_m - self._line.to_go_m(state)
+
+    def cross_track_m(self, state: AircraftState) -> float:
+        """Return how far to the right of the centre line the aircraft is."""
+        return self._line.cross_track_m(state)
+
+    def course_rad(self, state: AircraftState) -> float:
+        """Return the true course along the runway, beside the aircraft."""
+        return self._line.course_rad(state.latitude_rad, state.longitude_rad)
+
+    def crab_rad(self, state: AircraftState) -> float:
+        """Return how far the nose points to the right of the course."""
+        return wrap_angle(state.heading_rad - self.course_rad(state))
+
+    def turn_rate(self, state: AircraftState) -> float:
+        """Return the turn rate (rad/s) that leads to the centre line and along it."""
+        speed = max(state.ground_speed_m_s, 1.0)
+        offset = within(self._cross_track_gain * self.cross_track_m(state) / speed, INTERCEPT_ANGLE)
+        return self._course_gain * wrap_angle(self.course_rad(state) - offset - state.track_rad)
+
+    def above_glide_path_m(self, state: AircraftState) -> float:
+        """Return how far above the glide path the wheels are."""
+        path = (self._aim - self.along_m(state)) * self._slope
+        return state.altitude_m - self._wheels_at_threshold_m - path
+
+    def glide_rate(self, state: AircraftState) -> float:
+        """Return the vertical rate (m/s) of the glide path at the present ground speed."""
+        return -self._slope * state.ground_speed_m_s
+
+    def vertical_rate(self, state: AircraftState) -> float:
+        """Return the vertical rate (m/s) that leads to the glide path and along it."""
+        correction = self._glide_gain * self.above_glide_path_m(state)
+        return self.glide_rate(state) - within(correction, GREATEST_CORRECTION_M_S)
+
+    def require_reachable(self, state: AircraftState) -> None:
+        """Check that the approach can be flown from here.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is too far off the course, too far away, past the threshold, too high, or
+            flies away from the runway.
+        """
+        ident = self.runway.ident
+        to_go = -self.along_m(state)
+        if to_go <= 0.0:
+            raise ValueError(
+                f"the threshold of runway {ident} is {-to_go:.0f} m behind; expected it ahead"
+            )
+        if to_go > FARTHEST_M:
+            raise ValueError(
+                f"runway {ident} is {to_go / NAUTICAL_MILE:.0f} NM away; expected at most "
+                f"{FARTHEST_M / NAUTICAL_MILE:.0f} NM"
+            )
+        aside = math.atan2(self.cross_track_m(state), to_go)
+        if abs(aside) > WIDEST_INTERCEPT:
+            raise ValueError(
+                f"the aircraft is {math.degrees(abs(aside)):.0f} degrees off the final approach "
+                f"course of runway {ident}; expected at most "
+                f"{math.degrees(WIDEST_INTERCEPT):.0f} degrees"
+            )
+        turn = wrap_angle(self.course_rad(state) - state.track_rad)
+        if abs(turn) > math.pi / 2.0:
+            raise ValueError(
+                f"the aircraft flies away from runway {ident}, {math.degrees(abs(turn)):.0f} "
+                "degrees off its course; expected at most 90 degrees"
+            )

@@ -1,0 +1,66 @@
+"""The go-around: full thrust, the descent stopped, then a climb on the runway's course."""
+
+from __future__ import annotations
+
+from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.en_route import EnRoute
+from airhilt.world.flight.state import AircraftState
+
+STOPPED_M_S = 300.0 * FOOT_PER_MINUTE
+"""Climb rate, from which the descent counts as stopped."""
+STOP_M_S2 = 1.5
+"""Upwards, in stopping the descent."""
+CLEAN_UP_HEIGHT_M = 400.0 * FOOT
+"""Above the ground: the least height of acceleration and flap retraction (14 CFR 25.111(c)(4))."""
+LEVER_PER_OVERSPEED_S_M = 0.05
+"""Taken off full thrust where the steepest climb leaves too much of it."""
+
+
+class GoAround:
+    """Goes around, cleans up, and levels off into what follows.
+
+    Parameters
+    ----------
+    cockpit
+        What it flies with.
+    then
+        En route on the track, to the altitude and at the clean airspeed that follow.
+    """
+
+    name = "go_around"
+    commandable = True
+    may_touch = False
+
+    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
+        self._cockpit = cockpit
+        self._then = then
+        self._airspeed = cockpit.kind.speeds.climb_safety_kt * KNOT
+        self._stopped = False
+        self._clean = False
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        autopilot, airframe = self._cockpit.autopilot, self._cockpit.airframe
+        turn_rate = self._then.lateral.turn_rate(state)
+        if not self._stopped:
+            autopilot.flare(state, turn_rate, STOPPED_M_S, STOP_M_S2, 1.0, None)
+            if state.vertical_rate_m_s >= STOPPED_M_S:
+                self._stopped = True
+                airframe.set_gear(0.0)
+            return self
+        if self._then.vertical.captures(state):
+            self._clean_up()
+            return self._then.fly(state)
+        if not self._clean and state.height_agl_m > CLEAN_UP_HEIGHT_M:
+            self._clean_up()
+        overspeed = max(state.calibrated_airspeed_m_s - self._airspeed, 0.0)
+        lever = 1.0 - LEVER_PER_OVERSPEED_S_M * overspeed
+        autopilot.fly_on_pitch(state, turn_rate, self._airspeed, lever)
+        return self
+
+    def _clean_up(self) -> None:
+        """Retract the flaps and accelerate."""
+        self._cockpit.airframe.set_flaps(0.0)
+        self._airspeed = self._then.speed.target_m_s
+        self._clean = True

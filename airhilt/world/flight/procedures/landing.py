@@ -1,0 +1,134 @@
+"""The landing: flare, decrab, touchdown, rollout; then the runway is left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from airhilt.units import FOOT_PER_MINUTE, KNOT
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.taxi import Standing, Taxi
+from airhilt.world.flight.state import AircraftState
+from airhilt.world.flight.taxi_path import TaxiPath
+from airhilt.world.surface.runway import Place
+
+GREATEST_DECELERATION_M_S2 = 3.0
+"""With the brakes alone, on a dry runway (about that of an autobrake's highest landing setting)."""
+LEAD_S = 1.0
+"""Before the exit path begins, steering along it begins."""
+EXIT_MARGIN_M_S = 2.0
+"""Above the speed of the exit, with which it is still taken."""
+STANDING_M_S = 0.2
+
+
+class Flare:
+    """Lets the sink rate die away with the height, and the nose turn along the runway.
+
+    The levers come back to idle with the height; at touchdown the rollout begins.
+
+    Parameters
+    ----------
+    cockpit
+        What it flies with.
+    final
+        The approach that was flown.
+    exit_path
+        Along which the runway is left.
+    height_m
+        Of the main wheels, where the flare begins.
+    """
+
+    name = "flare"
+    commandable = False
+    may_touch = True
+
+    def __init__(
+        self, cockpit: Cockpit, final: Final, exit_path: Sequence[Place], height_m: float
+    ) -> None:
+        self._cockpit = cockpit
+        self.final = final
+        self.exit_path = exit_path
+        self._height = height_m
+        self._lever = cockpit.airframe.throttle()
+        flare = cockpit.kind.landing.flare
+        self._time_constant = flare.time_constant_s
+        self._touchdown_rate = flare.touchdown_rate_fpm * FOOT_PER_MINUTE
+        self._idle_part = flare.idle_height_part
+        self._decrab_height = flare.decrab_height_m
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        cockpit, final = self._cockpit, self.final
+        if cockpit.airframe.on_ground():
+            return Rollout(cockpit, final, self.exit_path).fly(state)
+        height = max(cockpit.airframe.main_wheel_height_m(state), 0.0)
+        sink_rate = height / self._time_constant + self._touchdown_rate
+        power = (height / self._height - self._idle_part) / (1.0 - self._idle_part)
+        cockpit.autopilot.flare(
+            state,
+            final.turn_rate(state),
+            -sink_rate,
+            sink_rate / self._time_constant,
+            self._lever * min(max(power, 0.0), 1.0),
+            final.crab_rad(state) if height < self._decrab_height else None,
+        )
+        return self
+
+
+class Rollout:
+    """Lowers the nose, brakes along the centre line to taxi speed, then leaves the runway.
+
+    Parameters
+    ----------
+    cockpit
+        What it flies with.
+    final
+        The approach that was flown.
+    exit_path
+        Along which the runway is left, from its centre line. Without one, or if its beginning is
+        passed too fast to turn, the aircraft stops on the centre line.
+    """
+
+    name = "rollout"
+    commandable = False
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, final: Final, exit_path: Sequence[Place]) -> None:
+        self._cockpit = cockpit
+        self._final = final
+        ground = cockpit.kind.ground
+        self._deceleration = ground.deceleration_m_s2
+        self._exit = (
+            TaxiPath(exit_path, ground.taxi_speed_kt * KNOT, ground.look_ahead_m)
+            if exit_path
+            else None
+        )
+        cockpit.ground.reset(cockpit.autopilot.steady_elevator())
+        cockpit.airframe.set_speed_brakes(1.0)
+        cockpit.airframe.set_ground_spoilers(1.0)
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        ground, final = self._cockpit.ground, self._final
+        speed = state.ground_speed_m_s
+        ground.lower_nose()
+        ground.follow_line(
+            state, final.cross_track_m(state), final.course_rad(state), slipping=False
+        )
+        deceleration = self._deceleration
+        if self._exit is not None:
+            to_go = -self._exit.along_m(state)
+            exit_speed = self._exit.speed_m_s(0.0)
+            if to_go < LEAD_S * speed and speed < exit_speed + EXIT_MARGIN_M_S:
+                return Taxi(self._cockpit, self._exit, "vacate", "standing").fly(state)
+            if speed <= exit_speed and to_go > 0.0:
+                ground.hold_speed(state, exit_speed)
+                return self
+            if to_go > 0.0:
+                needed = (speed**2 - exit_speed**2) / (2.0 * max(to_go - LEAD_S * speed, 1.0))
+                deceleration = min(max(needed, 0.0), GREATEST_DECELERATION_M_S2)
+        if speed < STANDING_M_S:
+            return Standing(self._cockpit).fly(state)
+        if self._cockpit.airframe.nose_on_ground():
+            ground.slow_down(state, deceleration)
+        return self

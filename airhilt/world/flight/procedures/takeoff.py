@@ -1,0 +1,202 @@
+"""The takeoff: roll, rotation, climb-out; or a roll that is rejected."""
+
+from __future__ import annotations
+
+import math
+
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.en_route import EnRoute
+from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.taxi import AT_REST_M_S, Standing
+from airhilt.world.flight.state import AircraftState
+
+LEVER_PER_S = 0.25
+"""At which takeoff thrust is set."""
+ALIGNED_WITHIN = 15.0 * DEGREE
+"""With the runway, from which the roll may begin: the end of the turn onto it included."""
+SCREEN_HEIGHT_M = 35.0 * FOOT
+"""Where the climb-out begins (14 CFR 25.113(a)(1))."""
+CLIMBING_M_S = 300.0 * FOOT_PER_MINUTE
+"""The gear comes up."""
+CLEAN_UP_HEIGHT_M = 400.0 * FOOT
+"""Above the ground: the least for turns, acceleration and flap retraction (14 CFR 25.111(c)(4))."""
+CLIMB_SPEED_MARGIN_M_S = 10.0 * KNOT
+"""Above V2, with all engines."""
+FLAPS_UP_MARGIN_M_S = 20.0 * KNOT
+"""Above V2, from which the flaps are retracted."""
+LEVER_PER_OVERSPEED_S_M = 0.05
+"""Taken off full thrust where the steepest climb leaves too much of it."""
+LEAST_CLIMB = 0.012
+"""Climb angle that is kept while accelerating: the second-segment gradient of a twin with an
+engine out is twice that (14 CFR 25.121(b))."""
+
+
+def require_lined_up(state: AircraftState, line: Final) -> None:
+    """Check that a takeoff can begin here.
+
+    Raises
+    ------
+    ValueError
+        The aircraft is not on the runway, or does not point along it.
+    """
+    runway = line.runway
+    off, turn = abs(line.cross_track_m(state)), abs(line.crab_rad(state))
+    rolled = line.along_m(state) + runway.displaced_m
+    if off > runway.width_m / 2.0 or turn > ALIGNED_WITHIN:
+        raise ValueError(
+            f"take_off {off:.0f} m beside the centre line of runway {runway.ident} and "
+            f"{math.degrees(turn):.0f} degrees off its course; expected lined up"
+        )
+    if not 0.0 <= rolled < runway.length_m:
+        raise ValueError(
+            f"take_off {rolled:.0f} m beyond the beginning of runway {runway.ident}; expected on "
+            f"its {runway.length_m:.0f} m"
+        )
+
+
+class TakeoffRoll:
+    """Rolls along the centre line to rotation speed.
+
+    Parameters
+    ----------
+    cockpit
+        What it rolls with.
+    line
+        The runway's centre line.
+    then
+        En route on it, to the altitude and at the clean airspeed that follow.
+    """
+
+    name = "takeoff_roll"
+    commandable = False
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute) -> None:
+        self.line = line
+        self._cockpit = cockpit
+        self._then = then
+        self._lever = 0.0
+        kind = cockpit.kind
+        self._rotate_at = kind.speeds.rotate_kt * KNOT
+        cockpit.ground.reset()
+        cockpit.airframe.set_brakes(0.0)
+        cockpit.airframe.set_flaps(kind.takeoff.flaps)
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Roll one tick."""
+        cockpit, line = self._cockpit, self.line
+        self._lever = min(self._lever + LEVER_PER_S * cockpit.tick_s, 1.0)
+        cockpit.airframe.set_throttle(self._lever)
+        if state.calibrated_airspeed_m_s >= self._rotate_at:
+            return Rotate(cockpit, line, self._then, state).fly(state)
+        cockpit.ground.lower_nose()
+        cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+        return self
+
+
+class Rotate:
+    """Raises the nose, and holds it until the runway is safely below.
+
+    Parameters
+    ----------
+    cockpit, line, then
+        As for `TakeoffRoll`.
+    state
+        Now.
+    """
+
+    name = "rotate"
+    commandable = True
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute, state: AircraftState) -> None:
+        self._cockpit = cockpit
+        self._line = line
+        self._then = then
+        takeoff = cockpit.kind.takeoff
+        self._pitch = takeoff.pitch_deg * DEGREE
+        self._pitch_rate = takeoff.pitch_rate_deg_s * DEGREE
+        cockpit.autopilot.take_over(state, -takeoff.pull)
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Rotate one tick."""
+        cockpit, line = self._cockpit, self._line
+        if cockpit.airframe.main_wheel_height_m(state) > SCREEN_HEIGHT_M:
+            return ClimbOut(cockpit, line, self._then).fly(state)
+        turn_rate = None
+        if cockpit.airframe.on_ground():
+            cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+        else:
+            turn_rate = line.turn_rate(state)
+        cockpit.autopilot.rotate(state, self._pitch, self._pitch_rate, turn_rate, 1.0)
+        return self
+
+
+class ClimbOut:
+    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows.
+
+    Parameters
+    ----------
+    cockpit, line, then
+        As for `TakeoffRoll`.
+    """
+
+    name = "climb_out"
+    commandable = True
+    may_touch = False
+
+    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute) -> None:
+        self._cockpit = cockpit
+        self._line = line
+        self._then = then
+        self._safety_speed = cockpit.kind.speeds.climb_safety_kt * KNOT
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Climb one tick."""
+        autopilot, airframe, then = self._cockpit.autopilot, self._cockpit.airframe, self._then
+        airspeed = self._safety_speed + CLIMB_SPEED_MARGIN_M_S
+        turn_rate = self._line.turn_rate
+        if state.vertical_rate_m_s > CLIMBING_M_S:
+            airframe.set_gear(0.0)
+        if then.vertical.captures(state):
+            airframe.clean_up()
+            return then.fly(state)
+        if state.height_agl_m > CLEAN_UP_HEIGHT_M:
+            airspeed = max(airspeed, then.speed.airspeed(state))
+            turn_rate = then.lateral.turn_rate
+            if state.calibrated_airspeed_m_s > self._safety_speed + FLAPS_UP_MARGIN_M_S:
+                airframe.set_flaps(0.0)
+        overspeed = max(state.calibrated_airspeed_m_s - airspeed, 0.0)
+        lever = 1.0 - LEVER_PER_OVERSPEED_S_M * overspeed
+        autopilot.fly_on_pitch(state, turn_rate(state), airspeed, lever)
+        return self
+
+
+class RejectedTakeoff:
+    """Idle, brakes, and to a stand on the centre line."""
+
+    name = "rejected_takeoff"
+    commandable = False
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, line: Final) -> None:
+        self._cockpit = cockpit
+        self._line = line
+        self._deceleration = cockpit.kind.takeoff.rejected_deceleration_m_s2
+        cockpit.ground.reset()
+        cockpit.airframe.set_throttle(0.0)
+        cockpit.airframe.set_speed_brakes(1.0)
+        cockpit.airframe.set_ground_spoilers(1.0)
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Brake one tick."""
+        cockpit, line = self._cockpit, self._line
+        if state.ground_speed_m_s < AT_REST_M_S:
+            cockpit.airframe.set_speed_brakes(0.0)
+            cockpit.airframe.set_ground_spoilers(0.0)
+            return Standing(cockpit).fly(state)
+        cockpit.ground.lower_nose()
+        cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+        cockpit.ground.slow_down(state, self._deceleration)
+        return self

@@ -1,0 +1,106 @@
+"""On taxiways: along a path, holding on the way or standing at its end."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.state import AircraftState
+from airhilt.world.flight.taxi_path import TaxiPath
+
+AT_REST_M_S = 0.05
+"""Slower, the brakes hold an aircraft where it is."""
+END_M = 2.0
+"""So near to the end of its path, an aircraft that stands has reached it."""
+
+Stand = Literal["standing", "lined_up"]
+Way = Literal["taxi", "line_up", "vacate"]
+
+
+class Standing:
+    """Stands with the brakes set.
+
+    Parameters
+    ----------
+    cockpit
+        What holds it.
+    name
+        ``lined_up`` on a runway, ready to take off.
+
+    Attributes
+    ----------
+    at_rest : bool
+        Whether it has come to rest: nothing moves it any more.
+    """
+
+    commandable = False
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, name: Stand = "standing") -> None:
+        self.name = name
+        self.at_rest = False
+        self._cockpit = cockpit
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Stand one tick."""
+        if not self.at_rest:
+            self._cockpit.ground.hold_speed(state, 0.0)
+            self.at_rest = state.ground_speed_m_s < AT_REST_M_S
+        return self
+
+
+class Taxi:
+    """Follows a path and stands at its end.
+
+    Parameters
+    ----------
+    cockpit
+        What it taxies with.
+    path
+        To follow.
+    way
+        What it is called on the way; where it has stopped on it, ``standing``.
+    then
+        What standing at its end is called.
+    """
+
+    commandable = False
+    may_touch = True
+
+    def __init__(self, cockpit: Cockpit, path: TaxiPath, way: Way, then: Stand) -> None:
+        self._cockpit = cockpit
+        self._path = path
+        self._way: Way = way
+        self._then: Stand = then
+        self._holding = False
+        self._stopped = False
+        cockpit.airframe.set_speed_brakes(0.0)
+        cockpit.airframe.set_ground_spoilers(0.0)
+        cockpit.ground.reset()
+
+    @property
+    def name(self) -> str:
+        """What it is called now."""
+        return "standing" if self._stopped else self._way
+
+    def hold(self) -> None:
+        """Stop on the way."""
+        self._holding = True
+
+    def resume(self) -> None:
+        """Go on after a hold."""
+        self._holding = self._stopped = False
+        self._cockpit.ground.reset()
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Taxi one tick."""
+        ground, path = self._cockpit.ground, self._path
+        along = path.along_m(state)
+        slow = state.ground_speed_m_s < AT_REST_M_S
+        self._stopped = slow and self._holding
+        if slow and not self._holding and path.length_m - along < END_M:
+            return Standing(self._cockpit, self._then).fly(state)
+        ground.lower_nose()
+        ground.steer(state, path.yaw_rate(state, along))
+        ground.hold_speed(state, 0.0 if self._holding else path.speed_m_s(along))
+        return self

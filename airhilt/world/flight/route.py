@@ -1,0 +1,223 @@
+"""A route over the ellipsoid: straight legs through waypoints, joined by arcs.
+
+A leg is the plane through its two ends and the vertical at its middle. The distance of a position
+from that plane is three multiplications on Earth-centred coordinates, and is the distance from the
+geodesic to within a metre for legs up to `LONGEST_LEG_M`; longer ones are divided, on the geodesic,
+when the route is made.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from geographiclib.geodesic import Geodesic
+
+from airhilt.world.flight.state import AircraftState, require_finite
+
+LONGEST_LEG_M = 100_000.0
+SHORTEST_LEG_M = 50.0
+"""Waypoints nearer to each other than this are one."""
+SEMI_MAJOR_AXIS_M = 6_378_137.0
+ECCENTRICITY_SQUARED = 6.69437999014e-3
+"""Of WGS84, like the axis (NIMA TR8350.2)."""
+SHARPEST_TURN_RAD = math.radians(150.0)
+"""Beyond it, no arc cuts the corner: the turn begins at the waypoint."""
+
+Vector = tuple[float, float, float]
+
+
+class Guide(NamedTuple):
+    """Where an aircraft is with regard to its path."""
+
+    cross_track_m: float
+    """Of the aircraft, positive to the right of the path."""
+    course_rad: float
+    """Of the path beside the aircraft."""
+    turn_rate: float
+    """Of the path there at the present ground speed (rad/s, positive to the right)."""
+
+
+class Leg:
+    """A straight leg between two places at sea level, each (latitude, longitude) in radians."""
+
+    def __init__(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        a, b = _position(*start), _position(*end)
+        chord = _minus(b, a)
+        middle = _minus(_vertical(*start), _scaled(_vertical(*end), -1.0))
+        self.start = start
+        self.end = end
+        self.right = _unit(_cross(chord, middle))
+        self.length_m = math.sqrt(_dot(chord, chord))
+        self._origin = a
+        self._end = b
+        self._forward_at_end = _cross(_vertical(*end), self.right)
+
+    def cross_track_m(self, state: AircraftState) -> float:
+        """Return the distance to the right of the leg."""
+        x, y, z = self._origin
+        right_x, right_y, right_z = self.right
+        return (
+            right_x * (state.ecef_x_m - x)
+            + right_y * (state.ecef_y_m - y)
+            + right_z * (state.ecef_z_m - z)
+        )
+
+    def to_go_m(self, state: AircraftState) -> float:
+        """Return the distance to the end along the leg, negative beyond it."""
+        x, y, z = self._end
+        forward_x, forward_y, forward_z = self._forward_at_end
+        return (
+            forward_x * (x - state.ecef_x_m)
+            + forward_y * (y - state.ecef_y_m)
+            + forward_z * (z - state.ecef_z_m)
+        )
+
+    def course_rad(self, latitude_rad: float, longitude_rad: float) -> float:
+        """Return the course of the leg (of a parallel to it) at a place."""
+        right_x, right_y, right_z = self.right
+        sin_longitude, cos_longitude = math.sin(longitude_rad), math.cos(longitude_rad)
+        right_east = right_y * cos_longitude - right_x * sin_longitude
+        right_north = right_z * math.cos(latitude_rad) - math.sin(latitude_rad) * (
+            right_x * cos_longitude + right_y * sin_longitude
+        )
+        return math.atan2(-right_north, right_east)
+
+    def guide(self, state: AircraftState) -> Guide:
+        """Return where the aircraft is with regard to the leg."""
+        return Guide(
+            self.cross_track_m(state),
+            self.course_rad(state.latitude_rad, state.longitude_rad),
+            0.0,
+        )
+
+
+class Arc:
+    """The arc that leads from one leg into the next without passing their common end.
+
+    Parameters
+    ----------
+    before, after
+        The legs.
+    lead_m
+        From where the arc begins on ``before`` to the common end; as far from there it ends.
+    """
+
+    def __init__(self, before: Leg, after: Leg, lead_m: float) -> None:
+        place = before.end
+        self.turn = turn_between(before, after)
+        self.side = math.copysign(1.0, self.turn)
+        self.radius_m = lead_m / math.tan(abs(self.turn) / 2.0)
+        self._after = after
+        self._lead = lead_m
+        self._place = _position(*place)
+        self._east, self._north = _east_north(*place)
+        course = before.course_rad(*place)
+        # The centre lies abeam of the arc's beginning, on the inner side.
+        abeam = course + self.side * math.pi / 2.0
+        self._centre_east = -lead_m * math.sin(course) + self.radius_m * math.sin(abeam)
+        self._centre_north = -lead_m * math.cos(course) + self.radius_m * math.cos(abeam)
+
+    def to_go_m(self, state: AircraftState) -> float:
+        """Return the distance to the arc's end along the next leg, negative beyond it."""
+        return self._after.to_go_m(state) - self._after.length_m + self._lead
+
+    def guide(self, state: AircraftState) -> Guide:
+        """Return where the aircraft is with regard to the arc."""
+        offset = (
+            state.ecef_x_m - self._place[0],
+            state.ecef_y_m - self._place[1],
+            state.ecef_z_m - self._place[2],
+        )
+        east = _dot(offset, self._east) - self._centre_east
+        north = _dot(offset, self._north) - self._centre_north
+        outside = math.hypot(east, north) - self.radius_m
+        return Guide(
+            -self.side * outside,
+            math.atan2(east, north) + self.side * math.pi / 2.0,
+            self.side * state.ground_speed_m_s / self.radius_m,
+        )
+
+
+def legs_through(
+    start: tuple[float, float], waypoints: Sequence[tuple[float, float]]
+) -> tuple[Leg, ...]:
+    """Return the legs from a place through waypoints, each (latitude, longitude) in radians.
+
+    Raises
+    ------
+    ValueError
+        A waypoint is not on Earth, or none is away from the start.
+    """
+    ends: list[tuple[float, float]] = [start]
+    for latitude, longitude in waypoints:
+        require_finite("a waypoint's latitude", latitude)
+        require_finite("a waypoint's longitude", longitude)
+        if abs(latitude) > math.pi / 2.0:
+            raise ValueError(f"a waypoint's latitude is {latitude} rad; expected within +-pi/2")
+        ends.extend(_divided(ends[-1], (latitude, longitude)))
+    if len(ends) == 1:
+        raise ValueError(
+            f"the route leads nowhere; expected a waypoint at least {SHORTEST_LEG_M:.0f} m away"
+        )
+    return tuple(Leg(a, b) for a, b in itertools.pairwise(ends))
+
+
+def turn_between(before: Leg, after: Leg) -> float:
+    """Return the change of course (rad, positive to the right) from a leg to the next."""
+    place = before.end
+    change = after.course_rad(*place) - before.course_rad(*place)
+    return (change + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def _divided(start: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
+    """Return the ends of the pieces of the geodesic from ``start`` to ``end``."""
+    line = Geodesic.WGS84.InverseLine(*(math.degrees(angle) for angle in (*start, *end)))
+    if line.s13 < SHORTEST_LEG_M:
+        return []
+    pieces = math.ceil(line.s13 / LONGEST_LEG_M)
+    places = (line.Position(line.s13 * piece / pieces) for piece in range(1, pieces))
+    return [*((math.radians(at["lat2"]), math.radians(at["lon2"])) for at in places), end]
+
+
+def _position(latitude: float, longitude: float) -> Vector:
+    """Return the Earth-centred coordinates (m) of a place at height 0."""
+    up_x, up_y, up_z = _vertical(latitude, longitude)
+    radius = SEMI_MAJOR_AXIS_M / math.sqrt(1.0 - ECCENTRICITY_SQUARED * up_z**2)
+    return radius * up_x, radius * up_y, radius * (1.0 - ECCENTRICITY_SQUARED) * up_z
+
+
+def _vertical(latitude: float, longitude: float) -> Vector:
+    across = math.cos(latitude)
+    return across * math.cos(longitude), across * math.sin(longitude), math.sin(latitude)
+
+
+def _east_north(latitude: float, longitude: float) -> tuple[Vector, Vector]:
+    east = (-math.sin(longitude), math.cos(longitude), 0.0)
+    return east, _cross(_vertical(latitude, longitude), east)
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def _scaled(a: Vector, factor: float) -> Vector:
+    return a[0] * factor, a[1] * factor, a[2] * factor
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def _unit(a: Vector) -> Vector:
+    return _scaled(a, 1.0 / math.sqrt(_dot(a, a)))

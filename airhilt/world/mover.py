@@ -1,0 +1,193 @@
+"""What all that moves has in common, and how what moves over the surface says where it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
+
+from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.world.surface.runway import Place
+
+
+class SurfaceState(NamedTuple):
+    """The true state of something that moves on or near the ground, at one instant.
+
+    The place is that of its middle, the altitude that of its lowest point: wheels, feet, or the
+    lowest bird of a flock.
+    """
+
+    latitude_rad: float
+    """Geodetic latitude, WGS84."""
+    longitude_rad: float
+    altitude_m: float
+    """Geodetic height above WGS84."""
+    height_agl_m: float
+    """Above the ground; 0 on it."""
+    velocity_north_m_s: float
+    """Over the ground, like the next two."""
+    velocity_east_m_s: float
+    velocity_down_m_s: float
+    heading_rad: float
+    """True, in [0, 2 pi)."""
+
+    @property
+    def ground_speed_m_s(self) -> float:
+        """Horizontal speed over the ground."""
+        return math.hypot(self.velocity_north_m_s, self.velocity_east_m_s)
+
+    @property
+    def track_rad(self) -> float:
+        """True track over the ground, in (-pi, pi]."""
+        return math.atan2(self.velocity_east_m_s, self.velocity_north_m_s)
+
+    @property
+    def vertical_rate_m_s(self) -> float:
+        """Rate of climb, negative in a descent."""
+        return -self.velocity_down_m_s
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Dimensions:
+    """The box around something, lined up with its heading.
+
+    Raises
+    ------
+    ValueError
+        A value is not a finite number above 0.
+    """
+
+    length_m: float
+    span_m: float
+    """Width."""
+    height_m: float
+
+    def __post_init__(self) -> None:
+        for name in ("length_m", "span_m", "height_m"):
+            value = getattr(self, name)
+            if not 0.0 < value < math.inf:
+                raise ValueError(f"{name} is {value}; expected a finite number above 0")
+
+
+class Motion(Protocol):
+    """What `SurfaceState` and the state of an aircraft both tell, in the same words."""
+
+    @property
+    def latitude_rad(self) -> float: ...  # noqa: D102
+    @property
+    def longitude_rad(self) -> float: ...  # noqa: D102
+    @property
+    def altitude_m(self) -> float: ...  # noqa: D102
+    @property
+    def height_agl_m(self) -> float: ...  # noqa: D102
+    @property
+    def velocity_north_m_s(self) -> float: ...  # noqa: D102
+    @property
+    def velocity_east_m_s(self) -> float: ...  # noqa: D102
+    @property
+    def velocity_down_m_s(self) -> float: ...  # noqa: D102
+    @property
+    def heading_rad(self) -> float: ...  # noqa: D102
+    @property
+    def ground_speed_m_s(self) -> float: ...  # noqa: D102
+    @property
+    def track_rad(self) -> float: ...  # noqa: D102
+    @property
+    def vertical_rate_m_s(self) -> float: ...  # noqa: D102
+
+
+M = TypeVar("M", bound=Motion)
+
+
+def carried_on(state: M, elapsed_s: float) -> M:
+    """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
+    if elapsed_s == 0.0:
+        return state
+    meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
+    height = state.altitude_m
+    moved: M = state._replace(  # type: ignore[attr-defined]
+        latitude_rad=state.latitude_rad
+        + state.velocity_north_m_s * elapsed_s / (meridional + height),
+        longitude_rad=state.longitude_rad
+        + state.velocity_east_m_s
+        * elapsed_s
+        / ((prime_vertical + height) * math.cos(state.latitude_rad)),
+        altitude_m=height - state.velocity_down_m_s * elapsed_s,
+    )
+    return moved
+
+
+class Size(Protocol):
+    """What `Dimensions` and those of an aircraft type both tell."""
+
+    @property
+    def length_m(self) -> float: ...  # noqa: D102
+    @property
+    def span_m(self) -> float: ...  # noqa: D102
+    @property
+    def height_m(self) -> float: ...  # noqa: D102
+
+
+class Mover(Protocol):
+    """Anything that moves: an aircraft, a vehicle, an animal."""
+
+    ended: str | None
+    """Why it moves no more, None while it does. Whoever finds out may say so."""
+
+    @property
+    def state(self) -> Motion:
+        """Where it is and how it moves now."""
+
+    @property
+    def dimensions(self) -> Size:
+        """How large it is now."""
+
+    @property
+    def phase(self) -> str:
+        """What it is doing, in one word."""
+
+    @property
+    def on_ground(self) -> bool:
+        """Whether the ground carries it."""
+
+    def advance(self) -> None:
+        """Move on by one tick; do nothing once it has ended."""
+
+
+@runtime_checkable
+class Driven(Mover, Protocol):
+    """A mover that somebody steers along a path; its phase is ``driving`` while it follows it."""
+
+    def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
+        """Follow a path, at most at a speed, and stop at its end."""
+
+    def stop(self) -> None:
+        """Stop on the path."""
+
+    def resume(self) -> None:
+        """Go on along the path."""
+
+
+@runtime_checkable
+class Creature(Mover, Protocol):
+    """A mover with a will of its own."""
+
+    @property
+    def startled(self) -> bool:
+        """Whether something has startled it, and it does not rest again yet."""
+
+    def stand(self) -> None:
+        """Come to a stand; out of the air, land first."""
+
+    def walk_to(self, place: Place) -> None:
+        """Walk to a place."""
+
+    def run_to(self, place: Place) -> None:
+        """Run to a place."""
+
+    def fly_to(self, place: Place, height_m: float) -> None:
+        """Fly to a place at a height above the ground."""
+
+    def startle(self, away_from: Place) -> None:
+        """Take fright at something, and flee from it."""

@@ -1,0 +1,145 @@
+"""Where a scenario takes place, and its positions on the WGS84 ellipsoid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.local_frame import distance_and_azimuth, onward
+from airhilt.geodesy.positions import (
+    GeodeticPosition,
+    HoldShortPosition,
+    NodePosition,
+    Position,
+    RelativePosition,
+    RunwayPosition,
+)
+from airhilt.scenario.models import EnRouteScene, Scenario
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+from airhilt.world.surface.runway import Place, RunwayEnd
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.layout import Layout
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place on the ground or in the air that does not move."""
+
+    latitude_rad: float
+    longitude_rad: float
+    altitude_m: float = 0.0
+    velocity_north_m_s: float = 0.0
+    velocity_east_m_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Setting:
+    """The place of a scenario: its centre, its ground, and its airport if it has one."""
+
+    centre: GeodeticPosition
+    ground_m: float
+    layout: Layout | None = None
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> Setting:
+        """Return the setting of a scenario.
+
+        Raises
+        ------
+        ScenarioError
+            There is no such airport.
+        """
+        scene = scenario.scene
+        if isinstance(scene, EnRouteScene):
+            return cls(scene.centre, scene.terrain_elevation_ft * FOOT)
+        # Not at the top: scenarios without an airport start without the libraries behind it.
+        from airhilt.world.surface.airport import load_airport
+        from airhilt.world.surface.layout import Layout
+
+        layout = Layout(load_airport(scene.airport))
+        latitude, longitude = layout.frame.to_place(0.0, 0.0)
+        centre = GeodeticPosition(
+            type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE
+        )
+        return cls(centre, layout.elevation_m, layout)
+
+    @property
+    def airport(self) -> Layout:
+        """The airport.
+
+        Raises
+        ------
+        ScenarioError
+            The scenario takes place en route.
+        """
+        if self.layout is None:
+            raise ScenarioError(
+                "there is no runway or taxiway here: the scene is en route; expected a scene of "
+                "type 'airport'"
+            )
+        return self.layout
+
+    def runway(self, ident: str) -> RunwayEnd:
+        """Return a direction of a runway, at the height of the flat ground.
+
+        Raises
+        ------
+        ScenarioError
+            There is no airport, or no such runway.
+        """
+        return replace(self.airport.runway(ident), elevation_m=self.ground_m)
+
+    def place(self, position: Position) -> Place:
+        """Return a position as latitude and longitude in radians.
+
+        Raises
+        ------
+        ScenarioError
+            It refers to a runway, a hold-short position or a node that does not exist.
+        """
+        match position:
+            case GeodeticPosition():
+                return position.lat_deg * DEGREE, position.lon_deg * DEGREE
+            case RelativePosition():
+                return self._from_centre(position)
+            case RunwayPosition():
+                return self._along(position)
+            case HoldShortPosition():
+                return self.airport.hold(position.runway, position.taxiway).place
+            case NodePosition():
+                return self.airport.node(position.node)
+
+    def _from_centre(self, position: RelativePosition) -> Place:
+        centre = (self.centre.lat_deg * DEGREE, self.centre.lon_deg * DEGREE)
+        bearing = position.bearing_deg * DEGREE
+        there = onward(centre, bearing, position.distance_nm * NAUTICAL_MILE)
+        # There the geodesic's azimuth is no longer the bearing at which it began.
+        back = azimuth(there, centre) if position.distance_nm else bearing + math.pi
+        return beside(there, back + math.pi, position.offset_nm * NAUTICAL_MILE)
+
+    def _along(self, position: RunwayPosition) -> Place:
+        end = self.airport.runway(position.runway)
+        threshold = end.threshold
+        azimuth_rad = azimuth(threshold, end.end)
+        there = onward(threshold, azimuth_rad, position.along_m)
+        return beside(there, azimuth_rad, position.offset_m)
+
+
+def beside(place: Place, azimuth_rad: float, offset_m: float) -> Place:
+    """Return the place to the right of a direction; a negative offset is to the left."""
+    if offset_m == 0.0:
+        return place
+    return onward(place, azimuth_rad + math.copysign(math.pi / 2.0, offset_m), abs(offset_m))
+
+
+def azimuth(start: Place, end: Place) -> float:
+    """Return the azimuth (rad) at which the geodesic between two positions (rad) begins."""
+    return distance_and_azimuth(start, end)[1]
+
+
+def distance_m(start: Place, end: Place) -> float:
+    """Return the length of the geodesic between two positions (rad)."""
+    return distance_and_azimuth(start, end)[0]

@@ -1,0 +1,279 @@
+"""The ``airports/*.json`` files: what an airport is, and where its numbers come from."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, Literal, Self
+
+import pydantic
+from pydantic import Field
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.positions import Bearing, Latitude, Longitude, RunwayIdent, TaxiwayName
+from airhilt.imaging.lenses import FieldOfView
+from airhilt.units import DEGREE
+from airhilt.world.surface.runway import Place
+
+Point = tuple[Latitude, Longitude]
+"""Latitude and longitude in degrees, as polygons have them."""
+Polygon = Annotated[tuple[Point, ...], Field(min_length=3)]
+"""The corners of an area, in order; the last joins the first."""
+Block = Literal[
+    "reference",
+    "elevation_ft",
+    "magnetic_variation",
+    "runways",
+    "taxiways",
+    "holds",
+    "tower",
+    "buildings",
+    "water",
+    "frequencies",
+    "cameras",
+]
+Role = Literal["tower", "ground", "clearance", "approach", "departure", "atis", "unicom", "other"]
+
+
+class _Section(pydantic.BaseModel):
+    model_config = pydantic.ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class _Located(_Section):
+    lat_deg: Latitude
+    lon_deg: Longitude
+
+    @property
+    def place(self) -> Place:
+        """Latitude and longitude in radians."""
+        return self.lat_deg * DEGREE, self.lon_deg * DEGREE
+
+
+class Source(_Section):
+    """Where the numbers of a block come from."""
+
+    text: str = Field(min_length=1)
+    synthetic: bool = Field(
+        default=False, description="true where the block is drawn or generated, not surveyed"
+    )
+    note: str = ""
+
+
+class ReferencePoint(_Located):
+    """Where the airport's local frame touches the ellipsoid."""
+
+
+class MagneticVariation(_Section):
+    """Of magnetic north from true north at the reference point."""
+
+    east_deg: float = Field(ge=-180.0, le=180.0, description="negative is west")
+    epoch: float = Field(description="the year for which it holds")
+
+
+class RunwayThreshold(_Located):
+    """One end of a runway: where its pavement begins on the centre line."""
+
+    ident: RunwayIdent
+    elevation_ft: float
+    displaced_threshold_ft: float = Field(default=0.0, ge=0.0)
+    heading_magnetic_deg: Bearing | None = None
+
+
+class Runway(_Section):
+    """A strip of pavement that is used in both directions."""
+
+    ends: tuple[RunwayThreshold, RunwayThreshold]
+    width_ft: float = Field(gt=0.0)
+    surface: str = ""
+    hold_distance_m: float = Field(
+        gt=0.0, description="of the holding positions from the centre line"
+    )
+
+    @property
+    def name(self) -> str:
+        """Such as ``01/19``."""
+        return "/".join(end.ident for end in self.ends)
+
+
+class Node(_Located):
+    """A named point of the taxiways."""
+
+    name: str = Field(min_length=1, max_length=40)
+    kind: Literal["junction", "hold", "runway", "stand"] = "junction"
+
+
+class Edge(_Section):
+    """A straight piece of a taxiway, used in both directions."""
+
+    nodes: tuple[str, str]
+    taxiway: TaxiwayName
+    width_m: float = Field(gt=0.0)
+
+
+class Taxiways(_Section):
+    """The graph on which aircraft taxi and vehicles drive."""
+
+    nodes: tuple[Node, ...] = ()
+    edges: tuple[Edge, ...] = ()
+
+
+class HoldShort(_Section):
+    """Where traffic holds short of a runway: a node of the taxiways."""
+
+    node: str
+    runway: str = Field(description="name of the whole runway, such as 01/19")
+    taxiway: TaxiwayName
+    side: TaxiwayName | None = Field(
+        default=None, description="of the runway, where the taxiway has a hold on both"
+    )
+
+    @property
+    def position(self) -> str:
+        """The taxiway, and the side where it needs one: ``A``, or ``J_north``."""
+        return f"{self.taxiway}_{self.side}" if self.side else self.taxiway
+
+
+class Tower(_Located):
+    """The control tower."""
+
+    height_m: float = Field(gt=0.0, description="of the cab, above the ground")
+
+
+class Building(_Section):
+    """A block on the ground."""
+
+    name: str
+    footprint: Polygon
+    height_m: float = Field(gt=0.0)
+
+
+class Water(_Section):
+    """A river, a lake or the sea, as far as it can be seen."""
+
+    name: str
+    outline: Polygon
+
+
+class Frequency(_Section):
+    """A radio frequency and the unit that answers on it."""
+
+    role: Role
+    frequency_khz: int = Field(ge=30_000, le=400_000)
+    name: str = ""
+
+
+class Camera(_Located):
+    """A fixed camera that watches the airport."""
+
+    name: TaxiwayName
+    height_m: float = Field(gt=0.0, description="above the ground")
+    azimuth_deg: Bearing
+    elevation_deg: float = Field(ge=-90.0, le=90.0, description="negative looks down")
+    horizontal_fov_deg: FieldOfView
+
+
+class Airport(_Section):
+    """One ``airports/*.json``."""
+
+    icao: str = Field(pattern=r"^[A-Z0-9-]{2,10}$")
+    name: str
+    reference: ReferencePoint
+    elevation_ft: float = Field(description="of the highest point of the runways")
+    magnetic_variation: MagneticVariation
+    runways: tuple[Runway, ...] = Field(min_length=1)
+    taxiways: Taxiways = Taxiways()
+    holds: tuple[HoldShort, ...] = ()
+    tower: Tower | None = None
+    buildings: tuple[Building, ...] = ()
+    water: tuple[Water, ...] = ()
+    frequencies: tuple[Frequency, ...] = ()
+    cameras: tuple[Camera, ...] = ()
+    sources: dict[Block, Source]
+
+    @pydantic.model_validator(mode="after")
+    def _is_consistent(self) -> Self:
+        nodes = {node.name for node in self.taxiways.nodes}
+        _refuse_repeated(
+            "runway end", (end.ident for runway in self.runways for end in runway.ends)
+        )
+        _refuse_repeated("node", (node.name for node in self.taxiways.nodes))
+        _refuse_repeated("hold", (f"{hold.runway} {hold.position}" for hold in self.holds))
+        _refuse_repeated("camera", (camera.name for camera in self.cameras))
+        used = (node for edge in self.taxiways.edges for node in edge.nodes)
+        _refuse_unknown("node", [*used, *(hold.node for hold in self.holds)], nodes)
+        _refuse_unknown(
+            "runway", (hold.runway for hold in self.holds), {runway.name for runway in self.runways}
+        )
+        taxiways = {edge.taxiway for edge in self.taxiways.edges}
+        _refuse_unknown("taxiway", (hold.taxiway for hold in self.holds), taxiways)
+        if bare := sorted(set(self.blocks) - set(self.sources)):
+            raise ValueError(
+                f"sources does not say where the numbers of {', '.join(bare)} are from"
+            )
+        return self
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """The blocks that hold any numbers."""
+        always: tuple[Block, ...] = ("reference", "elevation_ft", "magnetic_variation", "runways")
+        optional: dict[Block, object] = {
+            "taxiways": self.taxiways.nodes,
+            "holds": self.holds,
+            "tower": self.tower,
+            "buildings": self.buildings,
+            "water": self.water,
+            "frequencies": self.frequencies,
+            "cameras": self.cameras,
+        }
+        return (*always, *(block for block, content in optional.items() if content))
+
+
+def load_airport(name: str) -> Airport:
+    """Read the airport of that ICAO location indicator, in upper or lower case.
+
+    Raises
+    ------
+    ScenarioError
+        There is none, or its file is wrong: the message names the file, the place in it and
+        what was expected.
+    """
+    return read_airport(library.find("airports", name.lower()))
+
+
+def read_airport(path: Path) -> Airport:
+    """Read an airport from a file.
+
+    Raises
+    ------
+    ScenarioError
+        The file is wrong.
+    """
+    try:
+        return Airport.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
+    except pydantic.ValidationError as error:
+        problems = (
+            f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
+            for problem in error.errors(include_url=False)
+        )
+        raise ScenarioError("\n".join([f"{path} is not an airport:", *problems])) from error
+
+
+def _refuse_repeated(what: str, names: Iterable[str]) -> None:
+    if repeated := sorted(name for name, count in Counter(names).items() if count > 1):
+        raise ValueError(f"there is more than one {what} named {', '.join(repeated)}")
+
+
+def _refuse_unknown(what: str, names: Iterable[str], known: set[str]) -> None:
+    for name in names:
+        if name not in known:
+            few = len(known) <= library.SHOWN_NAMES
+            hint = (
+                f"; known: {', '.join(sorted(known))}"
+                if few
+                else library.nearest(name, sorted(known))
+            )
+            raise ValueError(f"no {what} named {name!r}{hint}")

@@ -1,0 +1,24 @@
+"""A coyote."""
+
+from __future__ import annotations
+
+from airhilt.world.mover import Dimensions
+from airhilt.world.surface.wildlife import AnimalKind
+
+KIND = AnimalKind(
+    name="coyote",
+    description="coyote, Canis latrans",
+    source=(
+        "Listed as hazardous to aircraft: FAA AC 150/5200-33C, table 1. 40 mph running: National "
+        "Geographic, animal reference. 1.2 m long with its tail, 0.6 m high at the shoulder. "
+        "Accelerations, walking and the flight from danger are estimates."
+    ),
+    dimensions=Dimensions(length_m=1.2, span_m=0.3, height_m=0.7),
+    walk_m_s=1.6,
+    run_m_s=17.9,
+    acceleration_m_s2=4.5,
+    lateral_m_s2=6.0,
+    wander_rad=0.3,
+    reaction_s=0.7,
+    flees_for_m=120.0,
+)

@@ -1,0 +1,38 @@
+"""A flock of starlings."""
+
+from __future__ import annotations
+
+from airhilt.world.mover import Dimensions
+from airhilt.world.surface.wildlife import AnimalKind, Flight, flock_aloft, flock_on_the_ground
+
+COUNT = 300
+BIRD = Dimensions(length_m=0.21, span_m=0.37, height_m=0.2)
+
+KIND = AnimalKind(
+    name="flock",
+    description=f"{COUNT} European starlings, Sturnus vulgaris, that keep together",
+    source=(
+        "European starlings have cost the most lives: FAA AC 150/5200-32B, section 4. Size of a "
+        "bird: Cornell Lab of Ornithology, All About Birds. Shape of the flock, and birds about "
+        "1 m apart in the air: M. Ballerini et al., Animal Behaviour 76 (2008) 201-215. Speeds, "
+        "accelerations, and 0.5 m apart on the ground are estimates."
+    ),
+    count=COUNT,
+    dimensions=flock_on_the_ground(BIRD, COUNT, spacing_m=0.5),
+    walk_m_s=0.5,
+    run_m_s=1.5,
+    acceleration_m_s2=2.5,
+    lateral_m_s2=3.0,
+    wander_rad=0.25,
+    reaction_s=0.5,
+    flees_for_m=400.0,
+    flight=Flight(
+        dimensions=flock_aloft(BIRD, COUNT, spacing_m=1.0),
+        speed_m_s=17.0,
+        acceleration_m_s2=5.0,
+        lateral_m_s2=8.0,
+        climb_m_s=3.0,
+        descent_m_s=5.0,
+        height_m=40.0,
+    ),
+)

@@ -1,0 +1,227 @@
+"""Reads the runways and frequencies of an airport from the CSV files of OurAirports.
+
+The files are ``runways.csv`` and ``airport-frequencies.csv`` of https://ourairports.com/data/
+(public domain), whole or cut down to some airports.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.local_frame import distance_and_azimuth
+from airhilt.units import FOOT
+from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold
+
+CREDIT = "OurAirports (public domain)"
+RUNWAY_COLUMNS = (
+    "airport_ident",
+    "length_ft",
+    "width_ft",
+    "surface",
+    "closed",
+    *(
+        f"{end}_{what}"
+        for end in ("le", "he")
+        for what in (
+            "ident",
+            "latitude_deg",
+            "longitude_deg",
+            "elevation_ft",
+            "displaced_threshold_ft",
+        )
+    ),
+)
+FREQUENCY_COLUMNS = ("airport_ident", "type", "description", "frequency_mhz")
+ROLES: dict[str, Role] = {
+    "TWR": "tower",
+    "GND": "ground",
+    "CLD": "clearance",
+    "CLR": "clearance",
+    "CLRD": "clearance",
+    "DEL": "clearance",
+    "APP": "approach",
+    "ARR": "approach",
+    "DIR": "approach",
+    "A/D": "approach",
+    "DEP": "departure",
+    "ATIS": "atis",
+    "UNIC": "unicom",
+    "CTAF": "unicom",
+}
+"""By the first word of OurAirports' type; every other is ``other``."""
+DECIMALS = 7
+"""Of degrees: a centimetre."""
+USUAL_WIDTH_FT = 100.0
+"""For runways whose width is not given."""
+LENGTHS_DISAGREE_M = 25.0
+"""Coordinates that are this much closer or farther than the length says are worth a note."""
+HOLD_DISTANCES_M = ((800.0, 30.0), (1200.0, 40.0), (math.inf, 90.0))
+"""Of holding positions, by runway length: ICAO Annex 14 volume I, table 3-2, code numbers 1 and 2
+without instrument approaches, 3 and 4 with precision approaches of category I."""
+HOLD_DISTANCE_FAA_M = 250.0 * FOOT
+"""FAA AC 150/5300-13B, appendix G: approach categories C and D, design groups I to IV."""
+
+
+@dataclass(frozen=True)
+class Runways:
+    """What a file says of the runways of an airport, and what it leaves open."""
+
+    runways: tuple[Runway, ...]
+    notes: tuple[str, ...]
+
+
+def read_runways(path: Path, ident: str) -> Runways:
+    """Read the runways of an airport that aeroplanes can use.
+
+    Closed runways, helicopter areas, water lanes without a number and rows without coordinates
+    are left out, and noted.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, lacks a column, knows no such airport, or has nothing left.
+    """
+    rows = _rows(path, RUNWAY_COLUMNS)
+    mine = [row for row in rows if row["airport_ident"].upper() == ident.upper()]
+    if not mine:
+        known = sorted({row["airport_ident"] for row in rows})
+        raise ScenarioError(f"{path} has no airport {ident!r}{library.nearest(ident, known)}")
+    notes: list[str] = []
+    usable = []
+    for row in mine:
+        name = f"{row['le_ident'] or '?'}/{row['he_ident'] or '?'}"
+        if reason := _unusable(row):
+            notes.append(f"left out {name}: {reason}")
+        else:
+            usable.append((name, row))
+    elevations = [
+        elevation
+        for _, row in usable
+        for end in ("le", "he")
+        if (elevation := _number(row[f"{end}_elevation_ft"])) is not None
+    ]
+    if not usable:
+        raise ScenarioError(f"{path} has no usable runway at {ident}: {'; '.join(notes)}")
+    if not elevations:
+        raise ScenarioError(f"{path} gives no elevation for any runway of {ident}")
+    runways = tuple(
+        _runway(name, row, sum(elevations) / len(elevations), notes) for name, row in usable
+    )
+    return Runways(tuple(sorted(runways, key=lambda runway: runway.name)), tuple(notes))
+
+
+def read_frequencies(path: Path, ident: str) -> tuple[Frequency, ...]:
+    """Read the frequencies of an airport; an airport may have none.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, or lacks a column.
+    """
+    found: dict[tuple[Role, int], Frequency] = {}
+    for row in _rows(path, FREQUENCY_COLUMNS):
+        megahertz = _number(row["frequency_mhz"])
+        if row["airport_ident"].upper() != ident.upper() or megahertz is None:
+            continue
+        role = ROLES.get(row["type"].upper().split(" ")[0], "other")
+        name = row["description"] or row["type"]
+        frequency = Frequency(role=role, frequency_khz=round(megahertz * 1000.0), name=name)
+        found.setdefault((role, frequency.frequency_khz), frequency)
+    return tuple(found.values())
+
+
+def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: is not UTF-8 text: {error.reason}") from error
+    header, _, _ = text.partition("\n")
+    separator = ";" if header.count(";") > header.count(",") else ","
+    reader = csv.DictReader(text.splitlines(), delimiter=separator)
+    if missing := [name for name in columns if name not in (reader.fieldnames or ())]:
+        has = ", ".join(reader.fieldnames or ()) or "none"
+        raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
+    return [{name: (row[name] or "").strip() for name in columns} for row in reader]
+
+
+def _unusable(row: dict[str, str]) -> str | None:
+    idents = (row["le_ident"].upper(), row["he_ident"].upper())
+    if row["closed"] == "1":
+        return "closed"
+    if any(ident.startswith("H") or ident.endswith("H") for ident in idents):
+        return "for helicopters"
+    if not all(ident[:1].isdigit() and _is_designator(ident) for ident in idents):
+        return "has no runway number"
+    numbers = [
+        _number(row[f"{end}_{what}_deg"])
+        for end in ("le", "he")
+        for what in ("latitude", "longitude")
+    ]
+    if None in numbers:
+        return "has no coordinates"
+    if numbers[:2] == numbers[2:]:
+        return "has the same coordinates twice"
+    return None
+
+
+def _is_designator(ident: str) -> bool:
+    digits = ident.rstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZ")
+    return digits.isdigit() and len(digits) <= 2 and len(ident) - len(digits) <= 2
+
+
+def _runway(name: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> Runway:
+    ends = (_end("le", row, elevation_ft, notes), _end("he", row, elevation_ft, notes))
+    length_m, _ = distance_and_azimuth(ends[0].place, ends[1].place)
+    published = _number(row["length_ft"])
+    if published and abs(published * FOOT - length_m) > LENGTHS_DISAGREE_M:
+        notes.append(
+            f"{name} is {length_m / FOOT:.0f} ft long by its coordinates, which are used, "
+            f"and {published:.0f} ft as published"
+        )
+    if length_m < (ends[0].displaced_threshold_ft + ends[1].displaced_threshold_ft) * FOOT:
+        raise ScenarioError(f"runway {name} has thresholds that are displaced beyond its length")
+    width_ft = _number(row["width_ft"])
+    if not width_ft:
+        notes.append(f"{name} has no width, {USUAL_WIDTH_FT:.0f} ft is used")
+    return Runway(
+        ends=ends,
+        width_ft=width_ft or USUAL_WIDTH_FT,
+        surface=row["surface"],
+        hold_distance_m=_hold_distance(row["airport_ident"], length_m),
+    )
+
+
+def _end(end: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> RunwayThreshold:
+    ident = row[f"{end}_ident"].upper()
+    elevation = _number(row[f"{end}_elevation_ft"])
+    if elevation is None:
+        notes.append(f"{ident} has no elevation, the mean of the others is used")
+    return RunwayThreshold(
+        ident=ident if ident[1:2].isdigit() else f"0{ident}",
+        lat_deg=round(float(row[f"{end}_latitude_deg"]), DECIMALS),
+        lon_deg=round(float(row[f"{end}_longitude_deg"]), DECIMALS),
+        elevation_ft=round(elevation_ft, 1) if elevation is None else elevation,
+        displaced_threshold_ft=max(_number(row[f"{end}_displaced_threshold_ft"]) or 0.0, 0.0),
+    )
+
+
+def _hold_distance(ident: str, length_m: float) -> float:
+    distance = next(metres for longest, metres in HOLD_DISTANCES_M if length_m < longest)
+    american = ident.startswith("K") and len(ident) == 4
+    return HOLD_DISTANCE_FAA_M if american and distance == HOLD_DISTANCES_M[-1][1] else distance
+
+
+def _number(text: str) -> float | None:
+    """Return a field as a number, or None where it is empty or is none."""
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None

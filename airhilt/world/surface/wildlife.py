@@ -1,0 +1,500 @@
+"""Animals and flocks: they stand, walk, run, fly, and take fright."""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
+
+from airhilt.geodesy.plane import Plane
+from airhilt.sim.streams import stream
+from airhilt.units import wrap_angle
+from airhilt.world.mover import Dimensions, SurfaceState
+from airhilt.world.surface.runway import Place
+
+ARRIVED_M = 0.3
+"""An animal on the ground that is nearer than this is there."""
+WANDER_INTERVAL_S = 1.0
+"""Between draws of the wandering."""
+WANDER_MEMORY = 0.8
+"""Correlation of one draw with the next."""
+WANDER_FADES_M = 15.0
+"""From here on an animal wanders less and less off the way to where it goes."""
+SPEED_SIGMA = 0.08
+"""Of the speed's wandering, as a fraction; only ever slower than the gait."""
+STEERING_S = 0.3
+"""Time in which a change of direction would be done, were there no limits."""
+REACTION_SIGMA = 0.3
+"""Of the lognormal reaction time."""
+FLIGHT_SPREAD_RAD = math.radians(25.0)
+GREATEST_SPREAD_RAD = math.radians(60.0)
+"""An animal flees straight away from what frightens it, give or take a normal draw, cut off."""
+HEIGHT_LAG_S = 2.0
+"""Of levelling off at a height."""
+VERTICAL_ACCELERATION_M_S2 = 3.0
+GLIDE_SHARE = 0.5
+"""Of the greatest rate of descent, used on the way down to land."""
+FLARE_S = 1.0
+"""The last of the height is lost with this time constant,"""
+TOUCHDOWN_M_S = 0.3
+"""until this rate is left."""
+LANDING_SPEED_SHARE = 0.5
+"""Of the speed of flight, below `LANDING_HEIGHT_M` when landing."""
+LANDING_HEIGHT_M = 5.0
+FLOCK_PROPORTIONS = (2.8, 5.6)
+"""Middle and longest axis of a flock in the air against its thickness: M. Ballerini et al.,
+Empirical investigation of starling flocks, Animal Behaviour 76 (2008) 201-215. Which of the two
+points ahead is not settled there; here the flock is wider than long."""
+
+AnimalPhase = Literal["standing", "walking", "running", "flying", "fleeing"]
+Gait = Literal["walking", "running", "flying"]
+
+
+class Flight(BaseModel):
+    """How a bird flies."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    dimensions: Dimensions
+    """In the air."""
+    speed_m_s: PositiveFloat
+    acceleration_m_s2: PositiveFloat
+    lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a turn."""
+    climb_m_s: PositiveFloat
+    descent_m_s: PositiveFloat
+    height_m: PositiveFloat
+    """At which it flies from one place on the ground to another, or away from danger."""
+
+
+class AnimalKind(BaseModel):
+    """A kind of animal, or a flock of birds that moves as one."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    category: ClassVar[Literal["wildlife"]] = "wildlife"
+
+    name: str
+    description: str
+    source: str
+    """Where the numbers come from, and which of them are estimates."""
+    count: PositiveInt = 1
+    """Of the animals that move as one."""
+    dimensions: Dimensions
+    """On the ground."""
+    walk_m_s: PositiveFloat
+    run_m_s: PositiveFloat
+    acceleration_m_s2: PositiveFloat
+    """Of getting faster and slower on the ground."""
+    lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a turn on the ground."""
+    turn_rate_rad_s: PositiveFloat = math.pi
+    """Greatest, on the ground."""
+    wander_rad: float = Field(ge=0.0, le=1.0)
+    """Standard deviation of the direction."""
+    reaction_s: PositiveFloat
+    """Median, from the fright to the first step."""
+    flees_for_m: PositiveFloat
+    flight: Flight | None = None
+    """None if it does not fly."""
+
+    def create(
+        self,
+        place: Place,
+        heading_rad: float,
+        *,
+        ground_m: float,
+        tick_s: float,
+        seed: int = 0,
+        height_m: float = 0.0,
+    ) -> Animal:
+        """Return an animal of this kind; see `airhilt.world.surface.kinds.Kind`.
+
+        Raises
+        ------
+        ValueError
+            It was to begin at no place, or in the air and does not fly.
+        """
+        return Animal(
+            self,
+            place,
+            heading_rad,
+            ground_m=ground_m,
+            tick_s=tick_s,
+            seed=seed,
+            height_m=height_m,
+        )
+
+
+def flock_aloft(bird: Dimensions, count: int, spacing_m: float) -> Dimensions:
+    """Return the box around so many birds in the air, each in a cube of ``spacing_m``.
+
+    The proportions are `FLOCK_PROPORTIONS`; the box is never smaller than one bird.
+    """
+    length, span = FLOCK_PROPORTIONS
+    thickness = spacing_m * (count / (length * span)) ** (1.0 / 3.0)
+    return Dimensions(
+        length_m=max(length * thickness, bird.length_m),
+        span_m=max(span * thickness, bird.span_m),
+        height_m=max(thickness, bird.height_m),
+    )
+
+
+def flock_on_the_ground(bird: Dimensions, count: int, spacing_m: float) -> Dimensions:
+    """Return the box around so many birds on the ground, each on a square of ``spacing_m``."""
+    side = spacing_m * math.sqrt(count)
+    return Dimensions(
+        length_m=max(side, bird.length_m), span_m=max(side, bird.span_m), height_m=bird.height_m
+    )
+
+
+class Animal:
+    """An animal, or a flock that moves as one.
+
+    On its way it wanders: direction and speed are autoregressive draws of its own random streams.
+    The same seed and the same orders give the same way, bit by bit. Wind does not carry it off.
+
+    Parameters
+    ----------
+    kind
+        What it can do.
+    place, heading_rad
+        Where its middle is, and its true heading.
+    ground_m
+        Height of the ground above WGS84.
+    tick_s
+        By which `advance` goes on.
+    seed
+        Of its wandering and its reactions.
+    height_m
+        Above the ground. Beginning in the air, it flies straight on.
+
+    Attributes
+    ----------
+    state
+        Where it is and how it moves now.
+    ended
+        Why it moves no more, None while it does.
+
+    Raises
+    ------
+    ValueError
+        The place is none, a number is not finite, or it is to be in the air and does not fly.
+    """
+
+    def __init__(
+        self,
+        kind: AnimalKind,
+        place: Place,
+        heading_rad: float,
+        *,
+        ground_m: float,
+        tick_s: float,
+        seed: int,
+        height_m: float = 0.0,
+    ) -> None:
+        if not (math.isfinite(heading_rad) and math.isfinite(ground_m)):
+            raise ValueError(f"heading {heading_rad} rad, ground {ground_m} m: not finite")
+        if not 0.0 <= height_m < math.inf:
+            raise ValueError(f"height_m is {height_m}; expected 0 or more")
+        self.kind = kind
+        self.ended: str | None = None
+        self._ground_m = ground_m
+        self._tick_s = tick_s
+        self._plane = Plane(place, ground_m)
+        self._east = self._north = 0.0
+        self._heading = heading_rad % math.tau
+        self._speed = 0.0
+        self._height = height_m
+        self._climb = 0.0
+
+        self._gait: Gait | None = None
+        """None: it stands, or comes to a stand."""
+        self._goal: tuple[float, float] | None = None
+        """None: straight ahead."""
+        self._goal_height = height_m
+        self._lands = False
+        self._descends = False
+        """To the ground, and will not climb again before it is there."""
+
+        self._alarm_ticks = 0
+        """Until it flees."""
+        self._escape = 0.0
+        self._fleeing = False
+        self._flee_left_m = 0.0
+
+        self._wander_rng = stream(seed, "wander")
+        self._fright_rng = stream(seed, "startle")
+        self._wander_ticks = max(1, round(WANDER_INTERVAL_S / tick_s))
+        self._wander_left = 0
+        self._wander = self._slowness = 0.0
+        if height_m > 0.0:
+            self._speed = self._flight.speed_m_s
+            self._gait = "flying"
+        self.state = self._state()
+
+    @property
+    def count(self) -> int:
+        """How many animals it is."""
+        return self.kind.count
+
+    @property
+    def on_ground(self) -> bool:
+        """Whether the ground carries it."""
+        return self._height <= 0.0
+
+    @property
+    def dimensions(self) -> Dimensions:
+        """How large it is now: in the air wings are spread, and flocks have other shapes."""
+        return self.kind.dimensions if self._height <= 0.0 else self._flight.dimensions
+
+    @property
+    def startled(self) -> bool:
+        """Whether something has startled it, and its flight is not over yet."""
+        return self._fleeing or self._alarm_ticks > 0
+
+    @property
+    def phase(self) -> AnimalPhase:
+        """``standing``, ``walking``, ``running``, ``flying`` or ``fleeing``."""
+        if self._fleeing:
+            return "fleeing"
+        if self._height > 0.0:
+            return "flying"
+        if self._gait is None and self._speed == 0.0:
+            return "standing"
+        return self._gait or "walking"
+
+    def stand(self) -> None:
+        """Come to a stand; in the air, land ahead and stand there."""
+        self._end_flight()
+        if self._height > 0.0:
+            self._begin("flying", None, 0.0, lands=True)
+        else:
+            self._gait = None
+
+    def walk_to(self, place: Place) -> None:
+        """Walk to a place and stand there; out of the air, land there first."""
+        self._go("walking", place)
+
+    def run_to(self, place: Place) -> None:
+        """Run to a place and stand there; out of the air, land there first."""
+        self._go("running", place)
+
+    def fly_to(self, place: Place, height_m: float) -> None:
+        """Fly to a place and about there at a height above the ground; at 0, land there.
+
+        It touches down where its glide ends, and walks what is left.
+
+        Raises
+        ------
+        ValueError
+            It does not fly, the height is negative or no number, or the place is too far away.
+        """
+        if not 0.0 <= height_m < math.inf:
+            raise ValueError(f"height_m is {height_m}; expected 0 or more")
+        usual = self._flight.height_m
+        transit = height_m or (self._height if self._height > 0.0 else usual)
+        self._move_origin()
+        goal = self._plane.to_local(place)
+        self._end_flight()
+        self._begin("flying", goal, transit, lands=height_m == 0.0)
+
+    def startle(self, away_from: Place) -> None:
+        """Flee from a place after a reaction time, running or, if it can, flying.
+
+        From the ground it flies away and lands; from the air it goes on flying. One that is
+        startled already takes no notice.
+
+        Raises
+        ------
+        ValueError
+            The place is too far away.
+        """
+        if self.startled:
+            return
+        self._move_origin()
+        east, north = self._plane.to_local(away_from)
+        delay = self.kind.reaction_s * math.exp(REACTION_SIGMA * self._fright_rng.standard_normal())
+        spread = FLIGHT_SPREAD_RAD * self._fright_rng.standard_normal()
+        away = math.atan2(-east, -north) if east or north else self._heading
+        self._escape = away + max(-GREATEST_SPREAD_RAD, min(GREATEST_SPREAD_RAD, spread))
+        self._alarm_ticks = max(1, math.ceil(delay / self._tick_s))
+
+    def advance(self) -> None:
+        """Move on by one tick; do nothing once it has ended."""
+        if self.ended is not None:
+            return
+        if self._alarm_ticks:
+            self._alarm_ticks -= 1
+            if self._alarm_ticks == 0:
+                self._flee()
+        if self._gait is None and self._speed == 0.0:
+            return
+        if self._wander_left == 0:
+            self._wander_left = self._wander_ticks
+            self._draw_wander()
+        self._wander_left -= 1
+        if self._height > 0.0 or self._gait == "flying":
+            self._fly()
+        else:
+            self._walk_or_run()
+        self.state = self._state()
+
+    # --- what it means to do ----------------------------------------------------------------
+
+    @property
+    def _flight(self) -> Flight:
+        if self.kind.flight is None:
+            raise ValueError(f"a {self.kind.name} does not fly")
+        return self.kind.flight
+
+    def _go(self, gait: Gait, place: Place) -> None:
+        if self._height > 0.0:
+            self.fly_to(place, 0.0)
+            return
+        self._move_origin()
+        goal = self._plane.to_local(place)
+        self._end_flight()
+        self._begin(gait, goal, 0.0, lands=False)
+
+    def _begin(
+        self, gait: Gait, goal: tuple[float, float] | None, height_m: float, *, lands: bool
+    ) -> None:
+        self._gait, self._goal = gait, goal
+        self._goal_height, self._lands, self._descends = height_m, lands, False
+
+    def _end_flight(self) -> None:
+        self._alarm_ticks = 0
+        self._fleeing = False
+
+    def _flee(self) -> None:
+        """Begin to flee."""
+        self._fleeing = True
+        far = self._flee_left_m = self.kind.flees_for_m
+        east = self._east + far * math.sin(self._escape)
+        north = self._north + far * math.cos(self._escape)
+        flight = self.kind.flight
+        if flight is None:
+            self._begin("running", (east, north), 0.0, lands=False)
+        else:
+            height = max(self._height, flight.height_m)
+            self._begin("flying", (east, north), height, lands=self._height <= 0.0)
+
+    def _move_origin(self) -> None:
+        """Begin a new plane here, so that it is never far from its origin."""
+        goal = None if self._goal is None else self._plane.to_place(*self._goal)
+        self._plane = Plane((self.state.latitude_rad, self.state.longitude_rad), self._ground_m)
+        self._east = self._north = 0.0
+        self._goal = None if goal is None else self._plane.to_local(goal)
+
+    def _draw_wander(self) -> None:
+        fresh = math.sqrt(1.0 - WANDER_MEMORY * WANDER_MEMORY)
+        aside, slower = self._wander_rng.standard_normal(2).tolist()
+        self._wander = WANDER_MEMORY * self._wander + fresh * self.kind.wander_rad * aside
+        self._slowness = WANDER_MEMORY * self._slowness + fresh * SPEED_SIGMA * slower
+
+    # --- how it moves -----------------------------------------------------------------------
+
+    def _walk_or_run(self) -> None:
+        """Move on the ground: towards the goal, as fast as its turns and its stopping allow."""
+        kind = self.kind
+        distance, off = self._to_goal()
+        slow = self._speed * self._speed < 4.0 * kind.acceleration_m_s2 * ARRIVED_M
+        if self._gait is None or (distance < ARRIVED_M and slow):
+            self._gait = None
+            wanted = off = 0.0
+        else:
+            gait = kind.walk_m_s if self._gait == "walking" else kind.run_m_s
+            wanted = gait * (1.0 - min(abs(self._slowness), 0.5))
+            wanted = min(wanted, math.sqrt(2.0 * kind.acceleration_m_s2 * distance))
+            # The circle from here to the goal has this curvature; behind, it has to be tighter.
+            if abs(off) < 0.5 * math.pi:
+                curvature = 2.0 * abs(math.sin(off)) / distance
+                if curvature * wanted * wanted > kind.lateral_m_s2:
+                    wanted = math.sqrt(kind.lateral_m_s2 / curvature)
+                if curvature * wanted > kind.turn_rate_rad_s:
+                    wanted = kind.turn_rate_rad_s / curvature
+            else:
+                wanted = min(wanted, kind.walk_m_s)
+        step = kind.acceleration_m_s2 * self._tick_s
+        speed = max(min(wanted, self._speed + step), self._speed - step, 0.0)
+        self._step(off, speed, kind.turn_rate_rad_s, kind.lateral_m_s2)
+        if speed == 0.0 and self._gait is None:
+            self._fleeing = False
+
+    def _fly(self) -> None:
+        """Move in the air: level at a height, or down to the ground."""
+        flight = self._flight
+        distance, off = self._to_goal()
+        wanted = flight.speed_m_s * (1.0 - min(abs(self._slowness), 0.5))
+        if self._descends and self._height < LANDING_HEIGHT_M:
+            wanted *= LANDING_SPEED_SHARE
+        step = flight.acceleration_m_s2 * self._tick_s
+        speed = max(min(wanted, self._speed + step), self._speed - step)
+        self._step(off, speed, math.inf, flight.lateral_m_s2)
+        self._climb_or_descend(flight, distance)
+        if self._height <= 0.0 and self._descends:
+            self._touch_down()
+        elif self._fleeing and not self._lands:
+            self._flee_left_m -= speed * self._tick_s
+            if self._flee_left_m <= 0.0:
+                self._fleeing = False
+                self._goal = None
+
+    def _climb_or_descend(self, flight: Flight, distance: float) -> None:
+        """Change the height: up to its own or, once the glide reaches the goal, down."""
+        glide = GLIDE_SHARE * flight.descent_m_s
+        if self._lands and not self._descends:
+            ahead = 0.0 if self._goal is None else distance
+            self._descends = self._height > 0.0 and ahead * glide <= self._height * self._speed
+        if self._descends:
+            wanted = -max(min(glide, self._height / FLARE_S), TOUCHDOWN_M_S)
+        else:
+            wanted = (self._goal_height - self._height) / HEIGHT_LAG_S
+            lift = min(1.0, self._speed / (LANDING_SPEED_SHARE * flight.speed_m_s))
+            wanted = max(-flight.descent_m_s, min(wanted, flight.climb_m_s * lift))
+        step = VERTICAL_ACCELERATION_M_S2 * self._tick_s
+        climb = max(min(wanted, self._climb + step), self._climb - step)
+        self._height = max(0.0, self._height + 0.5 * (self._climb + climb) * self._tick_s)
+        self._climb = climb
+
+    def _touch_down(self) -> None:
+        """Be on the ground again: walk the rest of the way, or stand if there is none."""
+        self._climb = 0.0
+        if self._goal is None or self._fleeing:
+            self._gait = None
+        else:
+            self._begin("walking", self._goal, 0.0, lands=False)
+
+    def _to_goal(self) -> tuple[float, float]:
+        """Return how far the goal is, and by how much to turn, wandering, to head for it."""
+        if self._goal is None:
+            return math.inf, 0.0
+        east, north = self._goal[0] - self._east, self._goal[1] - self._north
+        distance = math.hypot(east, north)
+        wander = self._wander * min(1.0, distance / WANDER_FADES_M)
+        return distance, wrap_angle(math.atan2(east, north) + wander - self._heading)
+
+    def _step(self, off: float, speed: float, turn_rate: float, lateral: float) -> None:
+        """Turn within the limits and move on at the mean of the old and the new velocity."""
+        tick, before, heading = self._tick_s, self._speed, self._heading
+        fastest = max(before, speed)
+        if fastest > 0.0:
+            turn_rate = min(turn_rate, lateral / fastest)
+        turned = heading + max(-turn_rate, min(turn_rate, off / STEERING_S)) * tick
+        half = 0.5 * tick
+        self._east += half * (before * math.sin(heading) + speed * math.sin(turned))
+        self._north += half * (before * math.cos(heading) + speed * math.cos(turned))
+        self._speed, self._heading = speed, turned % math.tau
+
+    def _state(self) -> SurfaceState:
+        latitude, longitude = self._plane.to_place(self._east, self._north)
+        return SurfaceState(
+            latitude,
+            longitude,
+            self._ground_m + self._height,
+            self._height,
+            self._speed * math.cos(self._heading),
+            self._speed * math.sin(self._heading),
+            -self._climb,
+            self._heading,
+        )

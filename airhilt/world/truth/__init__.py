@@ -1,0 +1,1 @@
+"""Ground truth: monitors of conflicts, runways and conditions that drive a run."""

@@ -1,0 +1,157 @@
+"""Conditions on the true state, as scenarios state them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+
+from airhilt.scenario.models import (
+    AllOf,
+    AnyOf,
+    BoundForAltitude,
+    BoundForRunway,
+    ClosestApproachPassed,
+    Collided,
+    Condition,
+    DistanceBelow,
+    HeightBelow,
+    InPhase,
+    LineEnded,
+    OnRunway,
+    PredictedLossOfSeparation,
+    SeparationBelow,
+    SpeedAbove,
+    ThresholdWithin,
+    TimeReached,
+)
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
+from airhilt.world.actors.actor import Performer
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair
+from airhilt.world.truth.runways import RunwayMonitor
+
+Test = Callable[[int], bool]
+"""Tells whether a condition is true at a time in nanoseconds."""
+
+
+class ConditionCompiler:
+    """Turns conditions into tests on the true state of one run."""
+
+    def __init__(
+        self,
+        cast: Mapping[str, Performer],
+        monitor: ConflictMonitor,
+        runways: RunwayMonitor | None,
+        ended_lines: set[str],
+    ) -> None:
+        self._cast = cast
+        self._monitor = monitor
+        self._runways = runways
+        self._ended_lines = ended_lines
+
+    def compile(self, condition: Condition) -> Test:
+        """Return the test for a condition. Tests of ended actors are false."""
+        match condition:
+            case TimeReached(at_s=at_s):
+                due_ns = seconds_to_ns(at_s)
+                return lambda now_ns: now_ns >= due_ns
+            case LineEnded(line=line):
+                return lambda _: line in self._ended_lines
+            case BoundForAltitude():
+                return self._bound_for(condition)
+            case PredictedLossOfSeparation(actors=pair, within_s=within_s):
+                return self._of_flying(pair, lambda: self._loss_within(pair, within_s))
+            case SeparationBelow():
+                return self._separation(condition)
+            case ClosestApproachPassed(actors=pair, for_s=for_s):
+                return self._passed(pair, for_s)
+            case DistanceBelow(actors=pair, distance_m=distance_m):
+                return self._of_flying(
+                    pair, lambda: self._monitor.motion(pair)[0].distance_m < distance_m
+                )
+            case Collided(actors=pair):
+                return lambda _: self._monitor.collided(pair)
+            case InPhase() | BoundForRunway() | OnRunway() | ThresholdWithin():
+                return self._of_performer(condition)
+            case SpeedAbove(actor=actor, speed_kt=speed_kt):
+                body = self._cast[actor].body
+                return lambda _: (
+                    body.ended is None and body.state.ground_speed_m_s > speed_kt * KNOT
+                )
+            case HeightBelow(actor=actor, height_ft=height_ft):
+                body = self._cast[actor].body
+                return lambda _: body.ended is None and body.state.height_agl_m < height_ft * FOOT
+            case AllOf(conditions=inner):
+                tests = [self.compile(one) for one in inner]
+                return lambda now_ns: all(_each(tests, now_ns))
+            case AnyOf(conditions=inner):
+                tests = [self.compile(one) for one in inner]
+                return lambda now_ns: any(_each(tests, now_ns))
+
+    def _of_flying(self, pair: Pair, test: Callable[[], bool]) -> Test:
+        return lambda _: self._monitor.flying(pair) and test()
+
+    def _loss_within(self, pair: Pair, within_s: float) -> bool:
+        loss = self._monitor.time_to_loss_s(pair)
+        return loss is not None and loss <= within_s
+
+    def _bound_for(self, condition: BoundForAltitude) -> Test:
+        aircraft = self._cast[condition.actor].body
+        altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
+        return lambda _: (
+            aircraft.ended is None
+            and abs(getattr(aircraft, "target_altitude_m", math.inf) - altitude_m) <= within_m
+        )
+
+    def _of_performer(
+        self, condition: InPhase | BoundForRunway | OnRunway | ThresholdWithin
+    ) -> Test:
+        performer, runways = self._cast[condition.actor], self._runways
+        name = condition.actor
+
+        def true() -> bool:
+            match condition:
+                case InPhase(phases=phases):
+                    return performer.body.phase in phases
+                case BoundForRunway(runway=runway):
+                    return runways is not None and runways.is_bound_for(name, runway)
+                case OnRunway(runway=runway):
+                    return runways is not None and runways.is_on(name, runway)
+                case ThresholdWithin(runway=runway, within_s=within_s):
+                    if runways is None:
+                        return False
+                    time_s = runways.time_to_threshold_s(name, runway)
+                    return time_s is not None and time_s <= within_s
+
+        return lambda _: performer.body.ended is None and true()
+
+    def _separation(self, condition: SeparationBelow) -> Test:
+        pair = condition.actors
+        horizontal_m = condition.horizontal_nm * NAUTICAL_MILE
+        vertical_m = condition.vertical_ft * FOOT
+
+        def below() -> bool:
+            motion, first, second = self._monitor.motion(pair)
+            gap = abs(first.altitude_m - second.altitude_m)
+            return gap < vertical_m and motion.distance_m < horizontal_m
+
+        return self._of_flying(pair, below)
+
+    def _passed(self, pair: Pair, for_s: float) -> Test:
+        diverging_since_ns: int | None = None
+
+        def passed(now_ns: int) -> bool:
+            nonlocal diverging_since_ns
+            motion, _, _ = self._monitor.motion(pair)
+            if motion.time_to_closest_approach_s() >= 0.0:
+                diverging_since_ns = None
+                return False
+            if diverging_since_ns is None:
+                diverging_since_ns = now_ns
+            return now_ns - diverging_since_ns >= seconds_to_ns(for_s)
+
+        return passed
+
+
+def _each(tests: Sequence[Test], now_ns: int) -> list[bool]:
+    """Ask every test, also those that cannot change the answer: some keep time."""
+    return [test(now_ns) for test in tests]

@@ -1,0 +1,317 @@
+"""The truth about runways: who is in their protected areas, who comes, and incursions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from airhilt.messages import Arrival, RunwayTruth
+from airhilt.units import FOOT
+from airhilt.world.actors.actor import Performer
+from airhilt.world.truth.outlines import Gap, corners, gap, radius_m
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.layout import Layout, RunwayStrip
+
+ROLLING = frozenset({"takeoff_roll", "rotate"})
+LANDING = frozenset({"glide", "flare"})
+ROLLING_OUT = frozenset({"rollout"})
+USING = ROLLING | LANDING | ROLLING_OUT | {"rejected_takeoff", "go_around", "climb_out"}
+"""While it is in one of these, a runway's user may still come near to what is in its way."""
+ARRIVAL_WITHIN_S = 30.0
+"""An arrival nearer than this to its threshold uses the runway: the first stage at which surface
+alerting looks at it in good visibility (EUROCONTROL-SPEC-171, A-SMGCS airport safety support)."""
+LOW_M = 15.0
+"""Wildlife below this is in the way."""
+BEHIND_M = 30.0
+"""What lies so far behind the user of a runway is not in its way any more."""
+SHOWN_ARRIVALS_S = 120.0
+
+IncursionCategory = Literal["A", "B", "C", "D", "accident"]
+"""FAA Order 7050.1B, appendix A, and ICAO Doc 9870, table 6-1: A, collision narrowly avoided; B,
+significant potential for collision; C, ample time or distance; D, incorrect presence with no
+immediate consequence. The FAA counts a collision as an accident beside them."""
+
+NARROW_M = 100.0 * FOOT
+SIGNIFICANT_M = 500.0 * FOOT
+"""Closest distance between the outlines below which an incursion is of category A, and of B. The
+definitions give no distances. That the closest proximity decides first is the principle of ICAO's
+RISC calculator (Doc 9870, appendix H); the two values are this project's, the greater one after
+the near mid-air collision's."""
+
+
+class User(NamedTuple):
+    """Who takes off from, or lands on, a runway now."""
+
+    callsign: str
+    runway: str
+    along_m: float
+    """From the threshold, in its own direction."""
+    time_to_threshold_s: float
+    """0 once it is there, or rolling."""
+    rolling: bool
+
+
+@dataclass
+class Incursion:
+    """One actor in the way of the user of a runway."""
+
+    t_ns: int
+    runway: str
+    user: str | None
+    """None if there was no user: category D."""
+    intruder: str
+    closest: Gap | None = None
+    collided: bool = False
+    over: bool = False
+
+    @property
+    def category(self) -> IncursionCategory:
+        """How severe it was."""
+        if self.collided:
+            return "accident"
+        if self.user is None or self.closest is None:
+            return "D"
+        if self.closest.slant_m < NARROW_M:
+            return "A"
+        return "B" if self.closest.slant_m < SIGNIFICANT_M else "C"
+
+
+@dataclass(frozen=True)
+class _Position:
+    """Where a performer is, in the airport's frame."""
+
+    performer: Performer
+    east_m: float
+    north_m: float
+
+
+class RunwayMonitor:
+    """Watches the runways of an airport.
+
+    Parameters
+    ----------
+    misled
+        Actors that act under a failure of the scenario; their presence, like that of wildlife, is
+        incorrect even where nobody uses the runway.
+    occupied
+        Called with what has changed at a runway.
+    incurred
+        Called with each incursion when it begins.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        cast: Mapping[str, Performer],
+        misled: set[str],
+        occupied: Callable[[str, RunwayTruth], None],
+        incurred: Callable[[Incursion], None],
+    ) -> None:
+        self.incursions: dict[tuple[str, str | None, str], Incursion] = {}
+        self._layout = layout
+        self._cast = cast
+        self._misled = misled
+        self._occupied = occupied
+        self._incurred = incurred
+        self._axes = {
+            end.ident: (
+                *layout.frame.to_local(end.threshold),
+                math.sin(end.course_rad),
+                math.cos(end.course_rad),
+            )
+            for strip in layout.strips.values()
+            for end in strip.ends
+        }
+        """Threshold (east, north), and sine and cosine of the course."""
+        self._occupants: dict[str, tuple[str, ...]] = dict.fromkeys(layout.strips, ())
+        self._arrivals: dict[str, tuple[Arrival, ...]] = dict.fromkeys(layout.strips, ())
+
+    def look(self, now_ns: int) -> None:
+        """Look at all runways."""
+        positions = self._positions()
+        inside = self._inside(positions)
+        for name, strip in self._layout.strips.items():
+            occupants = inside[name]
+            users = list(self._users(strip, positions))
+            self._tell(now_ns, name, occupants, users)
+            for user in users:
+                for intruder in occupants:
+                    position = positions[intruder]
+                    if intruder != user.callsign and self._is_in_way(user, position):
+                        self._incur(now_ns, name, user.callsign, intruder)
+            if not users:
+                for intruder in occupants:
+                    if self._has_no_business(intruder) and not self._has_incurred(name, intruder):
+                        self._incur(now_ns, name, None, intruder)
+        self._follow()
+
+    def is_on(self, callsign: str, runway: str) -> bool:
+        """Return whether an actor is in the protected area of a runway."""
+        return callsign in self._occupants[self._layout.strip_of(runway).name]
+
+    def is_bound_for(self, callsign: str, runway: str) -> bool:
+        """Return whether an actor means to use a runway, in that direction."""
+        return self._cast[callsign].bound_runway == self._layout.runway(runway).ident
+
+    def time_to_threshold_s(self, callsign: str, runway: str) -> float | None:
+        """Return how long an airborne aircraft bound for a runway is from its threshold."""
+        performer = self._cast[callsign]
+        if performer.body.on_ground or not self.is_bound_for(callsign, runway):
+            return None
+        ident = self._layout.runway(runway).ident
+        along_m, closing_m_s = self._along(performer, ident, *self._local(performer))
+        if along_m > 0.0 or closing_m_s <= 1.0:
+            return None
+        return -along_m / closing_m_s
+
+    def collided(self, first: str, second: str) -> None:
+        """Take in that two actors have touched."""
+        for incursion in self.incursions.values():
+            if {incursion.user, incursion.intruder} == {first, second}:
+                incursion.collided = True
+                incursion.closest = Gap(0.0, 0.0)
+
+    # --- where everybody is -----------------------------------------------------------------
+
+    def _local(self, performer: Performer) -> tuple[float, float]:
+        state = performer.body.state
+        return self._layout.frame.to_local((state.latitude_rad, state.longitude_rad))
+
+    def _positions(self) -> dict[str, _Position]:
+        return {
+            callsign: _Position(performer, *self._local(performer))
+            for callsign, performer in self._cast.items()
+            if performer.body.ended is None
+        }
+
+    def _inside(self, positions: dict[str, _Position]) -> dict[str, tuple[str, ...]]:
+        """Return who is in each protected area with any part of it, by the name of the runway."""
+        low = [
+            (callsign, position)
+            for callsign, position in positions.items()
+            if position.performer.body.on_ground
+            or (
+                position.performer.category == "wildlife"
+                and position.performer.body.state.height_agl_m < LOW_M
+            )
+        ]
+        return {
+            name: tuple(callsign for callsign, position in low if self._reaches(strip, position))
+            for name, strip in self._layout.strips.items()
+        }
+
+    def _reaches(self, strip: RunwayStrip, position: _Position) -> bool:
+        """Return whether any part of somebody is in a protected area."""
+        body, (east, north) = position.performer.body, (position.east_m, position.north_m)
+        margin = radius_m(body)
+        start_east, start_north, sin, cos = self._axes[strip.ends[0].ident]
+        aside = (east - start_east) * cos - (north - start_north) * sin
+        if abs(aside) > strip.hold_distance_m + margin:
+            return False
+        import shapely
+
+        points = corners(body)
+        return bool(
+            shapely.contains_xy(
+                strip.protected_area, points[:, 0] + east, points[:, 1] + north
+            ).any()
+        )
+
+    def _along(
+        self, performer: Performer, runway: str, east_m: float, north_m: float
+    ) -> tuple[float, float]:
+        """Return distance past the threshold (m), and speed along the runway (m/s)."""
+        threshold_east, threshold_north, sin, cos = self._axes[runway]
+        along = (east_m - threshold_east) * sin + (north_m - threshold_north) * cos
+        state = performer.body.state
+        return along, state.velocity_east_m_s * sin + state.velocity_north_m_s * cos
+
+    # --- who uses a runway, and who is in the way -------------------------------------------
+
+    def _users(self, strip: RunwayStrip, positions: dict[str, _Position]) -> Iterator[User]:
+        idents = {end.ident for end in strip.ends}
+        for callsign, position in positions.items():
+            performer = position.performer
+            runway, phase = performer.bound_runway, performer.body.phase
+            if runway not in idents:
+                continue
+            along, speed = self._along(performer, runway, position.east_m, position.north_m)
+            if phase in ROLLING or (phase in ROLLING_OUT and speed > 1.0):
+                yield User(callsign, runway, along, 0.0, rolling=True)
+            elif phase in LANDING and speed > 1.0:
+                to_go_s = max(-along, 0.0) / speed
+                yield User(callsign, runway, along, to_go_s, performer.body.on_ground)
+
+    def _is_in_way(self, user: User, other: _Position) -> bool:
+        if user.time_to_threshold_s > ARRIVAL_WITHIN_S:
+            return False
+        performer = other.performer
+        along, _ = self._along(performer, user.runway, other.east_m, other.north_m)
+        if along < user.along_m - BEHIND_M:
+            return False
+        follows = performer.bound_runway == user.runway and performer.body.phase in (
+            ROLLING | ROLLING_OUT
+        )
+        # Who rolls ahead in the same direction leaves in time, as a rule: the next may not cross
+        # the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
+        return not follows or user.rolling or user.time_to_threshold_s <= 0.0
+
+    def _has_no_business(self, callsign: str) -> bool:
+        """Return whether an actor is there by mistake, and not bound for a runway of its own."""
+        performer = self._cast[callsign]
+        if performer.category == "wildlife":
+            return True
+        return callsign in self._misled and performer.bound_runway is None
+
+    def _has_incurred(self, runway: str, intruder: str) -> bool:
+        return any(
+            incursion.runway == runway and incursion.intruder == intruder
+            for incursion in self.incursions.values()
+        )
+
+    def _incur(self, now_ns: int, name: str, user: str | None, intruder: str) -> None:
+        for key in ((name, user, intruder), (name, intruder, user)):
+            if key in self.incursions:
+                self.incursions[key].over = False
+                return
+        incursion = Incursion(now_ns, name, user, intruder)
+        self.incursions[name, user, intruder] = incursion
+        if user is not None:
+            incursion.closest = gap(self._cast[user].body, self._cast[intruder].body)
+        self._incurred(incursion)
+
+    def _follow(self) -> None:
+        """Keep the closest distance of each incursion as long as one of both uses the runway."""
+        for incursion in self.incursions.values():
+            if incursion.user is None or incursion.closest is None or incursion.over:
+                continue
+            user, intruder = self._cast[incursion.user].body, self._cast[incursion.intruder].body
+            if user.ended or intruder.ended or {user.phase, intruder.phase}.isdisjoint(USING):
+                incursion.over = True
+                continue
+            now = gap(user, intruder)
+            if now.slant_m < incursion.closest.slant_m:
+                incursion.closest = now
+
+    def _tell(self, now_ns: int, name: str, occupants: tuple[str, ...], users: list[User]) -> None:
+        arrivals = tuple(
+            Arrival(
+                actor=user.callsign,
+                runway=user.runway,
+                time_to_threshold_s=round(user.time_to_threshold_s, 1),
+            )
+            for user in users
+            if not user.rolling and user.time_to_threshold_s < SHOWN_ARRIVALS_S
+        )
+        known = {(arrival.actor, arrival.runway) for arrival in self._arrivals[name]}
+        if occupants == self._occupants[name] and known == {(a.actor, a.runway) for a in arrivals}:
+            return
+        self._occupants[name], self._arrivals[name] = occupants, arrivals
+        key = name.replace("/", "-")
+        self._occupied(
+            f"truth/runway/{key}",
+            RunwayTruth(t_ns=now_ns, runway=key, occupants=occupants, arrivals=arrivals),
+        )
