@@ -16,7 +16,7 @@ from airhilt._version import __version__
 from airhilt.errors import AirhiltError
 
 if TYPE_CHECKING:
-    from airhilt.run.simulation import Observer, Result
+    from airhilt.cosim.simulation import Observer, Result
     from airhilt.scenario import Scenario
 
 __all__ = ["AirhiltError", "__version__", "load", "run"]
@@ -62,8 +62,8 @@ def run(
     TypeError
         There is no such option.
     """
+    from airhilt.cosim.simulation import run as run_scenario
     from airhilt.options import Options
-    from airhilt.run.simulation import run as run_scenario
 
     if isinstance(scenario, str | Path):
         scenario = load(scenario)

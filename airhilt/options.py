@@ -10,7 +10,7 @@ from airhilt.assistant.reference import ASR, DETECTOR, TTS, AssistantName
 from airhilt.record import Loss
 from airhilt.scenario.models import Topology
 from airhilt.sensors.cameras import RENDERER, RendererName
-from airhilt.sensors.radio.backend import Sound
+from airhilt.sensors.radio.backend import RadioBackend
 from airhilt.sim import LatencySpec
 from airhilt.workers.pool import Participant
 
@@ -53,7 +53,7 @@ class Options:
 
 
 @dataclass(frozen=True)
-class Foreign:
+class UnregisteredMessage:
     """A message that an unregistered program published in an earlier run."""
 
     key: str
@@ -69,14 +69,14 @@ class Recorded:
     """Instead of that of the options."""
     end_ns: int | None = None
     """Where the earlier run broke off."""
-    sound: Sound | None = None
+    sound: RadioBackend | None = None
     """Instead of voices and channel; None where those of the options speak again."""
     workers: tuple[Participant, ...] = ()
     programs: tuple[str, ...] = ()
     """Names of those that took no grants."""
     losses: Mapping[str, Loss] = field(default_factory=dict)
-    foreign: tuple[Foreign, ...] = ()
-    blindness: str = ""
+    foreign: tuple[UnregisteredMessage, ...] = ()
+    unavailable_reason: str = ""
     """Why no pictures could be drawn from the start."""
     cameras_lost: tuple[int, str] | None = None
     """When there were no more pictures (ns), and why."""

@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.messages import (
     ActorTruth,
@@ -29,8 +30,7 @@ from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder
 from airhilt.report import report
 from airhilt.report.report import write_report
-from airhilt.report.timelines import Spells
-from airhilt.run.simulation import run
+from airhilt.report.timelines import Intervals
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 
@@ -312,7 +312,7 @@ def test_phases_last_from_one_change_to_the_next(folder: Path) -> None:
 
 
 def test_what_goes_on_again_is_another_spell() -> None:
-    spells = Spells[str]()
+    spells = Intervals[str]()
     for t_ns, now in ((0, ["a"]), (1, ["a", "b"]), (2, ["b"]), (3, ["a", "b"])):
         spells.go_on(t_ns, now)
     assert spells.until(5) == [("a", 0, 2), ("b", 1, 5), ("a", 3, 5)]
@@ -440,14 +440,14 @@ def test_a_hostile_phase_stays_data(folder: Path) -> None:
 
 
 def test_nothing_in_the_page_makes_markup_of_data() -> None:
-    template = resources.files("airhilt.metrics").joinpath("report.html").read_text("utf-8")
+    template = resources.files("airhilt.report").joinpath("report.html").read_text("utf-8")
     assert template.count(report.PLACEHOLDER) == 1
     for maker in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval("):
         assert maker not in template
 
 
 def test_the_page_needs_nothing_from_outside() -> None:
-    template = resources.files("airhilt.metrics").joinpath("report.html").read_text("utf-8")
+    template = resources.files("airhilt.report").joinpath("report.html").read_text("utf-8")
     assert "://" not in template
     assert not re.search(r"<(img|iframe|object|embed)|\bsrc=|@import|url\((?!#)", template)
     assert re.findall(r'href="([^"]*)"', template) == ["data:,"]

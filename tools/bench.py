@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from airhilt.scenario import Scenario
     from airhilt.sensors.cameras import RendererName
     from airhilt.sensors.cameras.scene.bodies import BodyState
-    from airhilt.sensors.cameras.scene_renderer import Studio
+    from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
 ROUNDS = 5
 
@@ -70,10 +70,10 @@ def best(measure: Callable[[], float], rounds: int = ROUNDS) -> float:
 def headon() -> dict[str, float]:
     """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
     from airhilt import load, run
-    from airhilt.run.setup import TICK_S
+    from airhilt.cosim.setup import TICK_S
     from airhilt.scenario import realise
-    from airhilt.world.actors import build_cast
-    from airhilt.world.site import Setting
+    from airhilt.world.actors import build_actors
+    from airhilt.world.site import ScenarioSite
 
     scenario = load("s02a_headon")
     factors, whole, bare = [], [], []
@@ -83,7 +83,7 @@ def headon() -> dict[str, float]:
         factors.append(summary.real_time_factor)
         whole.append(summary.cpu_s / summary.duration_s)
         realised, _ = realise(scenario, 0)
-        cast = build_cast(realised, Setting.of(realised), 0, TICK_S)
+        cast = build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
         steppers = [flight.body._airframe.step for flight in cast.values()]
         begun = time.process_time()
         for _ in range(60 * round(6 / TICK_S)):
@@ -444,10 +444,10 @@ class Stage:
         from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, vehicle_model
         from airhilt.sensors.cameras.scene.builder import light_of, world_of
         from airhilt.sensors.cameras.view import Intrinsics, Pose
-        from airhilt.world.site import Setting
+        from airhilt.world.site import ScenarioSite
 
         scenario = load("s01b_nominal")
-        self._setting = Setting.of(scenario)
+        self._setting = ScenarioSite.of(scenario)
         self._light = light_of(scenario, self._setting)
         self._world = world_of(scenario, self._setting, self._light)
         self._models: dict[str, Model] = {
@@ -461,11 +461,11 @@ class Stage:
             Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
         ]
 
-    def studio(self, renderer: RendererName) -> Studio:
+    def studio(self, renderer: RendererName) -> SceneRenderer:
         """Return a studio with both cameras."""
-        from airhilt.sensors.cameras.scene_renderer import Studio
+        from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
-        return Studio(self._world, self._light, self._models, self._cameras, renderer)
+        return SceneRenderer(self._world, self._light, self._models, self._cameras, renderer)
 
     def scene(self, turn_rad: float = 0.0) -> list[list[BodyState]]:
         """Return where all are in the pictures of a second, 70 m/s down a path of 3 degrees."""
@@ -495,13 +495,13 @@ class Stage:
 def frames() -> dict[str, float]:
     """Take 10,000 pictures in the process of its own, and ask for its memory on the way."""
     from airhilt import load
-    from airhilt.sensors.cameras.renderer_process import RemoteStudio
+    from airhilt.sensors.cameras.renderer_process import RendererProcess
 
     scenario = load("s01b_nominal")
     scene = [[bodies[0]._replace(actor="AAL123")] for bodies in Stage().scene()]
     found: dict[str, float] = {}
     for renderer in ("open3d", "moderngl"):
-        with RemoteStudio(scenario, ["runway_01"], renderer) as studio:
+        with RendererProcess(scenario, ["runway_01"], renderer) as studio:
             for taken in range(10_001):
                 studio.shoot(["runway_01"], scene[taken % len(scene)], 0)
                 if taken in (1_000, 10_000):

@@ -52,7 +52,7 @@ from airhilt.sensors.cameras import RENDERERS, RendererName
 from airhilt.sensors.cameras.dataset.coco import studio_of
 from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting, cast
 from airhilt.sensors.cameras.scene.bodies import BodyState
-from airhilt.sensors.cameras.scene_renderer import Studio
+from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.sensor import view_message
 from airhilt.sim.streams import stream
 from airhilt.units import seconds_to_ns
@@ -117,7 +117,7 @@ def runs(
 
 
 def shots(
-    sitting: Sitting, studio: Studio, camera: str, begin: Sequence[BodyState], seconds: float
+    sitting: Sitting, studio: SceneRenderer, camera: str, begin: Sequence[BodyState], seconds: float
 ) -> Iterator[Exposure]:
     """Yield the pictures of a camera while its aircraft, if it has one, goes on."""
     frame = sitting.layout.frame if sitting.layout is not None else LocalFrame((0.8, 0.0))

@@ -150,7 +150,7 @@ def matched(
 
 def surely_found(engine: VisionEngine, picture: Picture) -> list[Found]:
     """Return what of a picture counts by itself."""
-    return [each for each in engine.detector.detect(picture) if each.confidence >= engine.sure]
+    return [each for each in engine.detector.detect(picture) if each.confidence >= engine.threshold]
 
 
 def judge(engine: VisionEngine, shots: Sequence[Shot]) -> Judgement:
@@ -275,11 +275,11 @@ def _shoot(
 ) -> Iterator[Any]:
     from airhilt.sensors.cameras import RENDERERS
     from airhilt.sensors.cameras.scene.bodies import aircraft_model
-    from airhilt.sensors.cameras.scene_renderer import Studio
+    from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
     models = {"737": aircraft_model("737"), "own": aircraft_model("737")}
     chosen = next(known for known in RENDERERS if known == renderer)
-    studio = Studio(world, light, models, [camera], chosen)
+    studio = SceneRenderer(world, light, models, [camera], chosen)
     try:
         for index, away in enumerate(_steps()):
             yield studio.shoot([camera.name], bodies(away), round(index / RATE_HZ * 1e9))[0]

@@ -76,11 +76,11 @@ class Block(nn.Module):
 
 def tower(blocks: tuple[int, int]) -> nn.Sequential:
     """Return what makes features of a view."""
-    fine, coarse, last = WIDTHS
+    supersampling, coarse, last = WIDTHS
     return nn.Sequential(
-        convolution(4, fine, 2, 5),
-        *(Block(fine) for _ in range(blocks[0])),
-        convolution(fine, coarse, 2),
+        convolution(4, supersampling, 2, 5),
+        *(Block(supersampling) for _ in range(blocks[0])),
+        convolution(supersampling, coarse, 2),
         *(Block(coarse) for _ in range(blocks[1])),
         convolution(coarse, last, 2),
         nn.Flatten(),

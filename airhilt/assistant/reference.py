@@ -102,8 +102,8 @@ def reference_worker(
             from airhilt.assistant.vision.engines import vision_engine
             from airhilt.assistant.vision.worker import VisionWorker
 
-            detector, sure = vision_engine(DETECTOR if engine is None else engine)
-            return VisionWorker(detector, name or kind, sure)
+            detector, threshold = vision_engine(DETECTOR if engine is None else engine)
+            return VisionWorker(detector, name or kind, threshold)
         case "decision" if engine is None:
             return DecisionWorker(name=name or kind)
         case "decision":

@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
+from airhilt.cosim.router import RUN, UNREGISTERED
 from airhilt.errors import BusError
 from airhilt.messages import WORKER_NAME, WorkerDescription
-from airhilt.run.router import FOREIGN, RUN
 
-RESERVED = (RUN, FOREIGN)
+RESERVED = (RUN, UNREGISTERED)
 """Publishers in the log that are no workers."""
 
 

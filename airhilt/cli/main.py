@@ -191,8 +191,8 @@ Examples:
 def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -> None:
     """Run a scenario and leave a run folder."""
     from airhilt.cli.progress import ProgressLine, print_summary
+    from airhilt.cosim.simulation import run
     from airhilt.options import Options
-    from airhilt.run.simulation import run
     from airhilt.scenario import load
 
     if given["no_cameras"]:
@@ -310,7 +310,7 @@ def replay(run_folder: Path, as_json: bool) -> None:
     Exit code 0: identical. 1: they differ.
     """
     from airhilt.cli.progress import ProgressLine
-    from airhilt.run.replay import replay as replay_run
+    from airhilt.cosim.replay import replay as replay_run
 
     with ProgressLine(f"replay of {run_folder}") as progress:
         verdict = replay_run(run_folder, progress)
@@ -368,18 +368,18 @@ Examples:
 @click.argument("file")
 def validate(file: str) -> None:
     """Check a scenario file, and put all its actors where they begin."""
-    from airhilt.run.setup import TICK_S
+    from airhilt.cosim.setup import TICK_S
     from airhilt.scenario import load
     from airhilt.scenario.loading import draw
-    from airhilt.world.actors import build_cast
-    from airhilt.world.site import Setting
+    from airhilt.world.actors import build_actors
+    from airhilt.world.site import ScenarioSite
 
     try:
         scenario = load(file)
     except ScenarioError as error:
         raise AirhiltError("\n".join(error.problems)) from None
     realised, _ = draw(scenario, 0)
-    build_cast(realised, Setting.of(realised), 0, TICK_S)
+    build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
     click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
 
 

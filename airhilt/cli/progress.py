@@ -11,9 +11,9 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from airhilt.cosim.simulation import Observer, Snapshot
 from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary, VisionStatistics
-from airhilt.run.simulation import Observer, Snapshot
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0

@@ -19,7 +19,7 @@ REPEAT = re.compile(r"\.repeat-[0-9]+$")
 
 
 @dataclass
-class RadioCall:
+class CallRecord:
     """One transmission, as far as it is known."""
 
     said: SpokenTruth | None = None
@@ -35,13 +35,13 @@ class RadioCall:
         return [transcript for transcript in self.transcripts if transcript.engine != TEXT]
 
 
-class RadioCalls:
+class CallRecords:
     """All calls of a run, by their ids, in the order in which they ended."""
 
     def __init__(self) -> None:
-        self._calls: dict[str, RadioCall] = {}
+        self._calls: dict[str, CallRecord] = {}
 
-    def __iter__(self) -> Iterator[RadioCall]:
+    def __iter__(self) -> Iterator[CallRecord]:
         return iter(self._calls.values())
 
     def take(self, message: Message) -> None:
@@ -56,8 +56,8 @@ class RadioCalls:
             case HearingTruth(id=name):
                 self._call(name).hearings.append(message)
 
-    def _call(self, name: str) -> RadioCall:
-        return self._calls.setdefault(name, RadioCall())
+    def _call(self, name: str) -> CallRecord:
+        return self._calls.setdefault(name, CallRecord())
 
     # --- the numbers ------------------------------------------------------------------------
 

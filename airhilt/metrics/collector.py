@@ -20,8 +20,8 @@ from airhilt.messages import (
     Status,
     Transcript,
 )
-from airhilt.metrics.calls import TEXT, RadioCalls
-from airhilt.metrics.detection_scores import Sight
+from airhilt.metrics.calls import TEXT, CallRecords
+from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import (
     ClosestApproach,
@@ -31,7 +31,7 @@ from airhilt.metrics.summary import (
     ToldAdvisory,
     severest,
 )
-from airhilt.scenario.models import AircraftActor, Scenario, VehicleActor, WildlifeActor
+from airhilt.scenario.models import AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
 from airhilt.sim import StepRecord
 from airhilt.surveillance import tcas
 from airhilt.units import SECOND_NS
@@ -97,11 +97,11 @@ class Collector:
         self._callsigns = {actor.callsign: actor.callsign for actor in scenario.actors} | {
             actor.icao24: actor.callsign
             for actor in scenario.actors
-            if not isinstance(actor, WildlifeActor)
+            if not isinstance(actor, WildlifeSpec)
         }
         self._told: dict[str, _Told] = {}
-        self._calls = RadioCalls()
-        self._sight = Sight()
+        self._calls = CallRecords()
+        self._sight = DetectionScores()
         self._latencies_s: dict[str, list[float]] = {
             stage: [] for stage in ("adsb", "asr", "asr_after_end", "vision", "decision", "tts")
         }
@@ -367,7 +367,7 @@ def roster_of(scenario: Scenario) -> tuple[str, ...]:
     return tuple(
         actor.callsign
         for actor in scenario.actors
-        if isinstance(actor, VehicleActor) or (isinstance(actor, AircraftActor) and actor.on_roster)
+        if isinstance(actor, VehicleSpec) or (isinstance(actor, AircraftSpec) and actor.on_roster)
     )
 
 

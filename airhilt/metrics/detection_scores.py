@@ -201,7 +201,7 @@ class _Camera:
             self._confirmed[detection.track_id] = known or sighting is not None
 
 
-class Sight:
+class DetectionScores:
     """Listens to cameras and to what is seen by them."""
 
     def __init__(self) -> None:

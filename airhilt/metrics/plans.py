@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from airhilt.commands import AltitudeCommand
 from airhilt.geodesy.relative_motion import VerticalProfile
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
@@ -23,7 +23,7 @@ class Plans:
     by the line's id.
     """
 
-    def __init__(self, lines: Sequence[HappeningLine], ends_ns: Mapping[str, int]) -> None:
+    def __init__(self, lines: Sequence[EffectiveLine], ends_ns: Mapping[str, int]) -> None:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
         for happening in lines:
             for scripted in happening.line.commands if happening.line else ():

@@ -64,7 +64,7 @@ class RunOptions(BaseModel):
     detector: str = ""
 
 
-class RecordedWorker(BaseModel):
+class WorkerRecord(BaseModel):
     """A worker that took part."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -84,7 +84,7 @@ class RunInfo(BaseModel):
     scenario: dict[str, Any]
     realised: dict[str, Any]
     draws: list[dict[str, Any]]
-    workers: list[RecordedWorker] = []
+    workers: list[WorkerRecord] = []
     unregistered_programs: bool = False
     endpoint: str
     started_at: str

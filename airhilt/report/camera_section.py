@@ -90,7 +90,7 @@ class _Lane:
                 self.spans["false" if sighting is None else "confirmed"].add(truth.t_frame_ns)
 
 
-class Gallery:
+class CameraSection:
     """Takes in what a log says of cameras.
 
     Parameters

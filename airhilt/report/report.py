@@ -30,13 +30,13 @@ from airhilt.messages import (
     Transcript,
     Transmission,
 )
-from airhilt.metrics.calls import RadioCall, RadioCalls
+from airhilt.metrics.calls import CallRecord, CallRecords
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.metrics.words import align
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
-from airhilt.report.camera_section import Gallery
+from airhilt.report.camera_section import CameraSection
 from airhilt.report.sounds import Sounds
-from airhilt.report.timelines import Approach, PhaseLane, RunwayLane, Spell, Spells
+from airhilt.report.timelines import Approach, Interval, Intervals, PhaseLane, RunwayLane
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.voices.engine import SAMPLE_RATE_HZ
 from airhilt.world.flight import load_aircraft_type
@@ -100,7 +100,7 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
 
 
 def _page(data: Json) -> str:
-    template = resources.files("airhilt.metrics").joinpath("report.html").read_text("utf-8")
+    template = resources.files("airhilt.report").joinpath("report.html").read_text("utf-8")
     return template.replace(PLACEHOLDER, _embeddable(data))
 
 
@@ -114,8 +114,8 @@ def _reduce(folder: RunFolder, page: Path) -> Json:
     """Return everything that the page shows."""
     info = folder.info()
     notes: list[str] = []
-    gallery = Gallery(folder, page)
-    log = _read(folder, _points_a_track(info), gallery, notes)
+    camera_section = CameraSection(folder, page)
+    log = _read(folder, _points_a_track(info), camera_section, notes)
     summary = _summary(folder, notes)
     _note_how_it_ended(info, log, notes)
     if log.events_left_out:
@@ -157,11 +157,11 @@ def _reduce(folder: RunFolder, page: Path) -> Json:
         "separations": _separations(tracks, pair),
         "airport": None if ground is None else ground.as_json(),
         "phases": [
-            {"callsign": actor, "spells": [_spell(spell) for spell in lane.spells()]}
+            {"callsign": actor, "spells": [_spell(interval) for interval in lane.intervals()]}
             for actor, lane in log.phases.items()
         ],
         "radio": _radio(log, Sounds(folder.audio_path, page), notes),
-        "cameras": _cameras(gallery, notes),
+        "cameras": _cameras(camera_section, notes),
         "runways": [_runway(lane, log.end_ns, ground, tracks) for lane in log.runways.values()],
         "events": [_with_line(event, info) for event in log.events],
         "latencies": _latencies(folder, notes),
@@ -265,9 +265,11 @@ def _with_line(event: Json, info: RunInfo) -> Json:
     return event | {"speaker": declared["speaker"], "line": _cut(declared["text"])}
 
 
-def _read(folder: RunFolder, points_a_track: int, gallery: Gallery, notes: list[str]) -> _Log:
+def _read(
+    folder: RunFolder, points_a_track: int, camera_section: CameraSection, notes: list[str]
+) -> _Log:
     """Return what the log says, up to where it breaks off; cameras are left to the gallery."""
-    log = _Log(points_a_track, gallery)
+    log = _Log(points_a_track, camera_section)
     try:
         for logged in read_log(folder.log_path):
             log.take(logged)
@@ -343,19 +345,19 @@ def _state(data: bytes) -> _State:
 class _Log:
     """Sorts out the messages of a log."""
 
-    def __init__(self, points_a_track: int, gallery: Gallery) -> None:
+    def __init__(self, points_a_track: int, camera_section: CameraSection) -> None:
         self.tracks: dict[str, _Thinned] = {}
         self.phases: dict[str, PhaseLane] = {}
         self.runways: dict[str, RunwayLane] = {}
         self.events: list[Json] = []
         self.events_left_out = 0
-        self.calls = RadioCalls()
+        self.calls = CallRecords()
         self.voices: list[AdvisoryAudio] = []
         self.end_ns = 0
         self.ended = False
         """Whether the run said that it was over."""
         self._points_a_track = points_a_track
-        self._gallery = gallery
+        self._gallery = camera_section
 
     def take(self, logged: Logged) -> None:
         """Take in one message."""
@@ -591,12 +593,12 @@ class _Flown(NamedTuple):
 
     def _on_ground_s(self) -> list[tuple[float, float]]:
         """Return from when to when it was on the ground."""
-        spells: Spells[bool] = Spells()
+        intervals: Intervals[bool] = Intervals()
         for state in self.states:
-            spells.go_on(state.t_ns, [True] if state.on_ground else [])
+            intervals.go_on(state.t_ns, [True] if state.on_ground else [])
         return [
-            (round(spell.from_ns / SECOND_NS, 2), round(spell.to_ns / SECOND_NS, 2))
-            for spell in spells.until(self.states[-1].t_ns)
+            (round(interval.from_ns / SECOND_NS, 2), round(interval.to_ns / SECOND_NS, 2))
+            for interval in intervals.until(self.states[-1].t_ns)
         ]
 
 
@@ -659,14 +661,14 @@ def _separations(tracks: dict[str, _Flown], pair: list[str] | None) -> Json | No
 # --- lanes over time ------------------------------------------------------------------------
 
 
-def _spell(spell: Spell[str]) -> Json:
-    return {"what": _cut(spell.what), **_from_to(spell)}
+def _spell(interval: Interval[str]) -> Json:
+    return {"what": _cut(interval.what), **_from_to(interval)}
 
 
-def _from_to(spell: Spell[Any]) -> Json:
+def _from_to(interval: Interval[Any]) -> Json:
     return {
-        "from": round(spell.from_ns / SECOND_NS, 2),
-        "to": round(spell.to_ns / SECOND_NS, 2),
+        "from": round(interval.from_ns / SECOND_NS, 2),
+        "to": round(interval.to_ns / SECOND_NS, 2),
     }
 
 
@@ -675,32 +677,34 @@ def _runway(
 ) -> Json:
     return {
         "runway": lane.name,
-        "occupants": [_spell(spell) for spell in lane.occupants(end_ns)],
+        "occupants": [_spell(interval) for interval in lane.occupants(end_ns)],
         "approaches": [
             {
-                "what": spell.what.actor,
-                "runway": spell.what.runway,
-                "threshold": _crossed_s(spell, ground, tracks.get(spell.what.actor)),
-                **_from_to(spell),
+                "what": interval.what.actor,
+                "runway": interval.what.runway,
+                "threshold": _crossed_s(interval, ground, tracks.get(interval.what.actor)),
+                **_from_to(interval),
             }
-            for spell in lane.approaches(end_ns)
+            for interval in lane.approaches(end_ns)
         ],
     }
 
 
 def _crossed_s(
-    spell: Spell[Approach], ground: GroundPlan | None, track: _Flown | None
+    interval: Interval[Approach], ground: GroundPlan | None, track: _Flown | None
 ) -> float | None:
     """Return when an approach came over its threshold."""
     if ground is None or track is None:
         return None
     times_s = [state.t_ns / SECOND_NS for state in track.states]
-    first, last = np.searchsorted(times_s, (spell.from_ns / SECOND_NS, spell.to_ns / SECOND_NS))
+    first, last = np.searchsorted(
+        times_s, (interval.from_ns / SECOND_NS, interval.to_ns / SECOND_NS)
+    )
     part = slice(max(first - 1, 0), last + 1)
     metres = ([value * NAUTICAL_MILE for value in axis] for axis in (track.east_nm, track.north_nm))
     east_m, north_m = (values[part] for values in metres)
     try:
-        crossed = ground.threshold_crossed_s(spell.what.runway, times_s[part], east_m, north_m)
+        crossed = ground.threshold_crossed_s(interval.what.runway, times_s[part], east_m, north_m)
     except AirhiltError:  # The airport's file has changed since.
         return None
     return None if crossed is None else round(crossed, 2)
@@ -736,18 +740,18 @@ def _radio(log: _Log, sounds: Sounds, notes: list[str]) -> Json:
     return radio
 
 
-def _cameras(gallery: Gallery, notes: list[str]) -> Json:
+def _cameras(camera_section: CameraSection, notes: list[str]) -> Json:
     """Return what cameras have shown."""
-    cameras = gallery.as_json() | {"cause": _cut(gallery.cause)}
-    if gallery.linked:
+    cameras = camera_section.as_json() | {"cause": _cut(camera_section.cause)}
+    if camera_section.linked:
         notes.append(
-            f"There was no room in this file for {gallery.linked} pictures: they are links to the "
-            "pictures folder of the run."
+            f"There was no room in this file for {camera_section.linked} pictures: they are links "
+            "to the pictures folder of the run."
         )
     return cameras
 
 
-def _radio_call(call: RadioCall, said: SpokenTruth, sounds: Sounds) -> Json:
+def _radio_call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:
     return {
         "id": _cut(said.id),
         "from": round(said.t_tx_ns / SECOND_NS, 3),

@@ -14,7 +14,7 @@ PHASE = re.compile(rb'"phase":\s*("(?:[^"\\]|\\.)*")')
 """In the bytes of a state: to parse each only to see that nothing has changed takes too long."""
 
 
-class Spell(NamedTuple, Generic[T]):
+class Interval(NamedTuple, Generic[T]):
     """Something that went on from one time to another."""
 
     what: T
@@ -22,32 +22,32 @@ class Spell(NamedTuple, Generic[T]):
     to_ns: int
 
 
-class Spells(Generic[T]):
+class Intervals(Generic[T]):
     """Makes spells of what goes on at rising times."""
 
     def __init__(self) -> None:
-        self._ended: list[Spell[T]] = []
+        self._ended: list[Interval[T]] = []
         self._begun_ns: dict[T, int] = {}
 
     def go_on(self, t_ns: int, now: Iterable[T]) -> None:
         """Take in what goes on from this time on; all else has ended."""
         going_on = dict.fromkeys(now)
         for what in [what for what in self._begun_ns if what not in going_on]:
-            self._ended.append(Spell(what, self._begun_ns.pop(what), t_ns))
+            self._ended.append(Interval(what, self._begun_ns.pop(what), t_ns))
         for what in going_on:
             self._begun_ns.setdefault(what, t_ns)
 
-    def until(self, end_ns: int) -> list[Spell[T]]:
+    def until(self, end_ns: int) -> list[Interval[T]]:
         """Return all spells in the order in which they began; those that go on end here."""
-        going_on = [Spell(what, begun_ns, end_ns) for what, begun_ns in self._begun_ns.items()]
-        return sorted([*self._ended, *going_on], key=lambda spell: spell.from_ns)
+        going_on = [Interval(what, begun_ns, end_ns) for what, begun_ns in self._begun_ns.items()]
+        return sorted([*self._ended, *going_on], key=lambda interval: interval.from_ns)
 
 
 class PhaseLane:
     """The phases of one actor."""
 
     def __init__(self) -> None:
-        self._spells: Spells[str] = Spells()
+        self._spells: Intervals[str] = Intervals()
         self._phase = b""
         self._last_ns = 0
 
@@ -59,7 +59,7 @@ class PhaseLane:
             self._phase = found[1]
             self._spells.go_on(t_ns, [json.loads(self._phase)])
 
-    def spells(self) -> list[Spell[str]]:
+    def intervals(self) -> list[Interval[str]]:
         """Return its phases, the last until its last state."""
         return self._spells.until(self._last_ns)
 
@@ -76,8 +76,8 @@ class RunwayLane:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self._occupants: Spells[str] = Spells()
-        self._approaches: Spells[Approach] = Spells()
+        self._occupants: Intervals[str] = Intervals()
+        self._approaches: Intervals[Approach] = Intervals()
 
     def take(self, t_ns: int, truth: Json) -> None:
         """Take in a `RunwayTruth`."""
@@ -86,10 +86,10 @@ class RunwayLane:
             t_ns, (Approach(arrival["actor"], arrival["runway"]) for arrival in truth["arrivals"])
         )
 
-    def occupants(self, end_ns: int) -> list[Spell[str]]:
+    def occupants(self, end_ns: int) -> list[Interval[str]]:
         """Return when each actor was in the protected area."""
         return self._occupants.until(end_ns)
 
-    def approaches(self, end_ns: int) -> list[Spell[Approach]]:
+    def approaches(self, end_ns: int) -> list[Interval[Approach]]:
         """Return when each aircraft was known to come, until it was down or went around."""
         return self._approaches.until(end_ns)

@@ -26,7 +26,7 @@ from airhilt.scenario.models import (
 
 
 @dataclass(frozen=True)
-class HappeningLine:
+class EffectiveLine:
     """A line as it really happens."""
 
     declared: RadioLine
@@ -43,12 +43,12 @@ class HappeningLine:
     """False: it is said over whatever is being said."""
 
 
-def as_it_happens(scenario: Scenario) -> list[HappeningLine]:
+def apply_failures(scenario: Scenario) -> list[EffectiveLine]:
     """Return the lines of a scenario with its failures, in the order of the file."""
     return [_happening(line, scenario.failures) for line in scenario.radio.lines]
 
 
-def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningLine:
+def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> EffectiveLine:
     line: RadioLine | None = declared
     late_s = 0.0
     texts: list[str] = []
@@ -93,7 +93,7 @@ def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> HappeningL
                 misled |= _actors(declared.commands)
                 listens_first = False
                 texts.append(f"{declared.speaker} does not listen before speaking")
-    return HappeningLine(
+    return EffectiveLine(
         declared,
         line,
         late_s,

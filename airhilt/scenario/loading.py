@@ -28,7 +28,7 @@ from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
 from airhilt.scenario.models import (
     Airborne,
-    AircraftActor,
+    AircraftSpec,
     AircraftStart,
     CallsignConfused,
     Condition,
@@ -41,14 +41,14 @@ from airhilt.scenario.models import (
     Scenario,
     Standing,
     StuckMicrophone,
-    VehicleActor,
-    WildlifeActor,
+    VehicleSpec,
+    WildlifeSpec,
 )
 from airhilt.scenario.perturbation import Draw, PathError, locate, realise
 from airhilt.scenario.vhf_channels import channel_spacing_khz
 from airhilt.units import FOOT
 from airhilt.world.flight import AircraftType, load_aircraft_type
-from airhilt.world.site import Setting, distance_m
+from airhilt.world.site import ScenarioSite, distance_m
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.runway import Place
 
@@ -295,18 +295,18 @@ def _cross_checks(scenario: Scenario) -> Iterator[Problem]:
         yield from shared
         return
     try:
-        setting = Setting.of(scenario)
+        site = ScenarioSite.of(scenario)
     except AirhiltError as error:
         yield Problem("scene/airport", str(error))
         return
-    yield from _actors(scenario, setting)
-    yield from _places(scenario, setting)
+    yield from _actors(scenario, site)
+    yield from _places(scenario, site)
     yield from _references(scenario, callsigns, line_ids)
     yield from _radio(scenario, line_ids)
     yield from _misfits(scenario)
-    if setting.layout is not None:
+    if site.layout is not None:
         yield from _wind(scenario)
-        yield from _ways(scenario, setting, setting.layout)
+        yield from _ways(scenario, site, site.layout)
     yield from _failures(scenario, line_ids)
     yield from _perturbations(scenario)
 
@@ -330,44 +330,44 @@ def _duplicates(
 def _addresses(scenario: Scenario) -> list[str]:
     """Return the 24-bit address of each actor; a name that none can have where it has none."""
     return [
-        f"{actor.callsign} has none" if isinstance(actor, WildlifeActor) else actor.icao24
+        f"{actor.callsign} has none" if isinstance(actor, WildlifeSpec) else actor.icao24
         for actor in scenario.actors
     ]
 
 
-def _actors(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
-    if abs(setting.centre.lat_deg) > GREATEST_LATITUDE_DEG:
+def _actors(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
+    if abs(site.centre.lat_deg) > GREATEST_LATITUDE_DEG:
         yield Problem(
             "scene/centre/lat_deg",
-            f"found {setting.centre.lat_deg:g}; expected within +-"
+            f"found {site.centre.lat_deg:g}; expected within +-"
             f"{GREATEST_LATITUDE_DEG:g}, where relative motion is exact enough",
         )
     for index, actor in enumerate(scenario.actors):
         path = f"actors/{index}"
-        if isinstance(actor, AircraftActor):
-            yield from _aircraft(path, actor, setting)
+        if isinstance(actor, AircraftSpec):
+            yield from _aircraft(path, actor, site)
         else:
             yield from _kind(path, actor)
 
 
-def _kind(path: str, actor: VehicleActor | WildlifeActor) -> Iterator[Problem]:
+def _kind(path: str, actor: VehicleSpec | WildlifeSpec) -> Iterator[Problem]:
     try:
         load_kind(actor.kind, actor.type)
     except AirhiltError as error:
         yield Problem(f"{path}/kind", str(error))
 
 
-def _aircraft(path: str, actor: AircraftActor, setting: Setting) -> Iterator[Problem]:
+def _aircraft(path: str, actor: AircraftSpec, site: ScenarioSite) -> Iterator[Problem]:
     try:
         kind = load_aircraft_type(actor.aircraft)
     except AirhiltError as error:
         yield Problem(f"{path}/aircraft", str(error))
         return
-    initial, ground_ft = actor.initial, setting.ground_m / FOOT
+    initial, ground_ft = actor.initial, site.ground_m / FOOT
     if not isinstance(initial, Airborne):
         return
     if initial.altitude_ft <= ground_ft:
-        where = "the airport" if setting.layout else "scene/terrain_elevation_ft"
+        where = "the airport" if site.layout else "scene/terrain_elevation_ft"
         yield Problem(
             f"{path}/initial/altitude_ft",
             f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
@@ -390,7 +390,7 @@ def _wind(scenario: Scenario) -> Iterator[Problem]:
         )
 
 
-def _places(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
+def _places(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
     """Yield what refers to a runway, a hold-short position or a node that does not exist."""
     for path, model in _models_of(scenario, ""):
         position: Position | None = None
@@ -405,23 +405,21 @@ def _places(scenario: Scenario, setting: Setting) -> Iterator[Problem]:
                     continue
                 position = RunwayPosition(type="runway", runway=ident, along_m=0.0)
         try:
-            setting.place(position)
+            site.place(position)
         except AirhiltError as error:
             yield Problem(path, str(error))
     for index, actor in enumerate(scenario.actors):
         if not isinstance(actor.initial, Standing):
             continue
         try:
-            away_m = distance_m(
-                setting.place(actor.initial.position), setting.place(setting.centre)
-            )
+            away_m = distance_m(site.place(actor.initial.position), site.place(site.centre))
         except AirhiltError:
             continue  # Named above.
-        if setting.layout is None or away_m > GREATEST_SURFACE_DISTANCE_M:
+        if site.layout is None or away_m > GREATEST_SURFACE_DISTANCE_M:
             yield Problem(
                 f"actors/{index}/initial/position",
                 f"found a place {away_m / 1000.0:.1f} km from the centre of "
-                f"{'an airport' if setting.layout else 'airspace without an airport'}; expected "
+                f"{'an airport' if site.layout else 'airspace without an airport'}; expected "
                 f"an airport, and at most {GREATEST_SURFACE_DISTANCE_M / 1000.0:g} km",
             )
 
@@ -440,7 +438,7 @@ def _models_of(value: Any, path: str) -> Iterator[tuple[str, BaseModel]]:
 def _told(scenario: Scenario) -> Iterator[tuple[str, str, Command]]:
     """Yield what each actor is told, with its path, in the order of the file."""
     for index, actor in enumerate(scenario.actors):
-        if not isinstance(actor, WildlifeActor):
+        if not isinstance(actor, WildlifeSpec):
             for number, command in enumerate(actor.commands):
                 yield f"actors/{index}/commands/{number}", actor.callsign, command
     for index, line in enumerate(scenario.radio.lines):
@@ -476,7 +474,7 @@ def _misfits(scenario: Scenario) -> Iterator[Problem]:
             )
 
 
-def _ways(scenario: Scenario, setting: Setting, layout: Layout) -> Iterator[Problem]:
+def _ways(scenario: Scenario, site: ScenarioSite, layout: Layout) -> Iterator[Problem]:
     """Yield taxi commands without a way, and aircraft that stand off the taxiways.
 
     After a takeoff or a landing nobody knows where a way begins; then it is one from a stand.
@@ -484,8 +482,8 @@ def _ways(scenario: Scenario, setting: Setting, layout: Layout) -> Iterator[Prob
     somewhere = layout.node(layout.stands[0]) if layout.stands else None
     begins: dict[str, Place | None] = {}
     for index, actor in enumerate(scenario.actors):
-        begins[actor.callsign] = here = _stands_at(actor.initial, setting)
-        if here is None or somewhere is None or not isinstance(actor, AircraftActor):
+        begins[actor.callsign] = here = _stands_at(actor.initial, site)
+        if here is None or somewhere is None or not isinstance(actor, AircraftSpec):
             continue
         try:
             layout.taxi_route(here, somewhere)
@@ -493,7 +491,7 @@ def _ways(scenario: Scenario, setting: Setting, layout: Layout) -> Iterator[Prob
             yield Problem(f"actors/{index}/initial", str(error))
     for path, callsign, command in _told(scenario):
         if isinstance(command, TaxiCommand):
-            end = _place(setting, command.to)
+            end = _place(site, command.to)
             if end is None:
                 continue  # Named elsewhere.
             try:
@@ -518,26 +516,26 @@ def _exit(path: str, runway: str, name: str, layout: Layout) -> Iterator[Problem
         yield Problem(f"{path}/exit", f"runway {runway} has no exit {name!r}; there are: {known}")
 
 
-def _stands_at(initial: AircraftStart, setting: Setting) -> Place | None:
+def _stands_at(initial: AircraftStart, site: ScenarioSite) -> Place | None:
     """Return where an actor begins on the ground, None if it does not or nobody knows."""
     match initial:
         case Standing(position=position):
-            return _place(setting, position)
+            return _place(site, position)
         case HoldingShort(runway=runway, taxiway=taxiway, before_m=before_m):
             try:
-                hold = setting.airport.hold(runway, taxiway)
+                hold = site.airport.hold(runway, taxiway)
             except AirhiltError:
                 return None
             return onward(hold.place, hold.heading_rad, -before_m)
         case LinedUp(runway=runway):
-            return _place(setting, RunwayPosition(type="runway", runway=runway, along_m=0.0))
+            return _place(site, RunwayPosition(type="runway", runway=runway, along_m=0.0))
     return None
 
 
-def _place(setting: Setting, position: Position) -> Place | None:
+def _place(site: ScenarioSite, position: Position) -> Place | None:
     """Return where a position is, None if it refers to nothing."""
     try:
-        return setting.place(position)
+        return site.place(position)
     except AirhiltError:
         return None
 
@@ -619,7 +617,7 @@ def _engine(path: str, failure: EngineFailure, scenario: Scenario) -> Iterator[P
     actor = next((one for one in scenario.actors if one.callsign == failure.actor), None)
     if actor is None:
         return  # Named elsewhere.
-    if not isinstance(actor, AircraftActor):
+    if not isinstance(actor, AircraftSpec):
         yield Problem(f"{path}/actor", f"found a {actor.type}; expected an aircraft")
         return
     try:
@@ -672,7 +670,7 @@ def _references(scenario: Scenario, callsigns: list[str], line_ids: list[str]) -
 def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
     """Yield every callsign that refers to an actor."""
     for path, model in _models_of(scenario, ""):
-        if isinstance(model, AircraftActor | VehicleActor | WildlifeActor):
+        if isinstance(model, AircraftSpec | VehicleSpec | WildlifeSpec):
             continue
         for field in ("actor", "meant", "taken_by"):
             callsign = getattr(model, field, None)

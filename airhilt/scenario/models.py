@@ -126,7 +126,7 @@ VehicleAction = Annotated[VehicleCommand, Field(discriminator="action")]
 WildlifeAction = Annotated[WildlifeCommand, Field(discriminator="action")]
 
 
-class AircraftActor(_Model):
+class AircraftSpec(_Model):
     """An aircraft, with its crew."""
 
     type: Literal["aircraft"]
@@ -145,7 +145,7 @@ class AircraftActor(_Model):
     )
 
 
-class VehicleActor(_Model):
+class VehicleSpec(_Model):
     """A ground vehicle, with its driver."""
 
     type: Literal["vehicle"]
@@ -165,7 +165,7 @@ class Cue(_Model):
     command: WildlifeAction
 
 
-class WildlifeActor(_Model):
+class WildlifeSpec(_Model):
     """An animal, or a flock; nobody tells it what to do."""
 
     type: Literal["wildlife"]
@@ -181,7 +181,7 @@ class WildlifeActor(_Model):
     )
 
 
-Actor = Annotated[AircraftActor | VehicleActor | WildlifeActor, Field(discriminator="type")]
+ActorSpec = Annotated[AircraftSpec | VehicleSpec | WildlifeSpec, Field(discriminator="type")]
 
 
 # --- what is said -------------------------------------------------------------------------
@@ -669,7 +669,7 @@ class Scenario(_Model):
     family: Literal["S01A", "S01B", "S01C", "S02A", "S02B", "S02C"]
     scene: Scene
     duration_s: float = Field(gt=0.0, le=86_400.0, description="the run ends at the latest then")
-    actors: tuple[Actor, ...] = Field(min_length=1, max_length=500)
+    actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
     radio: Radio = Radio()
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
@@ -690,9 +690,9 @@ for _model in (
     AllOf,
     AnyOf,
     Cue,
-    WildlifeActor,
-    VehicleActor,
-    AircraftActor,
+    WildlifeSpec,
+    VehicleSpec,
+    AircraftSpec,
     ScriptedCommand,
     RadioLine,
     Radio,

@@ -10,10 +10,10 @@ from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import AdsbReport, DeclaredLatency
 from airhilt.scenario.models import (
     AdsbReceiver,
-    AircraftActor,
+    AircraftSpec,
     Scenario,
-    VehicleActor,
-    WildlifeActor,
+    VehicleSpec,
+    WildlifeSpec,
 )
 from airhilt.sim import Director, LatencySpec, Priority, StepRecord
 from airhilt.sim.streams import stream
@@ -30,9 +30,9 @@ from airhilt.surveillance.adsb import (
     Transponder,
 )
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
-from airhilt.world.actors.actor import Performer
+from airhilt.world.actors.actor import Actor
 from airhilt.world.mover import Motion, Mover, carried_on
-from airhilt.world.site import Setting, Site
+from airhilt.world.site import FixedSite, ScenarioSite
 
 STAGE = "adsb"
 DECLARED_LATENCY = DeclaredLatency(median_s=0.05, sigma=0.3)
@@ -56,8 +56,8 @@ class AdsbSensor:
         self,
         director: Director,
         scenario: Scenario,
-        setting: Setting,
-        performers: Mapping[str, Performer],
+        site: ScenarioSite,
+        actors: Mapping[str, Actor],
         latency: LatencySpec,
         seed: int,
         state_at_ns: Callable[[], int],
@@ -74,25 +74,25 @@ class AdsbSensor:
         self._seq = 0
         self._in_flight: dict[int, StepRecord] = {}
         self._reception = Reception(
-            [_receiver(declared, setting) for declared in _declared(scenario)],
+            [_receiver(declared, site) for declared in _declared(scenario)],
             scenario.adsb.loss_probability,
             [(seconds_to_ns(a), seconds_to_ns(b)) for a, b in scenario.adsb.outages_s],
         )
-        for performer in performers.values():
-            actor = performer.actor
-            if not isinstance(actor, WildlifeActor) and actor.transponder.equipped:
-                self._equip(performer, actor, seed)
+        for actor in actors.values():
+            spec = actor.spec
+            if not isinstance(spec, WildlifeSpec) and spec.transponder.equipped:
+                self._equip(actor, spec, seed)
 
-    def _equip(self, performer: Performer, actor: AircraftActor | VehicleActor, seed: int) -> None:
+    def _equip(self, actor: Actor, spec: AircraftSpec | VehicleSpec, seed: int) -> None:
         transponder = Transponder(
-            actor.icao24,
-            actor.callsign,
-            actor.transponder.nacp,
-            actor.transponder.nacv,
-            stream(seed, f"adsb/{actor.icao24}"),
-            performer.emitter_category,
+            spec.icao24,
+            spec.callsign,
+            spec.transponder.nacp,
+            spec.transponder.nacv,
+            stream(seed, f"adsb/{spec.icao24}"),
+            actor.emitter_category,
         )
-        body, rate, uniform = performer.body, SurfaceRate(), transponder.generator.uniform
+        body, rate, uniform = actor.body, SurfaceRate(), transponder.generator.uniform
         position_due_ns = 0
 
         def is_stationary(state: Motion) -> bool:
@@ -176,10 +176,10 @@ def _declared(scenario: Scenario) -> tuple[AdsbReceiver, ...]:
     return scenario.adsb.receivers or (AdsbReceiver(name="centre", position=centre),)
 
 
-def _receiver(declared: AdsbReceiver, setting: Setting) -> Receiver:
-    site = Site(
-        *setting.place(declared.position),
-        altitude_m=setting.ground_m + declared.antenna_height_ft * FOOT,
+def _receiver(declared: AdsbReceiver, site: ScenarioSite) -> Receiver:
+    antenna = FixedSite(
+        *site.place(declared.position),
+        altitude_m=site.ground_m + declared.antenna_height_ft * FOOT,
     )
     range_m = declared.range_nm * NAUTICAL_MILE
-    return Receiver(declared.name, site, range_m, ground_m=setting.ground_m)
+    return Receiver(declared.name, antenna, range_m, ground_m=site.ground_m)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Site:
+class FixedSite:
     """A place on the ground or in the air that does not move."""
 
     latitude_rad: float
@@ -36,7 +36,7 @@ class Site:
 
 
 @dataclass(frozen=True)
-class Setting:
+class ScenarioSite:
     """The place of a scenario: its centre, its ground, and its airport if it has one."""
 
     centre: GeodeticPosition
@@ -44,7 +44,7 @@ class Setting:
     layout: Layout | None = None
 
     @classmethod
-    def of(cls, scenario: Scenario) -> Setting:
+    def of(cls, scenario: Scenario) -> ScenarioSite:
         """Return the setting of a scenario.
 
         Raises

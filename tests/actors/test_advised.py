@@ -8,7 +8,7 @@ from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Reaction, Unable
-from airhilt.world.actors.advisory_delivery import Advised
+from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
 
 class Crew:
@@ -17,7 +17,7 @@ class Crew:
     category = "aircraft"
 
     def __init__(self, unable=False):
-        self.actor = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
+        self.spec = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
         self.body = SimpleNamespace(ended=None)
         self.heard = []
         self.unable = unable
@@ -56,7 +56,7 @@ class Told:
         def event(kind, subject, text):
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
 
-        advised = Advised(director, {"AAL123": self.crew}, event, is_voiced=voiced)
+        advised = AdvisoryDelivery(director, {"AAL123": self.crew}, event, is_voiced=voiced)
         for at_s, message in messages:
             director.at(
                 seconds_to_ns(at_s),

@@ -17,17 +17,17 @@ from airhilt.scenario.models import Reactions
 from airhilt.units import FOOT, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import Person
+from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 B737 = load_aircraft_type("737")
 COMMAND = TypeAdapter(Command)
 
 
 @cache
-def kdca() -> Setting:
-    return Setting.of(load("s01a_nominal"))
+def kdca() -> ScenarioSite:
+    return ScenarioSite.of(load("s01a_nominal"))
 
 
 @dataclass
@@ -111,7 +111,7 @@ class Plane:
 
 
 def crew_of(plane: Plane) -> Crew:
-    return Crew(Person("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
+    return Crew(ReactionModel("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
 
 
 def tell(crew: Crew, action: str, **arguments: object) -> None:

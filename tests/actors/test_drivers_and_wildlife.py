@@ -11,14 +11,14 @@ from airhilt import load
 from airhilt.commands import Command
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.units import KNOT
-from airhilt.world.actors import Performer, Unable, build_cast
-from airhilt.world.actors.triggers import Cues
-from airhilt.world.site import Setting, distance_m
+from airhilt.world.actors import Actor, Unable, build_actors
+from airhilt.world.actors.triggers import Triggers
+from airhilt.world.site import ScenarioSite, distance_m
 
 COMMAND = TypeAdapter(Command)
 
 
-def cast_of(name: str, **changed: object) -> dict[str, Performer]:
+def cast_of(name: str, **changed: object) -> dict[str, Actor]:
     scenario = load(name)
     actors = tuple(
         actor.model_copy(update=changed) if actor.callsign in ("OPS1", "DEER1") else actor
@@ -26,16 +26,16 @@ def cast_of(name: str, **changed: object) -> dict[str, Performer]:
         if actor.type != "aircraft"
     )
     scenario = scenario.model_copy(update={"actors": actors})
-    return build_cast(scenario, Setting.of(scenario), 0, 0.05)
+    return build_actors(scenario, ScenarioSite.of(scenario), 0, 0.05)
 
 
-def tell(performer: Performer, action: str, **arguments: object) -> None:
-    performer.command(COMMAND.validate_python({"action": action, **arguments}))
+def tell(actor: Actor, action: str, **arguments: object) -> None:
+    actor.command(COMMAND.validate_python({"action": action, **arguments}))
 
 
-def advance(performer: Performer, seconds: float) -> None:
+def advance(actor: Actor, seconds: float) -> None:
     for _ in range(round(seconds * 20)):
-        performer.body.advance()
+        actor.body.advance()
 
 
 def advisory(recommendation: object, active: bool = True) -> Advisory:
@@ -47,16 +47,16 @@ def advisory(recommendation: object, active: bool = True) -> Advisory:
 
 
 @pytest.fixture
-def driver() -> Performer:
+def driver() -> Actor:
     return cast_of("s01b_nominal")["OPS1"]
 
 
 def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver):
-    setting = driver.setting
+    site = driver.site
     tell(driver, "taxi", to={"type": "hold_short", "runway": "01", "taxiway": "D"})
     assert driver.body.phase == "driving"
     advance(driver, 120.0)
-    state, line = driver.body.state, setting.airport.hold("01", "D").place
+    state, line = driver.body.state, site.airport.hold("01", "D").place
     away = distance_m((state.latitude_rad, state.longitude_rad), line)
     assert driver.body.phase == "standing"
     assert away == pytest.approx(driver.body.dimensions.length_m / 2 + 3.0, abs=0.1)
@@ -96,7 +96,7 @@ def test_a_driver_says_what_it_cannot_do(driver):
 def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
     deer = cast_of("s01c_deer_undetected")["DEER1"]
     assert deer.hear(advisory(HoldPosition(runway="01"))) is None
-    cue = deer.actor.plan[0]
+    cue = deer.spec.plan[0]
     before = deer.body.state
     deer.command(cue.command)
     advance(deer, 20.0)
@@ -110,9 +110,9 @@ def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
 
 
 def test_a_deer_that_startles_flees_what_comes_near_and_moves():
-    cast = cast_of("s01b_nominal")
+    actors = cast_of("s01b_nominal")
     wild = cast_of("s01c_nominal", startles_within_m=60.0)["DEER1"]
-    car = cast["OPS1"]
+    car = actors["OPS1"]
     wild.others["OPS1"] = car
     wild.attend()
     assert not wild.body.startled
@@ -130,7 +130,7 @@ def test_a_deer_that_startles_flees_what_comes_near_and_moves():
 
 def test_what_waits_is_done_once_as_soon_as_it_is_true():
     done: list[str] = []
-    cues = Cues()
+    cues = Triggers()
     cues.once(lambda now_ns: now_ns >= 5, lambda: done.append("a"))
     cues.once(
         lambda now_ns: now_ns >= 3, lambda: cues.once(lambda _: True, lambda: done.append("b"))
@@ -152,7 +152,7 @@ def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver
     for _ in range(20 * 200):
         driver.body.advance()
         speeds.append(driver.body.state.ground_speed_m_s)
-    end = driver.setting.airport.node("K/E")
+    end = driver.site.airport.node("K/E")
     after = driver.body.state
     assert distance_m((after.latitude_rad, after.longitude_rad), end) < 0.5
     assert distance_m((before.latitude_rad, before.longitude_rad), end) > 50.0
@@ -199,7 +199,7 @@ def test_an_animal_stands_still_when_its_plan_says_so():
 def test_what_a_cue_sets_waiting_is_looked_at_the_next_time():
     """Also where it is true already: nothing is done twice or forgotten within one look."""
     done: list[str] = []
-    cues = Cues()
+    cues = Triggers()
     cues.once(lambda _: True, lambda: cues.once(lambda _: True, lambda: done.append("second")))
     cues.look(0)
     assert done == []
@@ -210,7 +210,7 @@ def test_what_a_cue_sets_waiting_is_looked_at_the_next_time():
 
 def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first():
     done: list[str] = []
-    cues = Cues()
+    cues = Triggers()
     for name in "abc":
         cues.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))
     for now_ns in range(5):

@@ -23,12 +23,12 @@ from airhilt.world.actors.ground_paths import (
     shortened,
     taxi_path,
 )
-from airhilt.world.site import Setting, beside, distance_m
+from airhilt.world.site import ScenarioSite, beside, distance_m
 
 
 @cache
-def kdca() -> Setting:
-    return Setting.of(load("s01a_nominal"))
+def kdca() -> ScenarioSite:
+    return ScenarioSite.of(load("s01a_nominal"))
 
 
 START = kdca().airport.node("K/D")

@@ -14,11 +14,11 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "run"))
 from camera_run import camera_run, passing
 from devtools import Page
 
+from airhilt.cosim import simulation as cosim
 from airhilt.errors import RendererError
 from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.report.report import write_report
-from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import RendererName
 

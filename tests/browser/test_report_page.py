@@ -13,10 +13,10 @@ from pydantic import TypeAdapter
 
 from airhilt import load
 from airhilt.commands import Command
+from airhilt.cosim.simulation import run
 from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.report.report import write_report
-from airhilt.run.simulation import run
 from airhilt.scenario import Scenario
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -16,10 +16,10 @@ from processes import ActsAt, process
 from airhilt import run
 from airhilt.audio.wav import decode_wav, read_wav, to_pcm, write_wav
 from airhilt.bus import free_endpoint
+from airhilt.cosim.replay import replay
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Message, Transcript, Transmission
 from airhilt.record import RunFolder, read_log
-from airhilt.run.replay import replay
 from airhilt.scenario import Scenario
 
 HASHING_RECOGNISER = """

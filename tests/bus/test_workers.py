@@ -16,10 +16,10 @@ from processes import ActsAt, process
 
 from airhilt import run
 from airhilt.bus import Bus, free_endpoint
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot
 from airhilt.errors import AirhiltError, BusError, RunStopped, WorkerError
 from airhilt.record import RunFolder, read_log
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Observer, Snapshot
 from airhilt.scenario import Scenario
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from airhilt.sensors.cameras.renderers import Part, Samples
-from airhilt.sensors.cameras.scene.background import KEPT_PX, SOON_PX, Backdrop
+from airhilt.sensors.cameras.scene.background import KEPT_PX, SOON_PX, Background
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
@@ -50,31 +50,31 @@ def plain() -> Plain:
 
 
 @pytest.fixture
-def backdrop(plain: Plain) -> Backdrop:
-    looking = Backdrop(plain, samples=1)
+def background(plain: Plain) -> Background:
+    looking = Background(plain, samples=1)
     looking.look(at(0.0))
     plain.windows.clear()
     return looking
 
 
-def test_a_camera_that_stands_is_drawn_once(plain: Plain, backdrop: Backdrop) -> None:
+def test_a_camera_that_stands_is_drawn_once(plain: Plain, background: Background) -> None:
     for _ in range(3):
-        backdrop.look(at(0.0))
+        background.look(at(0.0))
     assert not plain.windows
-    assert backdrop.drawn == 1
+    assert background.drawn == 1
 
 
 def test_a_step_that_moves_nothing_by_half_a_pixel_keeps_it(
-    plain: Plain, backdrop: Backdrop
+    plain: Plain, background: Background
 ) -> None:
-    backdrop.look(at(10.0))
+    background.look(at(10.0))
     assert not plain.windows
 
 
 def test_a_long_way_brings_the_near_ground_anew_and_neither_sky_nor_horizon(
-    plain: Plain, backdrop: Backdrop
+    plain: Plain, background: Background
 ) -> None:
-    backdrop.look(at(60.0))
+    background.look(at(60.0))
     (window,) = plain.windows
     assert window.bottom == LENS.height_px
     assert window.top > LENS.height_px / 2
@@ -86,7 +86,7 @@ def test_what_would_be_drawn_soon_is_drawn_with_the_first(
     def drawn(soon_px: float) -> tuple[int, int]:
         """Return how often it draws on a way, and how many rows in all."""
         monkeypatch.setattr("airhilt.sensors.cameras.scene.background.SOON_PX", soon_px)
-        flying = Backdrop(plain, samples=1)
+        flying = Background(plain, samples=1)
         plain.windows.clear()
         for step in range(120):
             flying.look(at(3.0 * step))
@@ -97,22 +97,22 @@ def test_what_would_be_drawn_soon_is_drawn_with_the_first(
     assert rows < 1.5 * their_rows
 
 
-def test_a_small_turn_brings_all_anew(plain: Plain, backdrop: Backdrop) -> None:
-    backdrop.look(at(0.0, heading_rad=0.002))
+def test_a_small_turn_brings_all_anew(plain: Plain, background: Background) -> None:
+    background.look(at(0.0, heading_rad=0.002))
     assert plain.windows == [at(0.0).whole]
 
 
-def test_small_steps_add_up(plain: Plain, backdrop: Backdrop) -> None:
+def test_small_steps_add_up(plain: Plain, background: Background) -> None:
     for step in range(1, 30):
-        backdrop.look(at(5.0 * step))
+        background.look(at(5.0 * step))
     assert plain.windows
     assert len(plain.windows) < 20
 
 
 def test_a_large_picture_is_drawn_in_parts_of_moderate_size(plain: Plain) -> None:
     lens = Intrinsics(4096, 1000, math.radians(60.0))
-    backdrop = Backdrop(plain, samples=3)
-    backdrop.look(View(lens, at(0.0).pose))
+    background = Background(plain, samples=3)
+    background.look(View(lens, at(0.0).pose))
     assert max(9 * window.area for window in plain.windows) <= 2_500_000
     assert sum(window.area for window in plain.windows) == 4096 * 1000
-    assert np.isfinite(backdrop.distance_m[-1]).all()
+    assert np.isfinite(background.distance_m[-1]).all()

@@ -7,7 +7,7 @@ import pytest
 
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.renderers import Samples, open_renderer
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.shapes.mesh import Colour, Mesh, box, join
 
@@ -18,7 +18,7 @@ EAST_M, NORTH_M, UP_M = 40.0, 30.0, 1500.0
 HEADING_RAD, PITCH_RAD = 0.3, -0.1
 REACH_M = 9000.0
 GREEN, RED, WHITE = (0.02, 0.4, 0.02), (0.4, 0.02, 0.02), (0.8, 0.8, 0.8)
-NOON = Light(np.array((0.3, 0.2, 0.93)), visibility_m=90_000.0, overcast=0.0)
+NOON = Illumination(np.array((0.3, 0.2, 0.93)), visibility_m=90_000.0, overcast=0.0)
 
 
 def squares(up_m: float, side_m: float, colour: Colour) -> Mesh:

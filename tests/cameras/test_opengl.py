@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.sensors.cameras.renderers import Part
 from airhilt.sensors.cameras.renderers.opengl import ModernGLRenderer
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
@@ -31,7 +31,7 @@ def test_bodies_of_many_sizes_take_no_more_room_than_the_largest(
         monkeypatch.setattr(moderngl.Context, what, watched)
 
     triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
-    light = Light(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
+    light = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
     renderer = ModernGLRenderer(triangle, light)
     renderer.add_shape("body", triangle)
     view = View(Intrinsics(1920, 1080, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))

@@ -20,14 +20,14 @@ from airhilt.errors import CameraError, RendererError
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_process as remote
 from airhilt.sensors.cameras.mounts import frame_of
-from airhilt.sensors.cameras.renderer_process import RemoteStudio, probe
+from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
 from airhilt.sensors.cameras.renderers import raycasting, require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
 from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.sensors.cameras.snapshot import TICK_S, still, write_png
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View
-from airhilt.world.actors import build_cast
-from airhilt.world.site import Setting
+from airhilt.world.actors import build_actors
+from airhilt.world.site import ScenarioSite
 
 pytest.importorskip("moderngl")
 
@@ -51,10 +51,10 @@ def washington(**camera: object) -> Scenario:
 
 
 def bodies_of(scenario: Scenario) -> list[BodyState]:
-    setting = Setting.of(scenario)
-    cast = build_cast(scenario, setting, 0, TICK_S)
-    frame = frame_of(setting)
-    return [state_of(performer, frame, setting.ground_m, 0.0) for performer in cast.values()]
+    site = ScenarioSite.of(scenario)
+    cast = build_actors(scenario, site, 0, TICK_S)
+    frame = frame_of(site)
+    return [state_of(actor, frame, site.ground_m, 0.0) for actor in cast.values()]
 
 
 @pytest.fixture(scope="module")
@@ -63,12 +63,12 @@ def bodies() -> list[BodyState]:
 
 
 @pytest.fixture(scope="module")
-def studio() -> Iterator[RemoteStudio]:
-    with RemoteStudio(washington(), renderer="moderngl") as opened:
+def studio() -> Iterator[RendererProcess]:
+    with RendererProcess(washington(), renderer="moderngl") as opened:
         yield opened
 
 
-def test_a_picture_comes_with_its_truth(studio: RemoteStudio, bodies: list[BodyState]) -> None:
+def test_a_picture_comes_with_its_truth(studio: RendererProcess, bodies: list[BodyState]) -> None:
     frame = studio.shoot(["field"], bodies, 7)[0]
     assert frame.t_ns == 7
     assert frame.colour.shape == (90, 160, 3)
@@ -79,7 +79,7 @@ def test_a_picture_comes_with_its_truth(studio: RemoteStudio, bodies: list[BodyS
 
 
 def test_a_pose_that_is_not_finite_is_refused_and_the_next_is_drawn(
-    studio: RemoteStudio, bodies: list[BodyState]
+    studio: RendererProcess, bodies: list[BodyState]
 ) -> None:
     lost = [bodies[0]._replace(up_m=math.nan), *bodies[1:]]
     with pytest.raises(CameraError, match="finite"):
@@ -108,12 +108,12 @@ def test_a_camera_that_stands_in_something_is_refused(
     changes: dict[str, object], said: str
 ) -> None:
     with pytest.raises(CameraError, match=said):
-        RemoteStudio(washington(**changes), renderer="moderngl")
+        RendererProcess(washington(**changes), renderer="moderngl")
 
 
 def test_a_camera_that_nobody_has_declared_is_refused_with_the_nearest() -> None:
     with pytest.raises(CameraError, match="did you mean 'runway_01'"):
-        RemoteStudio(washington(), ["runway_011"], "moderngl")
+        RendererProcess(washington(), ["runway_011"], "moderngl")
 
 
 def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
@@ -127,11 +127,11 @@ def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
     """As the run's own picture of that time does, which a tick is too coarse for."""
     scenario = washington()
     early, late = (still(scenario, "field", at_s, renderer="moderngl") for at_s in (4.0, 4.04))
-    setting = Setting.of(scenario)
-    cast = build_cast(scenario, setting, 0, TICK_S)
+    site = ScenarioSite.of(scenario)
+    cast = build_actors(scenario, site, 0, TICK_S)
     for _ in range(80):
-        for performer in cast.values():
-            performer.body.advance()
+        for actor in cast.values():
+            actor.body.advance()
     speed = cast["AAL123"].body.state.ground_speed_m_s
     nearer_m = early.sightings[0].range_m - late.sightings[0].range_m
     assert nearer_m == pytest.approx(0.04 * speed, rel=0.05)
@@ -179,7 +179,7 @@ def test_a_renderer_without_room_for_its_files_says_what_to_do(
 ) -> None:
     monkeypatch.setattr(tempfile, "TemporaryFile", full_disk)
     with pytest.raises(RendererError, match=r"No space left.*TMPDIR"):
-        RemoteStudio(washington(), ["runway_01"], "moderngl")
+        RendererProcess(washington(), ["runway_01"], "moderngl")
 
 
 def full_disk(*_: object, **__: object) -> None:
@@ -192,7 +192,7 @@ def test_a_renderer_without_its_libraries_says_what_to_install(
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
     for attempt in (
         lambda: probe("moderngl"),
-        lambda: RemoteStudio(washington(), None, "moderngl"),
+        lambda: RendererProcess(washington(), None, "moderngl"),
     ):
         with pytest.raises(RendererError, match=r"apt install .*libegl1") as caught:
             attempt()
@@ -224,7 +224,7 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
     (tmp_path / "json.py").write_text("raise SystemExit('a file of the user')")
     monkeypatch.chdir(tmp_path)
     probe("moderngl")
-    with RemoteStudio(washington(), renderer="moderngl") as opened:
+    with RendererProcess(washington(), renderer="moderngl") as opened:
         assert opened.actors
 
 
@@ -248,13 +248,13 @@ def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_t
 ) -> None:
     monkeypatch.setattr(remote, "STARTING_S", 0.0)
     with pytest.raises(RendererError, match="has not answered for 1 s"):
-        RemoteStudio(washington(), renderer="moderngl")
+        RendererProcess(washington(), renderer="moderngl")
 
 
 def test_a_renderer_that_hangs_as_it_draws_is_given_up_and_says_what_to_do(
     bodies: list[BodyState],
 ) -> None:
-    with RemoteStudio(washington(), renderer="moderngl", patience_s=1.0) as opened:
+    with RendererProcess(washington(), renderer="moderngl", patience_s=1.0) as opened:
         os.kill(opened.process_id, signal.SIGSTOP)
         with pytest.raises(RendererError, match=r"not answered for 2 s.* 160 x 90 .*smaller"):
             opened.shoot(["field"], bodies, 0)
@@ -267,19 +267,19 @@ def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.Monk
     monkeypatch.setattr(remote, "COMMAND", (sys.executable, "-c", reads))
     monkeypatch.setattr(remote, "SLOWEST_SAMPLES_PER_S", 1600.0)
 
-    def note(_: RemoteStudio, patience_s: float) -> bytes:
+    def note(_: RendererProcess, patience_s: float) -> bytes:
         waited.append(patience_s)
         return b'{"error": "RendererError", "text": "noted"}'
 
-    monkeypatch.setattr(RemoteStudio, "_line", note)
-    for fine in (1, 4):
+    monkeypatch.setattr(RendererProcess, "_line", note)
+    for supersampling in (1, 4):
         with pytest.raises(RendererError, match="noted"):
-            RemoteStudio(washington(), None, "moderngl", fine)
+            RendererProcess(washington(), None, "moderngl", supersampling)
     assert waited == [remote.STARTING_S + 9.0 * 9.0, remote.STARTING_S + 16.0 * 9.0]
 
 
 def test_a_studio_may_be_the_last_of_thousands_of_open_files(
-    studio: RemoteStudio, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     try:
         high = fcntl.fcntl(studio._answers, fcntl.F_DUPFD_CLOEXEC, 1500)
@@ -291,13 +291,13 @@ def test_a_studio_may_be_the_last_of_thousands_of_open_files(
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs files in memory")
-def test_pixels_lie_in_memory_and_not_on_a_disk(studio: RemoteStudio) -> None:
+def test_pixels_lie_in_memory_and_not_on_a_disk(studio: RendererProcess) -> None:
     place = Path(f"/proc/self/fd/{studio._file.fileno()}").readlink()
     assert "memfd:" in str(place)
 
 
 def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
-    studio: RemoteStudio, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(remote, "MOST_SAID_BYTES", 50)
     for _ in range(2):
@@ -308,7 +308,7 @@ def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
 
 @pytest.mark.slow
 def test_memory_stays_flat_over_10000_pictures(
-    studio: RemoteStudio, bodies: list[BodyState]
+    studio: RendererProcess, bodies: list[BodyState]
 ) -> None:
     held = []
     for number in range(10_001):
@@ -329,7 +329,7 @@ def held_mb(process_id: int) -> float:
     return float(lines["VmRSS"].split()[0]) / 1024.0
 
 
-def test_nothing_is_drawn_again_when_nothing_changes(studio: RemoteStudio) -> None:
+def test_nothing_is_drawn_again_when_nothing_changes(studio: RendererProcess) -> None:
     first, again = (studio.shoot(["field"], [], t_ns)[0] for t_ns in (0, 1))
     assert again.unchanged
     assert again.t_ns == 1
@@ -338,7 +338,7 @@ def test_nothing_is_drawn_again_when_nothing_changes(studio: RemoteStudio) -> No
 
 def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
     mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
-    with RemoteStudio(washington(mount=mount), renderer="moderngl") as opened:
+    with RendererProcess(washington(mount=mount), renderer="moderngl") as opened:
         mask = opened.own_aircraft["field"]
     assert mask.shape == (90, 160)
     assert 0.02 < mask.mean() < 0.8
@@ -346,7 +346,7 @@ def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
 
 # The last: it leaves nothing to draw with.
 def test_the_death_of_the_process_is_an_error_with_a_name(
-    studio: RemoteStudio, bodies: list[BodyState]
+    studio: RendererProcess, bodies: list[BodyState]
 ) -> None:
     os.kill(studio.process_id, signal.SIGKILL)
     studio._process.wait()

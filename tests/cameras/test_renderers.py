@@ -21,10 +21,10 @@ from airhilt.sensors.cameras.scene.bodies import (
     vehicle_model,
 )
 from airhilt.sensors.cameras.scene.builder import light_of, world_of
-from airhilt.sensors.cameras.scene_renderer import Frame, Studio
+from airhilt.sensors.cameras.scene_renderer import Frame, SceneRenderer
 from airhilt.sensors.cameras.view import Intrinsics, Pose
 from airhilt.units import DEGREE
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 for package in ("open3d", "moderngl"):
     pytest.importorskip(package)
@@ -42,10 +42,10 @@ class Stage:
 
     def __init__(self) -> None:
         self.scenario = load("s01b_nominal")
-        self.setting = Setting.of(self.scenario)
-        self.light = light_of(self.scenario, self.setting)
-        self.world = world_of(self.scenario, self.setting, self.light)
-        known = cameras_of(self.scenario, self.setting, MODELS)
+        self.site = ScenarioSite.of(self.scenario)
+        self.light = light_of(self.scenario, self.site)
+        self.world = world_of(self.scenario, self.site, self.light)
+        known = cameras_of(self.scenario, self.site, MODELS)
         lens = Intrinsics(640, 360, 40.0 * DEGREE)
         nose = Mount("c310", Pose.of((0.0, 4.5, 0.5), 0.0, -0.04), sees_own_aircraft=False)
         tail = Mount("c310", Pose.of((0.0, -3.7, 2.6), 0.0, -0.12), sees_own_aircraft=True)
@@ -70,17 +70,17 @@ class Stage:
         up_m: float = 0.0,
         roll: float = 0.0,
     ) -> BodyState:
-        assert self.setting.layout is not None
+        assert self.site.layout is not None
         position = RunwayPosition(type="runway", runway="01", along_m=along_m, offset_m=offset_m)
-        east, north = frame_of(self.setting).to_local(self.setting.place(position))
+        east, north = frame_of(self.site).to_local(self.site.place(position))
         kind = MODELS[name].aircraft
         wheels = 0.0 if kind is None else kind.dimensions.wheel_height_offset_m
-        heading = self.setting.layout.runway("01").course_rad + turned
+        heading = self.site.layout.runway("01").course_rad + turned
         shape = next(iter(reversed(MODELS[name].shapes)))
         return BodyState(name, east, north, up_m + wheels, heading, 0.0, roll, shape, True)
 
-    def studio(self, renderer: RendererName) -> Studio:
-        return Studio(self.world, self.light, MODELS, self.cameras, renderer)
+    def studio(self, renderer: RendererName) -> SceneRenderer:
+        return SceneRenderer(self.world, self.light, MODELS, self.cameras, renderer)
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +89,7 @@ def stage() -> Stage:
 
 
 @pytest.fixture(scope="module")
-def studios(stage: Stage) -> Iterator[dict[str, Studio]]:
+def studios(stage: Stage) -> Iterator[dict[str, SceneRenderer]]:
     opened = {name: stage.studio(name) for name in RENDERERS}
     yield opened
     for studio in opened.values():
@@ -97,14 +97,14 @@ def studios(stage: Stage) -> Iterator[dict[str, Studio]]:
 
 
 @pytest.fixture(scope="module")
-def pairs(stage: Stage, studios: dict[str, Studio]) -> list[tuple[Frame, Frame]]:
+def pairs(stage: Stage, studios: dict[str, SceneRenderer]) -> list[tuple[Frame, Frame]]:
     names = [camera.name for camera in stage.cameras]
     first, second = (studios[name].shoot(names, stage.bodies, 0) for name in RENDERERS)
     return list(zip(first, second, strict=True))
 
 
 def test_masks_of_what_is_larger_than_12_pixels_agree(
-    stage: Stage, studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+    stage: Stage, studios: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
 ) -> None:
     actors, compared = studios["open3d"].actors, 0
     for first, second in pairs:
@@ -141,7 +141,7 @@ def test_colours_and_distances_agree(pairs: list[tuple[Frame, Frame]]) -> None:
 
 
 def test_a_box_goes_round_all_pixels_of_its_body(
-    studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+    studios: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
 ) -> None:
     actors = studios["open3d"].actors
     for frame, _ in pairs:
@@ -156,7 +156,7 @@ def test_a_box_goes_round_all_pixels_of_its_body(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_a_body_darkens_the_ground_below_it(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     low = stage.on_runway("737", 250.0, 0.0, turned=1.2, up_m=15.0)
     shots = [studios[renderer].shoot(["runway_01"], there, 0)[0] for there in ([], [low])]
@@ -168,7 +168,7 @@ def test_a_body_darkens_the_ground_below_it(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_the_own_aircraft_is_lit_anew_when_it_turns(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     carrier = stage.bodies[3]
     turned = carrier._replace(heading_rad=carrier.heading_rad + 2.0)
@@ -182,7 +182,7 @@ def test_rain_falls_through_pictures(stage: Stage) -> None:
     """Streaks are in a few pixels, and in others in each picture."""
     camera = replace(stage.cameras[0], intrinsics=Intrinsics(160, 90, 40.0 * DEGREE))
     dry, wet = (
-        Studio(stage.world, stage.light, {}, [camera], "open3d", rain_mm_h)
+        SceneRenderer(stage.world, stage.light, {}, [camera], "open3d", rain_mm_h)
         for rain_mm_h in (0.0, 50.0)
     )
     clear, first, second = (
@@ -198,10 +198,12 @@ def test_rain_falls_through_pictures(stage: Stage) -> None:
 def test_more_actors_than_pictures_tell_apart_are_refused(stage: Stage) -> None:
     crowd = {f"deer{number}": MODELS["deer"] for number in range(256)}
     with pytest.raises(CameraError, match=r"256 actors, .* at most 255 apart; .*--no-cameras"):
-        Studio(stage.world, stage.light, crowd, [], "open3d")
+        SceneRenderer(stage.world, stage.light, crowd, [], "open3d")
 
 
-def test_distances_are_metric(pairs: list[tuple[Frame, Frame]], studios: dict[str, Studio]) -> None:
+def test_distances_are_metric(
+    pairs: list[tuple[Frame, Frame]], studios: dict[str, SceneRenderer]
+) -> None:
     frame = pairs[0][0]
     truck = next(s for s in frame.sightings if s.actor == "fire_truck")
     number = studios["open3d"].actors.index("fire_truck") + 1
@@ -210,7 +212,7 @@ def test_distances_are_metric(pairs: list[tuple[Frame, Frame]], studios: dict[st
 
 
 def test_a_tail_camera_sees_its_own_aircraft_and_does_not_report_it(
-    studios: dict[str, Studio], pairs: list[tuple[Frame, Frame]]
+    studios: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
 ) -> None:
     nose, tail = pairs[1][0], pairs[2][0]
     own = studios["open3d"].actors.index("c310") + 1
@@ -221,7 +223,7 @@ def test_a_tail_camera_sees_its_own_aircraft_and_does_not_report_it(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_the_mask_of_the_own_aircraft_covers_it_and_little_more(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     studio = studios[renderer]
     own = studio.actors.index("c310") + 1
@@ -237,7 +239,7 @@ def test_the_mask_of_the_own_aircraft_covers_it_and_little_more(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_a_fixed_camera_gives_the_same_picture_again(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     first, again = (studios[renderer].shoot(["runway_01"], stage.bodies, 0)[0] for _ in range(2))
     assert np.array_equal(first.colour, again.colour)
@@ -246,7 +248,7 @@ def test_a_fixed_camera_gives_the_same_picture_again(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_a_picture_in_which_nothing_has_changed_is_the_last_one(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     studio = studios[renderer]
     bodies = [stage.bodies[3]]
@@ -268,7 +270,7 @@ def test_a_picture_in_which_nothing_has_changed_is_the_last_one(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_what_is_too_far_to_leave_a_trace_is_told_with_no_pixels(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     camera = stage.cameras[0]
     assert isinstance(camera.at, Pose)
@@ -287,7 +289,7 @@ def test_what_is_too_far_to_leave_a_trace_is_told_with_no_pixels(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_what_stands_before_a_body_takes_from_what_is_seen_of_it(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     truck, camera = stage.bodies[1], stage.cameras[0]
     assert isinstance(camera.at, Pose)
@@ -305,7 +307,7 @@ def test_what_stands_before_a_body_takes_from_what_is_seen_of_it(
 
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_a_camera_within_a_body_sees_nothing_else(
-    stage: Stage, studios: dict[str, Studio], renderer: RendererName
+    stage: Stage, studios: dict[str, SceneRenderer], renderer: RendererName
 ) -> None:
     carrier = stage.bodies[3]
     around = carrier._replace(actor="737", shape="clean", up_m=carrier.up_m - 1.5)

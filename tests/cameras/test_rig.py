@@ -20,13 +20,13 @@ from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
-from airhilt.sensors.cameras.sensor import CameraRig, Exposures, angles_of, view_message
+from airhilt.sensors.cameras.sensor import CameraSensor, Exposures, angles_of, view_message
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, attitude
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import DEGREE, SECOND_NS
-from airhilt.world.actors import build_cast
-from airhilt.world.actors.actor import Performer
-from airhilt.world.site import Setting
+from airhilt.world.actors import build_actors
+from airhilt.world.actors.actor import Actor
+from airhilt.world.site import ScenarioSite
 
 LENS = Intrinsics(64, 36, 0.8)
 
@@ -57,16 +57,16 @@ class Run:
     """A rig on its own, with all that it publishes."""
 
     def __init__(self, scenario: Scenario, photographer: Fake, until_s: float) -> None:
-        setting = Setting.of(scenario)
-        self.cast: dict[str, Performer] = build_cast(scenario, setting, 0, 0.05)
+        site = ScenarioSite.of(scenario)
+        self.cast: dict[str, Actor] = build_actors(scenario, site, 0, 0.05)
         self.published: list[tuple[str, Message, bytes | None]] = []
         self.losses: list[tuple[int, str]] = []
         self.director = Director(Virtual())
-        self.rig = CameraRig(
+        self.sensor = CameraSensor(
             self.director,
             photographer,
             scenario.cameras,
-            setting,
+            site,
             self.cast,
             state_at_ns=lambda: 0,
             publish=lambda key, message, *, raw=None: self.published.append((key, message, raw)),
@@ -76,7 +76,7 @@ class Run:
         self.director.at(end_ns, self.director.stop, Priority.OBSERVE)
 
     def go(self) -> Run:
-        self.rig.start()
+        self.sensor.start()
         self.director.run()
         return self
 
@@ -155,8 +155,8 @@ def test_the_camera_of_an_aircraft_that_has_ended_gives_no_more_pictures() -> No
     assert len(run.frames("nose-DAL456")) == 17
 
 
-def end(performer: Performer) -> None:
-    performer.body.ended = "collision"
+def end(actor: Actor) -> None:
+    actor.body.ended = "collision"
 
 
 def test_a_renderer_that_dies_is_told_once_and_asked_no_more() -> None:

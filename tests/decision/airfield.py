@@ -24,7 +24,7 @@ from airhilt.messages import (
 from airhilt.sim import Input
 from airhilt.surveillance.adsb import Receiver, Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
-from airhilt.world.site import Site
+from airhilt.world.site import FixedSite
 
 FIELD = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
 ELEVATION_M = 5.0
@@ -100,7 +100,7 @@ Spot = tuple[float, float, float | None]
 
 
 @dataclass(frozen=True)
-class State(Site):
+class State(FixedSite):
     velocity_down_m_s: float = 0.0
     heading_rad: float = 0.0
 

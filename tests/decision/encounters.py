@@ -17,7 +17,7 @@ from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, Visible
 from airhilt.sim import Input
 from airhilt.surveillance.adsb import Receiver, Transponder
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
-from airhilt.world.site import Site
+from airhilt.world.site import FixedSite
 
 CENTRE = (38.9, -77.0)
 FRAME = LocalFrame((CENTRE[0] * DEGREE, CENTRE[1] * DEGREE))
@@ -28,7 +28,7 @@ CAPTURE_PER_S = 0.12
 
 
 @dataclass(frozen=True)
-class State(Site):
+class State(FixedSite):
     velocity_down_m_s: float = 0.0
     heading_rad: float = 0.0
 

@@ -12,9 +12,9 @@ from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity,
 from airhilt.scenario.models import Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import Person
+from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
 
@@ -41,7 +41,7 @@ def as_it_began(aircraft):
 def crew_of(aircraft, compliance=1.0, median_s=5.0, sigma=0.0, seed=1):
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    return Crew(Person("AAL123", reactions, seed), aircraft, Setting(centre, 0.0))
+    return Crew(ReactionModel("AAL123", reactions, seed), aircraft, ScenarioSite(centre, 0.0))
 
 
 def advisory(recommendation=CLIMB, severity="CAUTION", active=True, revision=0, name="s-1"):

@@ -13,7 +13,7 @@ from projected import AIRLINER, CESSNA, FLOCK, Camera, still
 from airhilt.assistant.decision.approach import approach_of
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.line_of_sight import Eye
-from airhilt.assistant.decision.visual_tracks import Glimpse, Lookout
+from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import Climb, Severity, Turn
 from airhilt.units import DEGREE, SECOND_NS
@@ -201,11 +201,11 @@ def test_what_may_stand_on_the_ground_is_not_in_the_air():
 
 def test_time_goes_on_after_the_last_picture():
     """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
-    lookout = Lookout()
-    watch = IntruderWatch(IntruderConfig(), "decision", lookout, lambda _: None)
+    visual_tracks = VisualTracks()
+    watch = IntruderWatch(IntruderConfig(), "decision", visual_tracks, lambda _: None)
     camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
     for step in range(41):
-        lookout.take_detections(camera.detections(step * SECOND_NS // 8))
+        visual_tracks.take_detections(camera.detections(step * SECOND_NS // 8))
     told = [
         [advisory.severity for advisory in watch.judge(t_ns, t_ns)]
         for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))
@@ -240,7 +240,7 @@ def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
     """Return what such a camera sees."""
     camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)
     found = [camera.detections(round(k * SECOND_NS / 8)) for k in range(round(8 * seconds) + 1)]
-    return [Glimpse.of(f.t_frame_ns, Eye(f.view), f.detections[0].box, 0.9) for f in found]
+    return [Observation.of(f.t_frame_ns, Eye(f.view), f.detections[0].box, 0.9) for f in found]
 
 
 @settings(max_examples=30)
@@ -275,7 +275,7 @@ def test_a_passage_to_the_side_is_told_in_sizes():
 def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
     seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.0, 0.0)
     assert approach_of(seen[:4]) is None
-    cut = [Glimpse.of(each.t_ns, each.eye, (0.0, *each.box[1:]), 0.9) for each in seen]
+    cut = [Observation.of(each.t_ns, each.eye, (0.0, *each.box[1:]), 0.9) for each in seen]
     assert approach_of(cut) is None
 
 
@@ -284,9 +284,9 @@ def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
     """They are thinner than a pixel: now only the fuselage shows, now all of it."""
     seen = glimpses_of(130.0, 0.0, 12.0, 5.0, 0.0, 0.0)
     narrow = [
-        glimpse._replace(size_rad=(0.4 * glimpse.size_rad[0], glimpse.size_rad[1]))
-        if math.sin(math.tau * (number / 8.0 / 1.6 + phase / 5.0)) < 0.0 else glimpse
-        for number, glimpse in enumerate(seen)
+        observation._replace(size_rad=(0.4 * observation.size_rad[0], observation.size_rad[1]))
+        if math.sin(math.tau * (number / 8.0 / 1.6 + phase / 5.0)) < 0.0 else observation
+        for number, observation in enumerate(seen)
     ]  # fmt: skip
     approach = approach_of(narrow)
     assert approach.is_growing
@@ -309,7 +309,7 @@ def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild):
     for number in wild:
         t_ns, eye, (left, top, right, bottom), *_ = seen[number]
         beside = (left + 20.0, top + 8.0, right + 20.0, bottom + 8.0)
-        seen[number] = Glimpse.of(t_ns, eye, beside, 0.9)
+        seen[number] = Observation.of(t_ns, eye, beside, 0.9)
     approach = approach_of(seen)
     assert math.hypot(*approach.turning_rad_s) < 0.01 * DEGREE
     assert approach.least_miss() < 0.5

@@ -10,7 +10,7 @@ from airhilt.geodesy.relative_motion import Minima
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import AircraftState, AircraftType, load_aircraft_type
 from airhilt.world.mover import Dimensions, carried_on
-from airhilt.world.site import Site
+from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import ConflictMonitor
 
 MINIMA = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
@@ -88,7 +88,7 @@ class Watch:
 
     def __init__(
         self, *aircraft: Straight, tick_s: float = 0.05, minima: Minima = MINIMA,
-        always: bool = True, ground_m: float = 0.0, zone: Site | None = None,
+        always: bool = True, ground_m: float = 0.0, zone: FixedSite | None = None,
         names: Sequence[str] = "ABCDEF",
         transponders: frozenset[str] | None = None,
     ) -> None:  # fmt: skip
@@ -137,7 +137,7 @@ class Watch:
 
 @dataclass
 class Performing:
-    """A performer with a body that flies straight."""
+    """An actor with a body that flies straight."""
 
     body: Straight
     bound_runway: str | None = None

@@ -24,8 +24,8 @@ class Case:
         )
         self.watch = Watch(*pair, names=("AA", "BB"))
         self.ended_lines = set()
-        self.cast = {name: Performing(body) for name, body in self.watch.aircraft.items()}
-        compiler = ConditionCompiler(self.cast, self.watch.monitor, None, self.ended_lines)
+        self.actors = {name: Performing(body) for name, body in self.watch.aircraft.items()}
+        compiler = ConditionCompiler(self.actors, self.watch.monitor, None, self.ended_lines)
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
     def __call__(self):
@@ -177,11 +177,11 @@ class Airport(Case):
         plane = Straight(east_m_s=speed * sin, north_m_s=speed * cos,
                          **({"altitude_ft": 500.0, "phase": "glide"} | aircraft))  # fmt: skip
         super().__init__(condition, at(plane, along_m), at(Rolling(), car_along_m))
-        self.cast["AA"].bound_runway = "01"
-        self.cast["BB"].category = "vehicle"
+        self.actors["AA"].bound_runway = "01"
+        self.actors["BB"].category = "vehicle"
         nothing = lambda *_: None  # noqa: E731
-        self.runways = RunwayMonitor(layout, self.cast, set(), nothing, nothing)
-        compiler = ConditionCompiler(self.cast, self.watch.monitor, self.runways, set())
+        self.runways = RunwayMonitor(layout, self.actors, set(), nothing, nothing)
+        compiler = ConditionCompiler(self.actors, self.watch.monitor, self.runways, set())
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
     def __call__(self):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import Minima, VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
-from airhilt.world.site import Site
+from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import profile_of
 
 
@@ -219,7 +219,7 @@ def test_the_time_to_loss_knows_where_a_climb_ends():
 
 # --- at an airport --------------------------------------------------------------------------
 
-ZONE = Site(0.0, 0.0)
+ZONE = FixedSite(0.0, 0.0)
 
 
 def low(aside_m=0.0, altitude_ft=1_000.0):

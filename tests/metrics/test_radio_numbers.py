@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission
-from airhilt.metrics.calls import RadioCalls
+from airhilt.metrics.calls import CallRecords
 from airhilt.units import SECOND_NS
 
 ROSTER = ("AAL123", "DAL456")
@@ -17,7 +17,7 @@ class OnTheAir:
     """Calls, one after the other."""
 
     def __init__(self):
-        self.calls = RadioCalls()
+        self.calls = CallRecords()
         self.count = 0
 
     def say(self, text, *heard, name=None, snr_db=None, blocked_by=(), samples=16_000,
@@ -130,5 +130,5 @@ def test_a_transcript_of_a_call_that_nobody_made_counts_for_nothing():
 
 
 def test_a_run_without_speech_does_not_load_what_compares_words():
-    code = "import sys, airhilt.run.simulation; sys.exit('jiwer' in sys.modules)"
+    code = "import sys, airhilt.cosim.simulation; sys.exit('jiwer' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -85,9 +85,9 @@ def vehicle(along_m: float, right_m: float = 0.0, runway: str = "01") -> Perform
 
 @dataclass
 class Watch:
-    """A monitor over some performers, and what it has told."""
+    """A monitor over some actors, and what it has told."""
 
-    cast: dict[str, Performing]
+    actors: dict[str, Performing]
     misled: set[str] = field(default_factory=set)
     now_ns: int = 0
 
@@ -96,7 +96,7 @@ class Watch:
         self.incurred: list[tuple[str | None, str]] = []
         self.monitor = RunwayMonitor(
             kdca(),
-            self.cast,
+            self.actors,
             self.misled,
             lambda key, truth: self.occupied.append((key, truth.occupants)),
             lambda incursion: self.incurred.append((incursion.user, incursion.intruder)),

@@ -7,7 +7,7 @@ from sightings import found, frame, info, seen, sighting, truth, vision
 
 from airhilt.imaging.matching import matches
 from airhilt.messages import Detection, SightingTruth
-from airhilt.metrics.detection_scores import Sight, must_be_found
+from airhilt.metrics.detection_scores import DetectionScores, must_be_found
 from airhilt.metrics.summary import VisionStatistics
 
 PLANE = (40.0, 30.0, 70.0, 40.0)
@@ -18,7 +18,7 @@ class Watched:
     """Numbers of a run that is fed picture by picture."""
 
     def __init__(self, *cameras: str) -> None:
-        self.sight = Sight()
+        self.sight = DetectionScores()
         self.sight.take(vision("on"))
         for camera in cameras or ("tower",):
             self.sight.take(info(camera))
@@ -197,7 +197,7 @@ def test_the_first_detection_of_each_actor_says_when_where_and_how_large() -> No
 
 @pytest.mark.parametrize(("state", "cause"), [("off", ""), ("not evaluated", "no EGL")])
 def test_without_vision_nothing_is_a_zero(state: str, cause: str) -> None:
-    sight = Sight()
+    sight = DetectionScores()
     sight.take(vision(state, cause))
     numbers = sight.statistics({})
     assert (numbers.state, numbers.cause) == (state, cause)

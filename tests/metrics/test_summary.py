@@ -23,7 +23,7 @@ from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario import load
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sensors.radio.backend import Text
 from airhilt.sensors.radio.script import planned_ends_ns
@@ -195,7 +195,7 @@ def plans(*climbs):
         )
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
-    happening = [HappeningLine(line, line, 0.0, (), frozenset()) for line in lines]
+    happening = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
     return Plans(happening, planned_ends_ns(happening, Text(160.0)))
 
 

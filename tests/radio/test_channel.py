@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from airhilt.audio.wav import from_pcm
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.audio_radio import Spoken
+from airhilt.sensors.radio.audio_radio import AudioRadio
 from airhilt.sensors.radio.channel import Background, Channel, Other, VhfChannel, active
 from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
@@ -198,7 +198,7 @@ def test_a_carrier_may_last_long_or_for_a_sample() -> None:
 
 
 def test_two_that_block_each_other_whistle_alike_whichever_is_received() -> None:
-    spoken = Spoken(Espeak(), VhfChannel(PROFILES["vhf"]), seed=5)
+    spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), seed=5)
 
     def whistle_hz(said: OnAir, over: OnAir) -> float:
         heard = from_pcm(spoken.receive(said, (over,), None, "none").pcm)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.sensors.radio.frequency_arbiter import GAP_S, REACTION_S, RadioBus, Utterance
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, REACTION_S, FrequencyArbiter, Utterance
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -34,7 +34,7 @@ def played(*calls, stuck=(), audible=everybody, until_s=None):
         assert director.now_ns == on_air.t_end_ns
         ended[on_air.utterance.id] = on_air
 
-    bus = RadioBus(director, speak, audible, end)
+    bus = FrequencyArbiter(director, speak, audible, end)
     for at_s, said in calls:
         director.at(seconds_to_ns(at_s), partial(bus.say, said), Priority.SCRIPT)
     for at_s, speaker, for_s in stuck:

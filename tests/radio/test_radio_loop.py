@@ -8,21 +8,21 @@ import pytest
 
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
 from airhilt.scenario import load
-from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
-from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.backend import TextRadio
 from airhilt.sensors.radio.conversation import (
     MOST_REPEATS,
     REPEAT_AFTER_S,
     REPEAT_SPREAD_S,
     TRANSCRIPT_PATIENCE_S,
-    RadioLoop,
+    RadioConversation,
 )
 from airhilt.sensors.radio.hearing import Heard, HearingModel
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
-from airhilt.world.site import Setting, Site
+from airhilt.world.site import FixedSite, ScenarioSite
 
 TOWER, KHZ = "Washington Centre", 134_325
 CLIMB = {"action": "altitude", "altitude_ft": 33000}
@@ -57,8 +57,8 @@ class World:
         self.scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
         self.published, self.done, self.microphones = [], [], []
-        high = Site(0.68, -1.34, altitude_m=33_000 * FOOT)
-        self.cast = {
+        high = FixedSite(0.68, -1.34, altitude_m=33_000 * FOOT)
+        self.actors = {
             actor.callsign: SimpleNamespace(
                 actor=actor,
                 category="aircraft",
@@ -67,12 +67,12 @@ class World:
             )
             for actor in self.scenario.actors
         }
-        self.loop = RadioLoop(
+        self.loop = RadioConversation(
             self.director,
             self.scenario,
-            as_it_happens(self.scenario),
-            Stations(self.cast, Setting.of(self.scenario), self.scenario.radio.lines),
-            Text(self.scenario.radio.words_per_minute),
+            apply_failures(self.scenario),
+            Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario.radio.lines),
+            TextRadio(self.scenario.radio.words_per_minute),
             7,
             set(),
             once=self.once,
@@ -342,7 +342,7 @@ def test_a_call_that_the_end_cuts_off_gives_no_words():
 def test_who_is_below_the_horizon_of_the_receiver_is_not_received():
     request = line("request", 30, "AAL123", TOWER, "Washington Center, American one two three.")
     world = World(request, CLEARANCE)
-    world.cast["AAL123"].body.state = Site(0.9, -1.34, altitude_m=3_000 * FOOT)
+    world.actors["AAL123"].body.state = FixedSite(0.9, -1.34, altitude_m=3_000 * FOOT)
     world.run()
     assert "request" in world.said()
     received = {one.id for one in world.published if isinstance(one, (Transmission, Transcript))}
@@ -357,8 +357,8 @@ def test_below_the_squelch_nobody_hears_and_nothing_is_received():
 
 def test_somebody_below_the_horizon_hears_nothing():
     world = World(CLEARANCE)
-    far = Site(0.9, -1.34, altitude_m=3_000 * FOOT)
-    world.cast["AAL123"].body.state = far
+    far = FixedSite(0.9, -1.34, altitude_m=3_000 * FOOT)
+    world.actors["AAL123"].body.state = far
     world.run()
     assert world.done == []
     assert {outcome for _, outcome in world.hearings("AAL123")} == {"missed"}
@@ -366,7 +366,7 @@ def test_somebody_below_the_horizon_hears_nothing():
 
 def test_an_aircraft_that_is_no_more_says_nothing():
     world = World(CLEARANCE, READBACK)
-    world.cast["AAL123"].body.ended = "collision"
+    world.actors["AAL123"].body.ended = "collision"
     assert "readback" not in world.run().said()
 
 

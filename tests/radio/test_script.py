@@ -2,9 +2,9 @@
 
 import pytest
 
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, TimeReached
-from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.backend import TextRadio
 from airhilt.sensors.radio.script import RadioScript, planned_ends_ns
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
@@ -16,7 +16,7 @@ def line(name, at_s, words=8, frequency_khz=134325, late_s=0.0, dropped=False, w
         id=name, at_s=at_s, speaker="Centre", frequency_khz=frequency_khz, text=text, when=when
     )
     failures = ("it fails",) if late_s or dropped else ()
-    return HappeningLine(declared, None if dropped else declared, late_s, failures, frozenset())
+    return EffectiveLine(declared, None if dropped else declared, late_s, failures, frozenset())
 
 
 def played(*lines, failed=None):
@@ -44,7 +44,7 @@ def played(*lines, failed=None):
 
 @pytest.mark.parametrize(("words_per_minute", "seconds"), [(160.0, 3.0), (80.0, 6.0)])
 def test_a_call_is_planned_to_take_as_long_as_its_words(words_per_minute, seconds):
-    planned = planned_ends_ns([line("a", 20.0, late_s=5.0)], Text(words_per_minute))
+    planned = planned_ends_ns([line("a", 20.0, late_s=5.0)], TextRadio(words_per_minute))
     assert planned == {"a": seconds_to_ns(25.0 + seconds)}
 
 

@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from oracle import BlankStudio, Oracle
+from oracle import BlankSceneRenderer, Oracle
 
 from airhilt import load
+from airhilt.cosim import cameras as vision
+from airhilt.cosim import participants as team
+from airhilt.cosim import simulation as cosim
 from airhilt.options import Options
-from airhilt.run import cameras as vision
-from airhilt.run import participants as team
-from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
 
 
@@ -38,15 +38,15 @@ def camera_run(
     oracle = Oracle(None, 0, 8.0)
     reference = team.reference_workers
 
-    def open_studio(realised: Scenario, renderer: str) -> BlankStudio:
-        oracle._studio = BlankStudio(realised)
+    def open_scene_renderer(realised: Scenario, renderer: str) -> BlankSceneRenderer:
+        oracle._studio = BlankSceneRenderer(realised)
         return oracle._studio
 
     def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> list[Any]:
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, oracle] if assistant != "none" else others
 
-    patch.setattr(vision, "_open_studio", open_studio)
+    patch.setattr(vision, "_open_studio", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     given = Options(**{"latency": "fixed", "speech": False, "out": out} | options)
     return cosim.run(scenario or passing(), given)

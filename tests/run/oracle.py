@@ -19,6 +19,9 @@ import pytest
 from airhilt import load
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.tracker import Tracker
+from airhilt.cosim import cameras as vision
+from airhilt.cosim import participants as team
+from airhilt.cosim import simulation as cosim
 from airhilt.imaging.masks import Mask
 from airhilt.messages import (
     CameraFrame,
@@ -32,9 +35,6 @@ from airhilt.messages import (
 )
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
-from airhilt.run import cameras as vision
-from airhilt.run import participants as team
-from airhilt.run import simulation as cosim
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.mounts import cameras_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, model_of
@@ -43,7 +43,7 @@ from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 SMALLEST_PX = 8.0
 LEAST_TRANSMISSION = 0.15
@@ -54,13 +54,13 @@ SURE = 0.4
 HIDDEN_EVERY_NS, HIDDEN_NS = 10 * SECOND_NS, 3 * SECOND_NS // 2
 
 
-class BlankStudio:
+class BlankSceneRenderer:
     """Takes pictures without colours, with what is true of the bodies in them."""
 
     def __init__(self, scenario: Scenario) -> None:
-        setting = Setting.of(scenario)
+        site = ScenarioSite.of(scenario)
         self._models = {actor.callsign: model_of(actor) for actor in scenario.actors}
-        self._cameras = cameras_of(scenario, setting, self._models)
+        self._cameras = cameras_of(scenario, site, self._models)
         self._extinction_per_m = 3.912 / scenario.weather.visibility_m
         self._outlines = {
             (actor, name): Outline.of(mesh)
@@ -72,7 +72,7 @@ class BlankStudio:
         """By camera and time."""
         self._blanks: dict[tuple[int, int], np.ndarray] = {}
 
-    def __enter__(self) -> BlankStudio:
+    def __enter__(self) -> BlankSceneRenderer:
         return self
 
     def __exit__(
@@ -115,7 +115,7 @@ class BlankStudio:
 class Oracle:
     """A vision worker that is told the truth, and errs a little."""
 
-    def __init__(self, studio: BlankStudio, seed: int, smallest_px: float) -> None:
+    def __init__(self, studio: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
         self.description = WorkerDescription(
             name="vision",
             modality="vision",
@@ -172,7 +172,7 @@ class Follower(Oracle):
     something is before the lens for longer than a track lives.
     """
 
-    def __init__(self, studio: BlankStudio, seed: int, smallest_px: float) -> None:
+    def __init__(self, studio: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
         super().__init__(studio, seed, smallest_px)
         self._errors = np.random.default_rng((seed, 72))
         self._trackers: dict[str, Tracker] = {}
@@ -225,8 +225,8 @@ def watched(
     """Run a scenario with its cameras, an oracle and the reference assistant."""
     made: list[Oracle] = []
 
-    def open_studio(realised: Scenario, renderer: str) -> BlankStudio:
-        studio = BlankStudio(realised)
+    def open_scene_renderer(realised: Scenario, renderer: str) -> BlankSceneRenderer:
+        studio = BlankSceneRenderer(realised)
         made[0]._studio = studio
         return studio
 
@@ -237,7 +237,7 @@ def watched(
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 
-    patch.setattr(vision, "_open_studio", open_studio)
+    patch.setattr(vision, "_open_studio", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     options = Options(seed=seed, out=out, latency="fixed")
     return cosim.run(scenario or load(name), options).summary, made[0]

@@ -10,15 +10,15 @@ from typing import Any
 
 import pytest
 from camera_run import camera_run, passing
-from oracle import BlankStudio
+from oracle import BlankSceneRenderer
 
 from airhilt.cli.progress import print_summary
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Result, run
 from airhilt.errors import AirhiltError, RendererError, RunFolderError, VideoError
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Result, run
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.units import SECOND_NS
@@ -217,11 +217,11 @@ def test_cameras_are_lost_in_a_replay_at_the_very_moment_at_which_they_were(
 
 def dying(patch: pytest.MonkeyPatch, at_s: float) -> None:
     """Let the renderer die at a time."""
-    shoot = BlankStudio.shoot
+    shoot = BlankSceneRenderer.shoot
 
-    def shooting(self: BlankStudio, names: Any, bodies: Any, t_ns: int) -> list[Frame]:
+    def shooting(self: BlankSceneRenderer, names: Any, bodies: Any, t_ns: int) -> list[Frame]:
         if t_ns >= at_s * SECOND_NS:
             raise RendererError("the renderer has died")
         return shoot(self, names, bodies, t_ns)
 
-    patch.setattr(BlankStudio, "shoot", shooting)
+    patch.setattr(BlankSceneRenderer, "shoot", shooting)

@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 
 from airhilt import load
+from airhilt.cosim import cameras as vision
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot, run
 from airhilt.errors import AirhiltError, RendererError, RunStopped
 from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
 from airhilt.record import Logged, read_log
-from airhilt.run import cameras as vision
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Observer, Snapshot, run
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import RendererName
 from airhilt.units import SECOND_NS
@@ -112,10 +112,10 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = []
-    open_studio = vision._open_studio
+    open_scene_renderer = vision._open_renderer_process
 
     def opening(scenario: Scenario, renderer: RendererName) -> object:
-        opened.append(open_studio(scenario, renderer))
+        opened.append(open_scene_renderer(scenario, renderer))
         return opened[-1]
 
     class Killer(Observer):

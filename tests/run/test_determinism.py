@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from airhilt import run
-from airhilt.run.replay import replay
+from airhilt.cosim.replay import replay
 from airhilt.scenario import Scenario
 
 

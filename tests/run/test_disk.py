@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-import airhilt.run.simulation
+import airhilt.cosim.simulation
 from airhilt import run
+from airhilt.cosim.replay import replay
 from airhilt.errors import RunFolderError
 from airhilt.messages import Clock
 from airhilt.record import LatencyLog, LogWriter, RunFolder, read_log
-from airhilt.run.replay import replay
 from airhilt.scenario import Scenario
 from airhilt.sim import StepRecord
 
@@ -48,7 +48,7 @@ def test_a_disk_that_fills_up_stops_the_run_and_keeps_what_it_has(
                 raise RunFolderError("latency.jsonl: cannot be written any more")
             super().step(record)
 
-    monkeypatch.setattr(airhilt.run.simulation, "LatencyLog", FillsUp)
+    monkeypatch.setattr(airhilt.cosim.simulation, "LatencyLog", FillsUp)
     with pytest.raises(RunFolderError, match="cannot be written any more"):
         run(encounter, out=tmp_path / "run", latency="fixed")
     monkeypatch.undo()

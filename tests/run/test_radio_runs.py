@@ -10,12 +10,12 @@ import pytest
 
 from airhilt import load
 from airhilt.audio.wav import read_wav
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot, run
 from airhilt.messages import HearingTruth, SpokenTruth, Status, Transcript, Transmission
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import audio_file
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Observer, Snapshot, run
 from airhilt.scenario.models import Scenario, StuckMicrophone
 from airhilt.units import SECOND_NS
 from airhilt.voices.engine import SAMPLE_RATE_HZ

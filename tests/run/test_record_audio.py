@@ -9,12 +9,12 @@ import pytest
 
 from airhilt import run
 from airhilt.audio.wav import read_wav, to_pcm
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import AudioRecorder, audio_file, recorded_pcm
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Observer, Snapshot
 from airhilt.scenario import Scenario
 
 FULL = Path("/dev/full")

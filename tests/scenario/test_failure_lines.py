@@ -6,7 +6,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from airhilt import load
-from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Failure
 
 SCENARIO = load("s01b_noncompliance")
@@ -16,7 +16,7 @@ HOLD = next(line for line in SCENARIO.radio.lines if line.id == "hold")
 
 def happening(*failures, line="hold"):
     scenario = SCENARIO.model_copy(update={"failures": FAILURES.validate_python(failures)})
-    lines = {happens.declared.id: happens for happens in as_it_happens(scenario)}
+    lines = {happens.declared.id: happens for happens in apply_failures(scenario)}
     others = [happens for name, happens in lines.items() if name != line]
     assert all(happens.line is happens.declared and not happens.failures for happens in others)
     return lines[line]
@@ -108,7 +108,7 @@ def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind):
     radio = SCENARIO.radio.model_copy(update={"lines": (line,)})
     failures = FAILURES.validate_python([{"type": kind, "line": "hold", "actor": "OPS1"}])
     scenario = SCENARIO.model_copy(update={"radio": radio, "failures": failures})
-    (hold,) = as_it_happens(scenario)
+    (hold,) = apply_failures(scenario)
     assert hold.line == line.model_copy(update={"commands": both[1:]})
     assert hold.misled == {"OPS1"}
 

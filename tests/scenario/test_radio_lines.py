@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 from airhilt.errors import ScenarioError
 from airhilt.scenario import load, parse
 from airhilt.scenario.conversation import needed_lines
-from airhilt.scenario.failures import as_it_happens
+from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Failure
 from airhilt.scenario.radio_profiles import PROFILES
 
@@ -106,7 +106,7 @@ def test_a_microphone_sticks_on_a_frequency():
 def test_a_blocked_line_does_not_wait_for_the_frequency():
     scenario = load("s01a_nominal")
     failures = FAILURES.validate_python([{"type": "blocked", "line": "takeoff"}])
-    happening = as_it_happens(scenario.model_copy(update={"failures": failures}))
+    happening = apply_failures(scenario.model_copy(update={"failures": failures}))
     listens = {happens.declared.id: happens.listens_first for happens in happening}
     assert listens.pop("takeoff") is False
     assert all(listens.values())

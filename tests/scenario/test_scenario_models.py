@@ -10,7 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from airhilt.geodesy.positions import GeodeticPosition, Position, RelativePosition
 from airhilt.scenario import Scenario, load
-from airhilt.scenario.models import AircraftActor, Condition, EnRouteScene
+from airhilt.scenario.models import AircraftSpec, Condition, EnRouteScene
 from airhilt.units import DEGREE, NAUTICAL_MILE
 from airhilt.world import site as geometry
 
@@ -36,7 +36,7 @@ commands = altitude_commands | st.fixed_dictionaries(
     {"action": st.just("turn"), "degrees": st.floats(-180.0, 180.0)}
 )
 actors = st.builds(
-    lambda callsign, address, position, told, equipped: AircraftActor.model_validate(
+    lambda callsign, address, position, told, equipped: AircraftSpec.model_validate(
         {
             "type": "aircraft",
             "callsign": callsign,
@@ -116,7 +116,7 @@ def test_a_scenario_cannot_be_changed():
 
 
 CENTRE = GeodeticPosition(type="geodetic", lat_deg=38.9, lon_deg=-77.0)
-SETTING = geometry.Setting(CENTRE, 0.0)
+SETTING = geometry.ScenarioSite(CENTRE, 0.0)
 
 
 @settings(deadline=None)

@@ -15,10 +15,10 @@ import pytest
 import airhilt.assistant.asr.http
 from airhilt import run
 from airhilt.audio.wav import decode_wav
+from airhilt.cosim.simulation import Observer, Result
 from airhilt.errors import RunStopped
 from airhilt.messages import Transcript
 from airhilt.record import read_log
-from airhilt.run.simulation import Observer, Result
 from airhilt.scenario import Scenario
 
 sys.path.insert(0, str(Path(__file__).parents[1]))

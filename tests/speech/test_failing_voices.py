@@ -14,11 +14,11 @@ import pytest
 
 from airhilt import run
 from airhilt.audio.wav import encode_wav
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Result
 from airhilt.errors import RunStopped, SpeechError
 from airhilt.messages import SpokenTruth, Transmission
 from airhilt.record import read_log
-from airhilt.run.replay import replay
-from airhilt.run.simulation import Observer, Result
 from airhilt.scenario import Scenario
 from airhilt.sensors.radio.learned_channel import LearnedChannel
 

@@ -15,7 +15,7 @@ from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.runway import Place
-from airhilt.world.surface.wildlife import GREATEST_SPREAD_RAD, Animal, flock_aloft
+from airhilt.world.surface.wildlife import GREATEST_SPREAD_RAD, AnimalBody, flock_aloft
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6
@@ -29,11 +29,11 @@ winged = st.sampled_from(["goose", "flock"])
 spots = st.tuples(st.floats(-200.0, 200.0), st.floats(-200.0, 200.0))
 
 
-def animal(kind: str, seed: int = 1, height_m: float = 0.0, heading_rad: float = 0.0) -> Animal:
+def animal(kind: str, seed: int = 1, height_m: float = 0.0, heading_rad: float = 0.0) -> AnimalBody:
     made = load_kind(kind, "wildlife").create(
         HERE, heading_rad, ground_m=GROUND_M, tick_s=TICK_S, seed=seed, height_m=height_m
     )
-    assert isinstance(made, Animal)
+    assert isinstance(made, AnimalBody)
     return made
 
 
@@ -45,7 +45,9 @@ def where(state: SurfaceState) -> Local:
     return PLANE.to_local((state.latitude_rad, state.longitude_rad))
 
 
-def watch(body: Animal, until: Callable[[], bool], at_most_s: float = 2000.0) -> list[SurfaceState]:
+def watch(
+    body: AnimalBody, until: Callable[[], bool], at_most_s: float = 2000.0
+) -> list[SurfaceState]:
     states = [body.state]
     while not until():
         body.advance()
@@ -54,11 +56,11 @@ def watch(body: Animal, until: Callable[[], bool], at_most_s: float = 2000.0) ->
     return states
 
 
-def until_it_stands(body: Animal) -> list[SurfaceState]:
+def until_it_stands(body: AnimalBody) -> list[SurfaceState]:
     return watch(body, lambda: body.phase == "standing")
 
 
-def watch_for(body: Animal, seconds: float) -> list[SurfaceState]:
+def watch_for(body: AnimalBody, seconds: float) -> list[SurfaceState]:
     states = [body.state]
     for _ in range(round(seconds / TICK_S)):
         body.advance()

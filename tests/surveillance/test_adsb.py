@@ -20,13 +20,13 @@ from airhilt.surveillance.adsb import (
     quantise,
 )
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
-from airhilt.world.site import Site
+from airhilt.world.site import FixedSite
 
 EVERYWHERE = 500.0 * NAUTICAL_MILE
 
 
 @dataclass(frozen=True)
-class Flying(Site):
+class Flying(FixedSite):
     velocity_down_m_s: float = 0.0
     heading_rad: float = 0.0
 
@@ -39,7 +39,7 @@ def transponder(nacp=9, nacv=2, seed=1):
 
 
 def receiver(name="site", range_m=EVERYWHERE, height_m=1_000.0):
-    return Receiver(name, Site(47.0 * DEGREE, 8.0 * DEGREE, height_m), range_m)
+    return Receiver(name, FixedSite(47.0 * DEGREE, 8.0 * DEGREE, height_m), range_m)
 
 
 @settings(deadline=None)
@@ -86,7 +86,9 @@ def position_errors_m(nacp, flights=400):
         station.decode(sender, sender.position(HERE, 0), 0)
         decoded = station.decode(sender, sender.position(HERE, 1), 1)
         if decoded is not None:
-            place = Site(decoded.position_deg[0] * DEGREE, decoded.position_deg[1] * DEGREE, 1e4)
+            place = FixedSite(
+                decoded.position_deg[0] * DEGREE, decoded.position_deg[1] * DEGREE, 1e4
+            )
             errors.append(relative(replace(HERE, altitude_m=1e4), place).distance_m)
     return np.array(errors)
 
@@ -300,7 +302,7 @@ def test_a_landing_goes_on_from_the_last_airborne_position():
 def test_an_antenna_of_15_m_hears_who_stands_on_the_airport_but_not_behind_the_horizon(
     kilometres, heard
 ):
-    station = Receiver("field", Site(47.0 * DEGREE, 8.0 * DEGREE, 415.0), EVERYWHERE, 400.0)
+    station = Receiver("field", FixedSite(47.0 * DEGREE, 8.0 * DEGREE, 415.0), EVERYWHERE, 400.0)
     there = replace(STANDING, latitude_rad=STANDING.latitude_rad + kilometres * 1e3 / 6.37e6)
     assert station.in_view(there) == heard
 
@@ -376,7 +378,7 @@ def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_b
 
 def test_the_first_receiver_that_is_in_view_gives_the_report():
     deaf, near = receiver("deaf", range_m=0.001, height_m=0.0), receiver("near")
-    deaf.site = Site(10.0 * DEGREE, 8.0 * DEGREE)
+    deaf.site = FixedSite(10.0 * DEGREE, 8.0 * DEGREE)
     decoded = [d for d in heard_of(Reception([deaf, near], 0.0, []), 3) if d is not None]
     assert {d.receiver for d in decoded} == {"near"}
 

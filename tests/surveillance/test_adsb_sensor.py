@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 import pytest
 
 from airhilt import load
-from airhilt.scenario.models import AircraftActor, Scenario
+from airhilt.scenario.models import AircraftSpec, Scenario
 from airhilt.sensors.adsb import AdsbSensor
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.units import DEGREE, SECOND_NS
 from airhilt.world.flight import AircraftState
 from airhilt.world.mover import carried_on
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 STATE = AircraftState(
     latitude_rad=38.9 * DEGREE, longitude_rad=-77.0 * DEGREE, altitude_m=10_668.0,
@@ -35,9 +35,9 @@ class Gliding:
 
 @dataclass
 class Acting:
-    """All that the sensor reads of a performer."""
+    """All that the sensor reads of an actor."""
 
-    actor: AircraftActor
+    spec: AircraftSpec
     body: Gliding = field(default_factory=Gliding)
     emitter_category: str = "A3"
 
@@ -51,10 +51,11 @@ class Run:
         scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
         self.reports, self.steps = [], []
-        performers = {actor.callsign: Acting(actor) for actor in scenario.actors}
-        self.aircraft = {callsign: acting.body for callsign, acting in performers.items()}
+        actors = {actor.callsign: Acting(actor) for actor in scenario.actors}
+        self.aircraft = {callsign: acting.body for callsign, acting in actors.items()}
         self.sensor = AdsbSensor(
-            self.director, scenario, Setting.of(scenario), performers, parse_latency(latency), seed,
+            self.director, scenario, ScenarioSite.of(scenario), actors, parse_latency(latency),
+            seed,
             state_at_ns=lambda: self.director.now_ns,
             publish=self.reports.append, done=self.steps.append,
         )  # fmt: skip
@@ -134,9 +135,9 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter():
     for keep in (1, 2):
         part = replace_actors(document, keep)
         director, reports = Director(Virtual()), []
-        performers = {actor.callsign: Acting(actor) for actor in part.actors}
+        actors = {actor.callsign: Acting(actor) for actor in part.actors}
         AdsbSensor(
-            director, part, Setting.of(part), performers, parse_latency("fixed:0.05"), 1,
+            director, part, ScenarioSite.of(part), actors, parse_latency("fixed:0.05"), 1,
             lambda d=director: d.now_ns, reports.append, lambda _: None,
         )  # fmt: skip
         director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from airhilt.assistant.asr import ctc
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.embedded import MODEL, Calibration, EmbeddedDetector
-from airhilt.assistant.vision.refiner import SecondLook
+from airhilt.assistant.vision.refiner import Refiner
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
 from airhilt.imaging.boxes import overlap
@@ -38,14 +38,14 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
     from airhilt.sensors.cameras.scene.builder import air_and_sun
     from airhilt.sensors.cameras.scene.landscape import open_country
-    from airhilt.sensors.cameras.scene_renderer import Studio
+    from airhilt.sensors.cameras.scene_renderer import SceneRenderer
     from airhilt.sensors.cameras.view import Intrinsics, Pose
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=10.0)
     light = air_and_sun(Weather(visibility_m=20_000.0), day, 0.8, True)
     pose = Pose.of((0.0, 0.0, 900.0), 0.0)
     camera = Camera("nose", Intrinsics(636, 356, 0.7), pose)
-    studio = Studio(
+    studio = SceneRenderer(
         open_country(light, "test", None), light, {"737": aircraft_model("737")}, [camera],
         "moderngl",
     )  # fmt: skip
@@ -108,14 +108,14 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     assert overlap(found.box, (left, top, right, bottom)) > 0.5
     # The second look has all of the picture, so what it sees of the body is no less.
     looked_at: list[tuple[int, ...]] = []
-    judge = SecondLook.judge
+    judge = Refiner.judge
 
-    def note(self: SecondLook, shown: np.ndarray, places: Sequence[Found]) -> list[Found]:
+    def note(self: Refiner, shown: np.ndarray, places: Sequence[Found]) -> list[Found]:
         looked_at.append(shown.shape)
         return judge(self, shown, places)
 
     with monkeypatch.context() as patch:
-        patch.setattr(SecondLook, "judge", note)
+        patch.setattr(Refiner, "judge", note)
         detector.detect_in(picture, window)
     assert looked_at == [picture.shape]
     outside = Tile(0, 0, 96, 96)
@@ -134,8 +134,8 @@ def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner) -> No
     picture, _ = airliner
     assert EmbeddedDetector(copy(tmp_path)).detect(picture) == EmbeddedDetector().detect(picture)
     severe = EmbeddedDetector(copy(tmp_path, threshold=1.0))
-    assert severe.sure == 1.0
-    assert all(found.confidence < severe.sure for found in severe.detect(picture))
+    assert severe.threshold == 1.0
+    assert all(found.confidence < severe.threshold for found in severe.detect(picture))
 
 
 def test_what_is_unsure_is_told_too_but_not_what_is_hardly_anything(tmp_path, airliner) -> None:
@@ -156,13 +156,13 @@ def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(tmp_path, ai
     kind = plain | {"of_class": {"airplane": 1.0}}
     after = EmbeddedDetector(copy(tmp_path / "kind", calibration=kind), 0.0).detect(picture)
     assert {one.box for one in before} == {one.box for one in after}
-    sure = {one.box: one.confidence for one in before}
+    threshold = {one.box: one.confidence for one in before}
     for one in after:
         if one.label == "airplane":
-            odds = sure[one.box] / (1.0 - sure[one.box])
+            odds = threshold[one.box] / (1.0 - threshold[one.box])
             assert one.confidence == pytest.approx(odds * math.e / (1.0 + odds * math.e), rel=1e-3)
         else:
-            assert one.confidence == pytest.approx(sure[one.box])
+            assert one.confidence == pytest.approx(threshold[one.box])
 
 
 @given(
@@ -236,7 +236,7 @@ def test_classes_are_those_of_the_card(tmp_path: Path, airliner) -> None:
 def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path) -> None:
     noise = np.random.default_rng(0).integers(0, 255, (360, 640, 3), dtype=np.uint8)
     with pytest.raises(VisionError, match=r"answers class \d; expected one of the 1 of its card"):
-        EmbeddedDetector(copy(tmp_path, classes=["truck"], second_look=None)).detect(noise)
+        EmbeddedDetector(copy(tmp_path, classes=["truck"], refiner=None)).detect(noise)
 
 
 @pytest.mark.parametrize("threshold", [-0.1, 1.1, float("nan")])

@@ -17,8 +17,8 @@ from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.embedded import MODEL, EmbeddedDetector, once
 from airhilt.assistant.vision.refiner import (
     VIEW_PX,
-    SecondLook,
-    SecondLookCard,
+    Refiner,
+    RefinerCard,
     about,
     moves_to,
     refined,
@@ -43,21 +43,21 @@ def noise() -> np.ndarray:
     return np.random.default_rng(1).integers(60, 200, (ROWS, COLUMNS, 3), dtype=np.uint8)
 
 
-def detector_in(folder: Path, **second_look: object) -> Path:
+def detector_in(folder: Path, **refiner: object) -> Path:
     """Return a copy of the detector with changes to what its card says of the second look."""
     for network in MODEL.parent.glob("*.onnx"):
         shutil.copy(network, folder)
     card = json.loads(MODEL.with_name("card.json").read_text())
     plain = {"logit": 1.0, "size": 0.0, "size_squared": 0.0, "logit_and_size": 0.0}
-    card |= {"calibration": plain, "second_look": card["second_look"] | second_look}
+    card |= {"calibration": plain, "second_look": card["second_look"] | refiner}
     (folder / "card.json").write_text(json.dumps(card))
     return folder / "detector.onnx"
 
 
-def look(classes: Sequence[VisibleClass] = CLASSES, **card: object) -> SecondLook:
+def look(classes: Sequence[VisibleClass] = CLASSES, **card: object) -> Refiner:
     """Return the second look that ships, with changes to its card."""
     shipped = json.loads(MODEL.with_name("card.json").read_text())["second_look"]
-    return SecondLook(SecondLookCard.model_validate(shipped | card), MODEL.parent, classes)
+    return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
 
 
 @given(boxes())
@@ -169,12 +169,12 @@ def test_the_second_look_has_the_last_word(tmp_path: Path, monkeypatch: pytest.M
     ]
     asked = []
 
-    def judge(_: SecondLook, __: np.ndarray, places: list[Found]) -> list[Found]:
+    def judge(_: Refiner, __: np.ndarray, places: list[Found]) -> list[Found]:
         asked.append(places)
         return judged
 
     monkeypatch.setattr(EmbeddedDetector, "proposed", lambda *_: proposed)
-    monkeypatch.setattr(SecondLook, "judge", judge)
+    monkeypatch.setattr(Refiner, "judge", judge)
     detector = EmbeddedDetector(detector_in(tmp_path), threshold=0.0)
     assert detector.detect(noise()) == [
         Found("truck", pytest.approx(0.9), (0.0, 10.0, 26.0, 30.0)),

@@ -205,29 +205,29 @@ def test_a_thing_is_called_what_it_was_taken_for_most() -> None:
 
 
 def test_one_sure_finding_says_more_about_what_it_is_than_two_unsure_ones() -> None:
-    unsure, sure = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
+    unsure, threshold = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
     tracker = Tracker()
-    for step, one in enumerate((unsure, sure, unsure)):
+    for step, one in enumerate((unsure, threshold, unsure)):
         (told,) = tracker.follow(step * PERIOD_NS, VIEW, [one])
     assert (told.track_id, told.hits, told.found.label) == (1, 3, "bird")
 
 
 class TestOfWhatIsUnsure:
     def test_nothing_begins(self) -> None:
-        told = follow(Tracker(sure=0.5), lambda t: [a("bird", 320, 200, 8, 0.4)], range(16))
+        told = follow(Tracker(threshold=0.5), lambda t: [a("bird", 320, 200, 8, 0.4)], range(16))
         assert not any(told)
 
     def test_what_goes_on_with_a_confirmed_track_is_told(self) -> None:
         def scene(t: float) -> list[Found]:
             return [a("bird", 100 + 30 * t, 200, 8, 0.9 if t < 0.2 else 0.2)]
 
-        told = follow(Tracker(sure=0.5), scene, range(32))
+        told = follow(Tracker(threshold=0.5), scene, range(32))
         assert [len(each) for each in told] == [1] * 32
         assert ids(told) == {1}
         assert told[-1][0].found.confidence == 0.2
 
     def test_sure_findings_come_first(self) -> None:
-        tracker = Tracker(sure=0.5)
+        tracker = Tracker(threshold=0.5)
         follow(tracker, lambda t: [a("bird", 100, 100, 10)], range(5))
         near, far = a("bird", 100.5, 100, 10, 0.3), a("bird", 103, 101, 10, 0.9)
         (told,) = follow(tracker, lambda t: [near, far], [5])

@@ -71,7 +71,7 @@ def test_what_is_found_below_the_threshold_of_the_card_is_not_told_alone(
     times: float, expected: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     worker = reference_worker("vision", "embedded")
-    told = Told([a("truck", 320, 100, 40, times * EmbeddedDetector().sure)])
+    told = Told([a("truck", 320, 100, 40, times * EmbeddedDetector().threshold)])
     monkeypatch.setattr(EmbeddedDetector, "detect", lambda _, picture: told.detect(picture))
     (output,) = worker.step(0, [info(), frame(background())]).outputs
     assert len(Detections.model_validate_json(output.payload).detections) == expected

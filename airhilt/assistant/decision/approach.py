@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.assistant.decision.visual_tracks import Glimpse
+from airhilt.assistant.decision.visual_tracks import Observation
 from airhilt.units import SECOND_NS
 
 LEAST_SPAN_NS = round(0.75 * SECOND_NS)
@@ -76,24 +76,24 @@ class Approach(NamedTuple):
         return self.turning_rad_s[1] * self.time_s / self.size_rad
 
 
-def approach_of(glimpses: Sequence[Glimpse]) -> Approach | None:
+def approach_of(observations: Sequence[Observation]) -> Approach | None:
     """Return how something nears the camera; None while it cannot be told.
 
     Glimpses in which it may go on beyond the picture's edge tell nothing of its size.
     """
-    whole = [glimpse for glimpse in glimpses if glimpse.is_whole]
+    whole = [observation for observation in observations if observation.is_whole]
     if len(whole) < LEAST_GLIMPSES or whole[-1].t_ns - whole[0].t_ns < LEAST_SPAN_NS:
         return None
     last = whole[-1]
-    times = np.array([(glimpse.t_ns - last.t_ns) / SECOND_NS for glimpse in whole])
-    sizes = np.array([glimpse.size_rad for glimpse in whole])
+    times = np.array([(observation.t_ns - last.t_ns) / SECOND_NS for observation in whole])
+    sizes = np.array([observation.size_rad for observation in whole])
     # The diagonal changes least while the camera rolls.
     diagonals = np.hypot(sizes[:, 0], sizes[:, 1])
     side_rad = SIDE_ERROR_PX / last.eye.focal_px
     shown = _is_shown(times, diagonals)
     size_error = math.sqrt(2.0) * side_rad / diagonals[shown] ** 2
     growth = _line(times[shown], 1.0 / diagonals[shown], size_error)
-    offsets = np.array([last.ray.offset_to(glimpse.ray) for glimpse in whole])
+    offsets = np.array([last.ray.offset_to(observation.ray) for observation in whole])
     aim_error = np.full_like(times, side_rad / math.sqrt(2.0))
     turns = [_line(times, axis, aim_error) for axis in offsets.T]
     now = max(growth.now, 1e-9)

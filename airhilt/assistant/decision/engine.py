@@ -10,7 +10,7 @@ from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.runway import RunwayWatch
 from airhilt.assistant.decision.separation import COASTING_NS, SeparationConfig, SeparationWatch
 from airhilt.assistant.decision.threats import RunwayConfig
-from airhilt.assistant.decision.visual_tracks import Lookout
+from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -65,11 +65,11 @@ class DecisionWorker:
             ),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
         )
-        self.lookout = Lookout()
+        self.visual_tracks = VisualTracks()
         self.separation = SeparationWatch(config.separation, name)
-        self.runways = RunwayWatch(config.runways, name, self.lookout)
+        self.runways = RunwayWatch(config.runways, name, self.visual_tracks)
         self.intruders = IntruderWatch(
-            config.intruders, name, self.lookout, self.runways.runway_of_arrival
+            config.intruders, name, self.visual_tracks, self.runways.runway_of_arrival
         )
         self._gate = FusionGate()
         self._withheld: list[Advisory] = []
@@ -84,7 +84,7 @@ class DecisionWorker:
             self._withheld = advisories
             return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
-        self.lookout.forget(t_ns)
+        self.visual_tracks.forget(t_ns)
         watches = (self.separation, self.runways, self.intruders)
         for watch in watches:
             advisories += watch.judge(t_ns, t_ready_ns)
@@ -102,16 +102,16 @@ class DecisionWorker:
             report = AdsbReport.model_validate_json(item.payload)
             self.separation.take_report(report)
             self.runways.take_report(report)
-            self.lookout.take_report(report)
+            self.visual_tracks.take_report(report)
             return []
         if item.key.startswith("vision/"):
-            self.lookout.take_detections(Detections.model_validate_json(item.payload))
+            self.visual_tracks.take_detections(Detections.model_validate_json(item.payload))
             return []
         if item.key == "briefing":
             briefing = Briefing.model_validate_json(item.payload)
             self.separation.take_briefing(briefing)
             self.runways.take_briefing(briefing)
-            self.lookout.take_briefing(briefing)
+            self.visual_tracks.take_briefing(briefing)
             return []
         if item.key.startswith("radio/"):
             self._gate.take_transmission(Transmission.model_validate(item.attachment))

@@ -16,7 +16,12 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.line_of_sight import Ray
 from airhilt.assistant.decision.manoeuvres import in_words
 from airhilt.assistant.decision.resolution import STRONG_VERTICAL_RATE_FPM, TURN_DEG
-from airhilt.assistant.decision.visual_tracks import BLIND_NS, Lookout, Sighting, is_established
+from airhilt.assistant.decision.visual_tracks import (
+    BLIND_NS,
+    VisualTrack,
+    VisualTracks,
+    is_established,
+)
 from airhilt.messages import (
     CONTROLLER,
     Advisory,
@@ -79,7 +84,7 @@ class _Encounter(NamedTuple):
     """An aircraft that sees something come, as it is now."""
 
     carrier: str
-    sighting: Sighting
+    sighting: VisualTrack
     approach: Approach
     severity: Severity | None
     """None: it passes by, or is far."""
@@ -122,12 +127,12 @@ class IntruderWatch:
         self,
         config: IntruderConfig,
         name: str,
-        lookout: Lookout,
+        visual_tracks: VisualTracks,
         runway_of: Callable[[str], str | None],
     ) -> None:
         self.config = config
         self._name = name
-        self._lookout = lookout
+        self._visual_tracks = visual_tracks
         self._runway_of = runway_of
         self._alerts: list[_Alert] = []
         self._told = 0
@@ -161,13 +166,13 @@ class IntruderWatch:
     def _encounters(self, t_ns: int) -> Iterator[_Encounter]:
         """Yield what is seen in the air, the most urgent first."""
         found = []
-        for sighting in self._lookout:
+        for sighting in self._visual_tracks:
             carrier = sighting.carrier
             if carrier is None or not self._is_flying(sighting.last.eye.view):
                 continue
             if not self._is_unknown(sighting) or _may_stand(sighting):
                 continue
-            approach = approach_of(sighting.glimpses)
+            approach = approach_of(sighting.observations)
             if approach is not None:
                 severity = self._grade(sighting, approach, t_ns)
                 found.append(_Encounter(carrier, sighting, approach, severity))
@@ -176,18 +181,18 @@ class IntruderWatch:
 
     def _is_flying(self, view: CameraView) -> bool:
         """Return whether the aircraft that a camera is on is in the air."""
-        report = self._lookout.traffic.carrier(view)
+        report = self._visual_tracks.traffic.carrier(view)
         return view.height_m > GROUNDED_M if report is None else not report.on_ground
 
-    def _is_unknown(self, sighting: Sighting) -> bool:
+    def _is_unknown(self, sighting: VisualTrack) -> bool:
         """Return whether nobody else keeps a camera's carrier and what it sees apart.
 
         That takes a transponder of both.
         """
-        is_carrier_known = self._lookout.traffic.carrier(sighting.last.eye.view) is not None
+        is_carrier_known = self._visual_tracks.traffic.carrier(sighting.last.eye.view) is not None
         return sighting.explained_by is None or not is_carrier_known
 
-    def _grade(self, sighting: Sighting, approach: Approach, t_ns: int) -> Severity | None:
+    def _grade(self, sighting: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
         """Return how urgent it is that something comes."""
         config, miss = self.config, approach.least_miss()
         left_s = approach.time_s - (t_ns - sighting.last.t_ns) / SECOND_NS
@@ -255,7 +260,7 @@ class IntruderWatch:
         if runway is not None:
             return GoAround(runway=runway)
         view = encounter.sighting.last.eye.view
-        report = self._lookout.traffic.carrier(view)
+        report = self._visual_tracks.traffic.carrier(view)
         if report is None or report.altitude_ft is None:
             return Turn(degrees=TURN_DEG)
         sense = _sense(encounter, report.vertical_rate_fpm * FOOT_PER_MINUTE)
@@ -309,7 +314,7 @@ def _rank(severity: Severity | None) -> int:
     return -1 if severity is None else severity.rank
 
 
-def _may_stand(sighting: Sighting) -> bool:
+def _may_stand(sighting: VisualTrack) -> bool:
     """Return whether something may stand on the ground, by its size if it did."""
     last = sighting.last
     view: CameraView = last.eye.view

@@ -13,9 +13,9 @@ import numpy as np
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.line_of_sight import Fix, Ray, Sightline, Spot, meeting
 from airhilt.assistant.decision.visual_tracks import (
-    Glimpse,
-    Lookout,
-    Sighting,
+    Observation,
+    VisualTrack,
+    VisualTracks,
     belief_in,
     is_established,
 )
@@ -45,7 +45,7 @@ class SeenOnGround(NamedTuple):
     spot: Spot
     belief: float
     is_established: bool
-    sighting: Sighting
+    sighting: VisualTrack
     """The surest."""
     t_ns: int
 
@@ -72,16 +72,16 @@ class SeenAloft:
     """East, north and up, in m/s; nothing where it is not known."""
     is_located: bool
     t_ns: int
-    sightings: tuple[Sighting, ...]
+    sightings: tuple[VisualTrack, ...]
 
 
 def seen_on_ground(
-    lookout: Lookout, aerodrome: Aerodrome, aloft: Iterable[SeenAloft] = ()
+    visual_tracks: VisualTracks, aerodrome: Aerodrome, aloft: Iterable[SeenAloft] = ()
 ) -> Iterator[SeenOnGround]:
     """Yield what is on the ground and not known by ADS-B, the surest first."""
     flying = {id(sighting) for thing in aloft for sighting in thing.sightings}
-    known: list[tuple[Sighting, Spot]] = []
-    for sighting in lookout:
+    known: list[tuple[VisualTrack, Spot]] = []
+    for sighting in visual_tracks:
         if id(sighting) in flying:
             continue
         spot = _spot(sighting.last, aerodrome)
@@ -109,17 +109,17 @@ def seen_on_ground(
         )
 
 
-def _alike(first: Sighting, second: Sighting) -> bool:
+def _alike(first: VisualTrack, second: VisualTrack) -> bool:
     return (first.label in ANIMALS) == (second.label in ANIMALS)
 
 
-def _spot(glimpse: Glimpse, aerodrome: Aerodrome) -> Spot | None:
-    return _line(glimpse, aerodrome, glimpse.eye.foot(glimpse.box)).on_ground()
+def _spot(observation: Observation, aerodrome: Aerodrome) -> Spot | None:
+    return _line(observation, aerodrome, observation.eye.foot(observation.box)).on_ground()
 
 
-def _line(glimpse: Glimpse, aerodrome: Aerodrome, ray: Ray) -> Sightline:
-    view = glimpse.eye.view
-    return Sightline(_place(view, aerodrome), view.height_m, ray, glimpse.eye.error_rad)
+def _line(observation: Observation, aerodrome: Aerodrome, ray: Ray) -> Sightline:
+    view = observation.eye.view
+    return Sightline(_place(view, aerodrome), view.height_m, ray, observation.eye.error_rad)
 
 
 def _place(view: CameraView, aerodrome: Aerodrome) -> Vector:
@@ -131,9 +131,10 @@ def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:
     sighting = thing.sighting
     last_ns = sighting.last.t_ns
     places = [
-        ((glimpse.t_ns - last_ns) / SECOND_NS, spot)
-        for glimpse in sighting.glimpses
-        if last_ns - glimpse.t_ns <= MOTION_NS and (spot := _spot(glimpse, aerodrome)) is not None
+        ((observation.t_ns - last_ns) / SECOND_NS, spot)
+        for observation in sighting.observations
+        if last_ns - observation.t_ns <= MOTION_NS
+        and (spot := _spot(observation, aerodrome)) is not None
     ]
     if len(places) < 3 or -places[0][0] < LEAST_MOTION_NS / SECOND_NS:
         return Vector(0.0, 0.0)
@@ -153,12 +154,14 @@ def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:
 # --- in the air -----------------------------------------------------------------------------
 
 
-def seen_aloft(lookout: Lookout, aerodrome: Aerodrome) -> Iterator[SeenAloft]:
+def seen_aloft(visual_tracks: VisualTracks, aerodrome: Aerodrome) -> Iterator[SeenAloft]:
     """Yield what two cameras see in the air, and birds that one sees above its horizon.
 
     Far away, birds and aircraft are easily taken for each other.
     """
-    flying = [s for s in lookout if s.label in ("bird", "airplane") and s.explained_by is None]
+    flying = [
+        s for s in visual_tracks if s.label in ("bird", "airplane") and s.explained_by is None
+    ]
     located: set[int] = set()
     for first, second in itertools.combinations(flying, 2):
         if first.camera != second.camera and is_established((first, second)):
@@ -174,12 +177,12 @@ def seen_aloft(lookout: Lookout, aerodrome: Aerodrome) -> Iterator[SeenAloft]:
                 yield SeenAloft(True, places, (0.0, 0.0, 0.0), False, bird.last.t_ns, (bird,))
 
 
-def _flock(first: Sighting, second: Sighting, aerodrome: Aerodrome) -> SeenAloft | None:
+def _flock(first: VisualTrack, second: VisualTrack, aerodrome: Aerodrome) -> SeenAloft | None:
     """Return where two cameras see one thing in the air, None if they do not."""
     last_ns = min(first.last.t_ns, second.last.t_ns)
     fixes: list[tuple[float, Fix]] = []
     lately = (
-        [g for g in each.glimpses if last_ns - g.t_ns <= MOTION_NS] for each in (first, second)
+        [g for g in each.observations if last_ns - g.t_ns <= MOTION_NS] for each in (first, second)
     )
     for one, other in _at_once(*lately):
         fix = meeting(_line(one, aerodrome, one.ray), _line(other, aerodrome, other.ray), FLOCK_M)
@@ -201,19 +204,19 @@ def _flock(first: Sighting, second: Sighting, aerodrome: Aerodrome) -> SeenAloft
 
 
 def _at_once(
-    first: Sequence[Glimpse], second: Sequence[Glimpse]
-) -> Iterator[tuple[Glimpse, Glimpse]]:
+    first: Sequence[Observation], second: Sequence[Observation]
+) -> Iterator[tuple[Observation, Observation]]:
     """Yield glimpses of two cameras that are of about the same instant, in order of time."""
     for one in first:
-        other = min(second, key=lambda glimpse: abs(glimpse.t_ns - one.t_ns), default=None)
+        other = min(second, key=lambda observation: abs(observation.t_ns - one.t_ns), default=None)
         if other is not None and abs(other.t_ns - one.t_ns) <= SAME_INSTANT_NS:
             yield one, other
 
 
-def _along(glimpse: Glimpse, aerodrome: Aerodrome) -> Iterator[Fix]:
+def _along(observation: Observation, aerodrome: Aerodrome) -> Iterator[Fix]:
     """Yield where birds may be that look so large: one small bird, or a flock, or between."""
-    line = _line(glimpse, aerodrome, glimpse.ray)
-    size_rad = max(glimpse.size_rad)
+    line = _line(observation, aerodrome, observation.ray)
+    size_rad = max(observation.size_rad)
     steps = 12
     for step in range(steps + 1):
         size_m = SMALLEST_BIRD_M * (FLOCK_M / SMALLEST_BIRD_M) ** (step / steps)

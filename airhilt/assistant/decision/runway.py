@@ -9,7 +9,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
 from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import Assessment, RunwayConfig, Threat
-from airhilt.assistant.decision.visual_tracks import Lookout
+from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
@@ -41,10 +41,10 @@ class _Alert:
 class RunwayWatch:
     """Watches the runways of the airport in the briefing; without one it has nothing to do."""
 
-    def __init__(self, config: RunwayConfig, name: str, lookout: Lookout) -> None:
+    def __init__(self, config: RunwayConfig, name: str, visual_tracks: VisualTracks) -> None:
         self.config = config
         self._name = name
-        self._lookout = lookout
+        self._visual_tracks = visual_tracks
         self._situation: Situation | None = None
         self._alerts: dict[tuple[str, ...], _Alert] = {}
         self._told = 0
@@ -82,7 +82,7 @@ class RunwayWatch:
         if situation is None:
             return []
         situation.forget(t_ns)
-        situation.look(self._lookout)
+        situation.look(self._visual_tracks)
         threats: dict[tuple[str, ...], Threat] = {}
         for threat in Assessment(situation, self.config, t_ns).threats():
             known = threats.setdefault(threat.key, threat)

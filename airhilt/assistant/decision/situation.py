@@ -16,7 +16,7 @@ from airhilt.assistant.decision.occupancy import (
     seen_on_ground,
     velocity_of,
 )
-from airhilt.assistant.decision.visual_tracks import Lookout
+from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import AdsbReport, AirportBriefing, RosterEntry, Transcript
 from airhilt.phraseology import Call, parse_call
 from airhilt.units import SECOND_NS
@@ -112,10 +112,10 @@ class Situation:
         """Yield what only cameras show on a runway."""
         yield from self._seen.get(strip.name, ())
 
-    def look(self, lookout: Lookout) -> None:
+    def look(self, visual_tracks: VisualTracks) -> None:
         """Take in what cameras show on the ground, and in the air."""
-        self.aloft = tuple(seen_aloft(lookout, self.aerodrome))
-        things = list(seen_on_ground(lookout, self.aerodrome, self.aloft))
+        self.aloft = tuple(seen_aloft(visual_tracks, self.aerodrome))
+        things = list(seen_on_ground(visual_tracks, self.aerodrome, self.aloft))
         self._seen = {
             strip.name: [
                 obstacle

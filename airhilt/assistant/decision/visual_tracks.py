@@ -37,7 +37,7 @@ UNTRACKED_SHIFT = 1.5
 UNTRACKED_SHIFT_PX = 6.0
 
 
-class Glimpse(NamedTuple):
+class Observation(NamedTuple):
     """A thing in one picture.
 
     Attributes
@@ -59,7 +59,7 @@ class Glimpse(NamedTuple):
     is_whole: bool
 
     @classmethod
-    def of(cls, t_ns: int, eye: Eye, box: Box, confidence: float) -> Glimpse:
+    def of(cls, t_ns: int, eye: Eye, box: Box, confidence: float) -> Observation:
         """Return what a box in a picture shows."""
         is_whole = not eye.touches_edge(box)
         return cls(t_ns, eye, box, confidence, eye.middle(box), eye.angular_size(box), is_whole)
@@ -79,7 +79,7 @@ class _Look:
 
 
 @dataclass(slots=True, eq=False)
-class Sighting:
+class VisualTrack:
     """Something that one camera follows.
 
     Attributes
@@ -92,7 +92,7 @@ class Sighting:
 
     camera: str
     first_ns: int
-    glimpses: deque[Glimpse] = field(default_factory=deque)
+    observations: deque[Observation] = field(default_factory=deque)
     explained_by: str | None = None
     has_moved: bool = False
     _first_box: Box | None = None
@@ -101,9 +101,9 @@ class Sighting:
     _votes: dict[VisibleClass, float] = field(default_factory=dict)
 
     @property
-    def last(self) -> Glimpse:
+    def last(self) -> Observation:
         """Where it was seen last."""
-        return self.glimpses[-1]
+        return self.observations[-1]
 
     @property
     def label(self) -> VisibleClass:
@@ -137,19 +137,19 @@ class Sighting:
         """Between the first and the last picture that showed it."""
         return self.last.t_ns - self.first_ns
 
-    def take(self, glimpse: Glimpse, label: VisibleClass, explained_by: str | None) -> None:
+    def take(self, observation: Observation, label: VisibleClass, explained_by: str | None) -> None:
         """Take in that a picture shows it."""
-        self._first_box = self._first_box or glimpse.box
-        moved = _shift(self._first_box, glimpse.box, MOVED_SIZES, MOVED_PX) > 1.0
-        self.has_moved = self.has_moved or moved or glimpse.eye.view.carrier is not None
-        self.glimpses.append(glimpse)
-        while glimpse.t_ns - self.glimpses[0].t_ns > GLIMPSES_NS:
-            self.glimpses.popleft()
-        self._votes[label] = self._votes.get(label, 0.0) + glimpse.confidence
-        self._look(glimpse.t_ns, glimpse.confidence)
+        self._first_box = self._first_box or observation.box
+        moved = _shift(self._first_box, observation.box, MOVED_SIZES, MOVED_PX) > 1.0
+        self.has_moved = self.has_moved or moved or observation.eye.view.carrier is not None
+        self.observations.append(observation)
+        while observation.t_ns - self.observations[0].t_ns > GLIMPSES_NS:
+            self.observations.popleft()
+        self._votes[label] = self._votes.get(label, 0.0) + observation.confidence
+        self._look(observation.t_ns, observation.confidence)
         if explained_by is not None:
-            self.explained_by, self._explained_ns = explained_by, glimpse.t_ns
-        elif glimpse.t_ns - self._explained_ns > EXPLAINED_NS:
+            self.explained_by, self._explained_ns = explained_by, observation.t_ns
+        elif observation.t_ns - self._explained_ns > EXPLAINED_NS:
             self.explained_by = None
 
     def miss(self, t_ns: int) -> None:
@@ -163,7 +163,7 @@ class Sighting:
         self._looks[-1].pictures += 1
 
 
-def is_established(sightings: Iterable[Sighting]) -> bool:
+def is_established(sightings: Iterable[VisualTrack]) -> bool:
     """Return whether something is there: cameras agree, or one of them persists."""
     together = list(sightings)
     if belief_in(together) < TAU_VIS:
@@ -171,21 +171,21 @@ def is_established(sightings: Iterable[Sighting]) -> bool:
     return len(together) > 1 or together[0].age_ns >= PERSISTENCE_NS
 
 
-def belief_in(sightings: Iterable[Sighting]) -> float:
+def belief_in(sightings: Iterable[VisualTrack]) -> float:
     """Return how sure it is that something is there which one or more cameras show."""
     return 1.0 - math.prod(1.0 - sighting.belief for sighting in sightings)
 
 
-class Lookout:
+class VisualTracks:
     """Keeps what cameras have shown, and tells apart what is known by ADS-B."""
 
     def __init__(self) -> None:
         self.traffic = Traffic()
-        self._sightings: dict[str, dict[int, Sighting]] = {}
+        self._sightings: dict[str, dict[int, VisualTrack]] = {}
         """By camera, and by the detector's track."""
         self._unnumbered = -1
 
-    def __iter__(self) -> Iterator[Sighting]:
+    def __iter__(self) -> Iterator[VisualTrack]:
         for followed in self._sightings.values():
             yield from followed.values()
 
@@ -205,13 +205,13 @@ class Lookout:
         t_ns, eye = detections.t_frame_ns, Eye(detections.view)
         self.traffic.learn_ground(detections.view, t_ns)
         followed = self._sightings.setdefault(detections.camera, {})
-        found: dict[int, Sighting] = {}
+        found: dict[int, VisualTrack] = {}
         for detection in detections.detections:
             number = self._number(detection, followed, found)
-            sighting = followed.get(number) or Sighting(detections.camera, t_ns)
+            sighting = followed.get(number) or VisualTrack(detections.camera, t_ns)
             explained_by = self.traffic.explaining(eye, detection.box, t_ns)
-            glimpse = Glimpse.of(t_ns, eye, detection.box, detection.confidence)
-            sighting.take(glimpse, detection.label, explained_by)
+            observation = Observation.of(t_ns, eye, detection.box, detection.confidence)
+            sighting.take(observation, detection.label, explained_by)
             found[number] = sighting
         for number, sighting in followed.items():
             if number not in found:
@@ -221,7 +221,7 @@ class Lookout:
         self._sightings[detections.camera] = found
 
     def _number(
-        self, detection: Detection, followed: dict[int, Sighting], found: dict[int, Sighting]
+        self, detection: Detection, followed: dict[int, VisualTrack], found: dict[int, VisualTrack]
     ) -> int:
         """Return the track of a detection; a detector that gives none is followed simply."""
         if detection.track_id is not None:

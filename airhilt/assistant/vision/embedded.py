@@ -18,7 +18,7 @@ import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
-from airhilt.assistant.vision.refiner import SecondLook, SecondLookCard
+from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.imaging.boxes import area, moved, size_px, within
@@ -78,7 +78,7 @@ class Card(BaseModel):
     """Confidence from which a finding counts by itself: with it there is one false detection a
     minute and camera; docs/detector.md has what comes of it elsewhere."""
     calibration: Calibration = Calibration()
-    second_look: SecondLookCard | None = None
+    refiner: RefinerCard | None = None
     """Without it the first network has the last word."""
 
 
@@ -114,17 +114,17 @@ class EmbeddedDetector:
         card = _card(file.with_name(CARD))
         self._classes = card.classes
         self._calibration = card.calibration
-        self.sure = card.threshold
+        self.threshold = card.threshold
         self._threshold = UNSURE * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject)
-        self._second_look = (
+        self._refiner = (
             None
-            if card.second_look is None
-            else SecondLook(card.second_look, file.parent, card.classes, threads)
+            if card.refiner is None
+            else Refiner(card.refiner, file.parent, card.classes, threads)
         )
 
     def detect(self, picture: Picture) -> Sequence[Found]:
@@ -152,7 +152,7 @@ class EmbeddedDetector:
             (one for one in found if one.confidence >= self._threshold),
             key=lambda one: -one.confidence,
         )
-        return told if self._second_look is None else once(told)
+        return told if self._refiner is None else once(told)
 
     def uncalibrated(self, picture: Picture) -> list[Found]:
         """Return all findings of the last network, with its scores as confidences.
@@ -167,11 +167,11 @@ class EmbeddedDetector:
         return self._judged(picture, self.proposed(picture))
 
     def _judged(self, picture: Picture, proposed: list[Found]) -> list[Found]:
-        if self._second_look is None:
+        if self._refiner is None:
             return proposed
         rows, columns = picture.shape[:2]
-        places = self._second_look.places(proposed, rows * columns)
-        judged = self._second_look.judge(picture, places)
+        places = self._refiner.places(proposed, rows * columns)
+        judged = self._refiner.judge(picture, places)
         inside = [one._replace(box=within(one.box, columns, rows)) for one in judged]
         return [one for one in inside if area(one.box) > 0.0]
 

@@ -16,7 +16,7 @@ class VisionEngine(NamedTuple):
     """A detector, and how it is used."""
 
     detector: Detector
-    sure: float = 0.0
+    threshold: float = 0.0
     """Confidence from which a finding counts by itself."""
 
 
@@ -33,7 +33,7 @@ def vision_engine(name: str) -> VisionEngine:
         from airhilt.assistant.vision.embedded import EmbeddedDetector
 
         detector = EmbeddedDetector(Path(argument) if argument else None)
-        return VisionEngine(detector, detector.sure)
+        return VisionEngine(detector, detector.threshold)
     if kind == "yolo" and argument:
         from airhilt.assistant.vision.yolo import SURE, YoloDetector
 

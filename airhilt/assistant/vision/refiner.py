@@ -43,7 +43,7 @@ Views = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
 
 
-class SecondLookCard(BaseModel):
+class RefinerCard(BaseModel):
     """What ``card.json`` says of it: which places are looked at, and by what."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
@@ -55,7 +55,7 @@ class SecondLookCard(BaseModel):
     """In `USUAL_PIXELS`; in larger pictures as many more."""
 
 
-class SecondLook:
+class Refiner:
     """Looks at places in a picture.
 
     Parameters
@@ -75,7 +75,7 @@ class SecondLook:
 
     def __init__(
         self,
-        card: SecondLookCard,
+        card: RefinerCard,
         folder: Path,
         classes: Sequence[VisibleClass],
         threads: int = 1,

@@ -161,8 +161,8 @@ class Tracker:
         Confidence from which a finding begins a track, and is told of before that is confirmed.
     """
 
-    def __init__(self, sure: float = 0.0) -> None:
-        self._sure = sure
+    def __init__(self, threshold: float = 0.0) -> None:
+        self._threshold = threshold
         self._tracks: list[_Track] = []
         self._count = 0
         self._last: tuple[int, CameraView] | None = None
@@ -178,10 +178,10 @@ class Tracker:
             End of the exposure.
         """
         self._expect(t_ns, view)
-        sure = [one for one in found if one.confidence >= self._sure]
-        unsure = [one for one in found if one.confidence < self._sure]
+        threshold = [one for one in found if one.confidence >= self._threshold]
+        unsure = [one for one in found if one.confidence < self._threshold]
         followed: list[tuple[_Track, Found]] = []
-        rest = self._assign(self._tracks, sure, followed)
+        rest = self._assign(self._tracks, threshold, followed)
         left = [track for track in self._tracks if all(track is not other for other, _ in followed)]
         self._assign(left, unsure, followed)
         for track in self._tracks:
@@ -197,7 +197,7 @@ class Tracker:
         told = [
             Tracked(one._replace(label=track.label), track.id, track.hits)
             for track, one in followed
-            if one.confidence >= self._sure or track.hits >= CONFIRMED_HITS
+            if one.confidence >= self._threshold or track.hits >= CONFIRMED_HITS
         ]
         return sorted(told, key=lambda each: (-each.found.confidence, each.track_id))
 

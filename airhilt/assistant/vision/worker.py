@@ -39,10 +39,10 @@ class VisionWorker:
         goes on with what was found in three pictures or more.
     """
 
-    def __init__(self, detector: Detector, name: str = "vision", sure: float = 0.0) -> None:
+    def __init__(self, detector: Detector, name: str = "vision", threshold: float = 0.0) -> None:
         self._engine = detector.name
         self._gate = Gate(detector)
-        self._sure = sure
+        self._threshold = threshold
         self._infos: dict[str, CameraInfo] = {}
         self._masks: dict[str, Mask] = {}
         self._trackers: dict[str, Tracker] = {}
@@ -109,7 +109,7 @@ class VisionWorker:
         mask = self._masks.get(header.camera)
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
-        tracker = self._trackers.setdefault(header.camera, Tracker(self._sure))
+        tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))
         detections = tuple(
             Detection(
                 label=one.found.label,

@@ -14,7 +14,7 @@ from airhilt.scenario.models import Camera as DeclaredCamera
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.units import DEGREE, FOOT
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.airport import Camera as AirportCamera
 
 AIRPORT_CAMERA_PX = (640, 360)
@@ -69,15 +69,15 @@ class Camera:
         return View(self.intrinsics, self.at.pose.on(carrier.pose))
 
 
-def frame_of(setting: Setting) -> LocalFrame:
+def frame_of(site: ScenarioSite) -> LocalFrame:
     """Return the local frame in which a setting is drawn."""
-    if setting.layout is not None:
-        return setting.layout.frame
-    return LocalFrame((setting.centre.lat_deg * DEGREE, setting.centre.lon_deg * DEGREE))
+    if site.layout is not None:
+        return site.layout.frame
+    return LocalFrame((site.centre.lat_deg * DEGREE, site.centre.lon_deg * DEGREE))
 
 
 def cameras_of(
-    scenario: Scenario, setting: Setting, models: Mapping[str, Model]
+    scenario: Scenario, site: ScenarioSite, models: Mapping[str, Model]
 ) -> dict[str, Camera]:
     """Return the cameras that a scenario declares, and those of its airport, by name.
 
@@ -86,13 +86,13 @@ def cameras_of(
     CameraError
         One is none.
     """
-    frame = frame_of(setting)
+    frame = frame_of(site)
     cameras: dict[str, Camera] = {}
-    if setting.layout is not None:
-        for given in setting.layout.airport.cameras:
+    if site.layout is not None:
+        for given in site.layout.airport.cameras:
             cameras[given.name] = _of_airport(given, frame)
     for declared in scenario.cameras:
-        cameras[declared.name] = _declared(declared, setting, frame, models)
+        cameras[declared.name] = _declared(declared, site, frame, models)
     return cameras
 
 
@@ -119,12 +119,12 @@ def _of_airport(given: AirportCamera, frame: LocalFrame) -> Camera:
 
 
 def _declared(
-    declared: DeclaredCamera, setting: Setting, frame: LocalFrame, models: Mapping[str, Model]
+    declared: DeclaredCamera, site: ScenarioSite, frame: LocalFrame, models: Mapping[str, Model]
 ) -> Camera:
     lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
     match declared.mount:
         case FixedMount() as fixed:
-            east, north = frame.to_local(setting.place(fixed.position))
+            east, north = frame.to_local(site.place(fixed.position))
             pose = Pose.of(
                 (east, north, fixed.height_ft * FOOT),
                 fixed.azimuth_deg * DEGREE,

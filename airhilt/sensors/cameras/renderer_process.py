@@ -34,7 +34,7 @@ from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene_renderer import STILL_SAMPLES, Frame, Sighting
 from airhilt.sensors.cameras.view import View
 from airhilt.shapes.mesh import Floats
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 Planes = tuple[npt.NDArray[np.uint8], npt.NDArray[np.uint8], Floats]
 """Colour, instance, distance."""
@@ -52,8 +52,8 @@ LAST_SAID_BYTES = 1 << 12
 """Of that, in which its last line is."""
 
 
-class RemoteStudio:
-    """Takes pictures as a `airhilt.sensors.cameras.scene_renderer.Studio` does, in another process.
+class RendererProcess:
+    """Takes pictures as a `SceneRenderer` does, in another process.
 
     Parameters
     ----------
@@ -84,13 +84,13 @@ class RemoteStudio:
         scenario: Scenario,
         names: Sequence[str] | None = None,
         renderer: RendererName = "open3d",
-        fine: int = 1,
+        supersampling: int = 1,
         patience_s: float = PATIENCE_S,
     ) -> None:
         self._renderer = renderer
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = _cameras(scenario, wanted)
-        samples = sum(_samples(camera, fine) for camera in self._cameras.values())
+        samples = sum(_samples(camera, supersampling) for camera in self._cameras.values())
         drawing_s = samples / SLOWEST_SAMPLES_PER_S
         self._patience_s = patience_s + drawing_s
         self._places = _places(self._cameras)
@@ -115,7 +115,7 @@ class RemoteStudio:
                     "scenario": scenario.model_dump(mode="json"),
                     "cameras": wanted,
                     "renderer": renderer,
-                    "fine": fine,
+                    "fine": supersampling,
                 },
                 STARTING_S + drawing_s,
             )
@@ -171,7 +171,7 @@ class RemoteStudio:
             self._file.close()
             self._said.close()
 
-    def __enter__(self) -> RemoteStudio:
+    def __enter__(self) -> RendererProcess:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -282,9 +282,9 @@ def _how(code: int | None) -> str:
     return f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"
 
 
-def _samples(camera: Camera, fine: int) -> int:
+def _samples(camera: Camera, supersampling: int) -> int:
     """Return how many samples a picture has at most; a fixed camera's first one has more."""
-    along = max(fine, STILL_SAMPLES) if camera.is_fixed else fine
+    along = max(supersampling, STILL_SAMPLES) if camera.is_fixed else supersampling
     return camera.intrinsics.width_px * camera.intrinsics.height_px * along**2
 
 
@@ -313,12 +313,12 @@ def planes(pixels: mmap.mmap, place: int, camera: Camera) -> Planes:
 def _cameras(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]:
     from airhilt.sensors.cameras.scene.bodies import model_of
 
-    setting = Setting.of(scenario)
+    site = ScenarioSite.of(scenario)
     carriers = {camera.carrier for camera in scenario.cameras}
     models = {
         actor.callsign: model_of(actor) for actor in scenario.actors if actor.callsign in carriers
     }
-    known = cameras_of(scenario, setting, models)
+    known = cameras_of(scenario, site, models)
     return {name: find_camera(known, name) for name in names}
 
 
@@ -374,7 +374,7 @@ def probe(renderer: RendererName) -> None:
 
 def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> None:
     """Answer until there are no more questions: the first opens the studio."""
-    from airhilt.sensors.cameras.scene.builder import open_studio
+    from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 
     opening = json.loads(questions.readline())
     scenario = Scenario.model_validate(opening["scenario"])
@@ -383,8 +383,8 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
     places = _places(cameras)
     pixels = mmap.mmap(shared, 0)
     try:
-        studio = open_studio(
-            scenario, Setting.of(scenario), names, opening["renderer"], opening["fine"]
+        studio = open_scene_renderer(
+            scenario, ScenarioSite.of(scenario), names, opening["renderer"], opening["fine"]
         )
     except AirhiltError as error:
         answer(_told(error))

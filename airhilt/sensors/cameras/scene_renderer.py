@@ -21,12 +21,12 @@ from airhilt.messages import VisibleClass
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
-from airhilt.sensors.cameras.scene.background import KEPT_PX, Backdrop
+from airhilt.sensors.cameras.scene.background import KEPT_PX, Background
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import World
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
-from airhilt.sensors.cameras.scene.lights import Lamp, Lamps, Spot, shine
+from airhilt.sensors.cameras.scene.lights import Light, Lights, Spot, shine
 from airhilt.sensors.cameras.scene.projected_box import Box, Outline
 from airhilt.sensors.cameras.scene.rain import Streaks
 from airhilt.sensors.cameras.view import Pose, View, Window
@@ -149,7 +149,7 @@ class _Plain(NamedTuple):
     frame: Frame
 
 
-class Studio:
+class SceneRenderer:
     """A scene with cameras and bodies in it, and what draws it.
 
     Parameters
@@ -172,12 +172,12 @@ class Studio:
     def __init__(
         self,
         world: World,
-        light: Light,
+        light: Illumination,
         models: Mapping[str, Model],
         cameras: Iterable[Camera],
         renderer: RendererName = "open3d",
         rain_mm_h: float = 0.0,
-        fine: int = 1,
+        supersampling: int = 1,
     ) -> None:
         self._world = world
         self._light = light
@@ -205,9 +205,11 @@ class Studio:
         }
         self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
         self._far = frozenset(far)
-        self._fine = fine
-        self._lights = Lamps.of(world.lamps)
-        self._backdrops = {camera.name: self._backdrop(camera) for camera in self._cameras.values()}
+        self._supersampling = supersampling
+        self._fixed_lights = Lights.of(world.lights)
+        self._backgrounds = {
+            camera.name: self._background(camera) for camera in self._cameras.values()
+        }
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, tuple[tuple[object, ...], Layer]] = {}
         self._streaks = {
@@ -238,8 +240,8 @@ class Studio:
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
-        lamps = self._lamps(there, t_ns)
-        return [self._picture(self._cameras[name], there, poses, lamps, t_ns) for name in names]
+        lights = self._lights(there, t_ns)
+        return [self._picture(self._cameras[name], there, poses, lights, t_ns) for name in names]
 
     def own_aircraft(self, name: str) -> Mask:
         """Return the pixels of a camera that its own aircraft may cover, shape (rows, columns).
@@ -277,12 +279,12 @@ class Studio:
         camera: Camera,
         bodies: Mapping[str, BodyState],
         poses: Mapping[str, Pose],
-        lamps: Mapping[str, Sequence[Lamp]],
+        lights: Mapping[str, Sequence[Light]],
         t_ns: int,
     ) -> Frame:
         view = camera.view(bodies)
-        backdrop = self._backdrops[camera.name]
-        backdrop.look(view)
+        background = self._backgrounds[camera.name]
+        background.look(view)
         mount = camera.at if isinstance(camera.at, Mount) else None
         carrier = camera.carrier
         others = [body for actor, body in bodies.items() if actor != carrier]
@@ -293,21 +295,21 @@ class Studio:
         own = None
         if mount is not None and mount.sees_own_aircraft:
             own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
-        spots = self._spots(camera, view, lamps, poses, carrier)
+        spots = self._spots(camera, view, lights, poses, carrier)
         is_plain = not (drawn or shadows or spots or camera.name in self._streaks)
         last = self._plain.get(camera.name)
-        if is_plain and last and last.drawn == backdrop.drawn and last.own is own:
+        if is_plain and last and last.drawn == background.drawn and last.own is own:
             sightings = self._sightings([], faint)
             return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
 
-        colour, distance = backdrop.colour.copy(), backdrop.distance_m.copy()
+        colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
         parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
-            self._darken(part, picture, view, backdrop, colour)
+            self._darken(part, picture, view, background, colour)
         layers = [
-            self._layer(one, part, picture, backdrop.distance_m[one.window.slices])
+            self._layer(one, part, picture, background.distance_m[one.window.slices])
             for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
         ]
         if own is not None:
@@ -323,20 +325,20 @@ class Studio:
         sightings = self._sightings(layers, faint, own)
         frame = Frame(camera.name, t_ns, view, colour, distance, instance, sightings).sealed()
         if is_plain:
-            self._plain[camera.name] = _Plain(backdrop.drawn, own, frame)
+            self._plain[camera.name] = _Plain(background.drawn, own, frame)
         else:
             self._plain.pop(camera.name, None)
         return frame
 
-    def _backdrop(self, camera: Camera) -> Backdrop:
+    def _background(self, camera: Camera) -> Background:
         if not camera.is_fixed:
-            return Backdrop(self._renderer, self._fine)
-        return Backdrop(self._renderer, max(STILL_SAMPLES, self._fine), self._light_up)
+            return Background(self._renderer, self._supersampling)
+        return Background(self._renderer, max(STILL_SAMPLES, self._supersampling), self._light_up)
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the world, which are always on, into what is drawn once."""
         if self._light.needs_lamps:
-            shine(colour, distance_m, self._lights.seen(view, self._light))
+            shine(colour, distance_m, self._fixed_lights.seen(view, self._light))
 
     def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
         """Return a body if it is in the picture, hidden or not."""
@@ -392,18 +394,18 @@ class Studio:
         if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
             return None
         window = box.window(view)
-        samples = max(min(_fineness(window), 2), self._fine)
+        samples = max(min(_fineness(window), 2), self._supersampling)
         return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
 
     def _darken(
-        self, part: Part, drawn: Samples, view: View, backdrop: Backdrop,
+        self, part: Part, drawn: Samples, view: View, background: Background,
         colour: npt.NDArray[np.uint8],
     ) -> None:  # fmt: skip
         """Darken the flat ground where a body keeps the sun off."""
         light = self._light
         shaded = np.isfinite(by_sample(drawn.distance_m, part.samples))
         down = view.directions(*view.sample_places(part.window, 1))[2]
-        away = backdrop.distance_m[part.window.slices]
+        away = background.distance_m[part.window.slices]
         with np.errstate(invalid="ignore"):
             # The ground may have been drawn when it was a little out of its place.
             near = np.float32(ON_GROUND_M) + np.float32(KEPT_PX / view.intrinsics.focal_px) * away
@@ -416,15 +418,15 @@ class Studio:
         ground[...] = (ground * (1.0 - kept[..., None] * darker)).astype(np.uint8)
 
     def _samples(self, window: Window) -> int:
-        return max(_fineness(window), self._fine)
+        return max(_fineness(window), self._supersampling)
 
     # --- lights and truth -----------------------------------------------------------------
 
-    def _lamps(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Lamp]]:
+    def _lights(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Light]]:
         """Return the lights that are on, in the axes of the actors that carry them."""
         # Nobody's lights flash together with another's.
         return {
-            actor: list(self._models[actor].lamps(t_ns / 1e9 + 0.37 * number, body.lit))
+            actor: list(self._models[actor].lights(t_ns / 1e9 + 0.37 * number, body.lit))
             for number, (actor, body) in enumerate(bodies.items())
         }
 
@@ -432,14 +434,14 @@ class Studio:
         self,
         camera: Camera,
         view: View,
-        lamps: Mapping[str, Sequence[Lamp]],
+        lights: Mapping[str, Sequence[Light]],
         poses: Mapping[str, Pose],
         carrier: str | None,
     ) -> list[Spot]:
-        carried = [(poses[actor], group) for actor, group in lamps.items() if actor != carrier]
-        found = Lamps.carried(carried).seen(view, self._light)
+        carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
+        found = Lights.carried(carried).seen(view, self._light)
         if not camera.is_fixed and self._light.needs_lamps:
-            found.extend(self._lights.seen(view, self._light))
+            found.extend(self._fixed_lights.seen(view, self._light))
         return found
 
     def _sightings(

@@ -29,11 +29,11 @@ from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.sensors.cameras.view import View
 from airhilt.sim import Director, Priority
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
-from airhilt.world.actors.actor import Performer
-from airhilt.world.site import Setting
+from airhilt.world.actors.actor import Actor
+from airhilt.world.site import ScenarioSite
 
 
-class Photographer(Protocol):
+class FrameSource(Protocol):
     """Takes the pictures of all cameras that are due at an instant."""
 
     own_aircraft: Mapping[str, npt.NDArray[np.bool_]]
@@ -74,7 +74,7 @@ class Exposures:
         return self.phase_ns + round(seq * SECOND_NS / self.rate_hz)
 
 
-class CameraRig:
+class CameraSensor:
     """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
 
     A picture is published at the end of its exposure; drawing it takes no simulation time. The
@@ -83,7 +83,7 @@ class CameraRig:
     Parameters
     ----------
     state_at_ns
-        Returns the time that the states of the performers are of.
+        Returns the time that the states of the actors are of.
     lost
         Called with the cause when there will be no more pictures.
     """
@@ -91,10 +91,10 @@ class CameraRig:
     def __init__(
         self,
         director: Director,
-        photographer: Photographer,
+        photographer: FrameSource,
         cameras: Sequence[Camera],
-        setting: Setting,
-        performers: Mapping[str, Performer],
+        site: ScenarioSite,
+        actors: Mapping[str, Actor],
         *,
         state_at_ns: Callable[[], int],
         publish: Publish,
@@ -103,9 +103,9 @@ class CameraRig:
         self._director = director
         self._photographer = photographer
         self._cameras = {camera.name: camera for camera in cameras}
-        self._frame = frame_of(setting)
-        self._ground_m = setting.ground_m
-        self._performers = performers
+        self._frame = frame_of(site)
+        self._ground_m = site.ground_m
+        self._actors = actors
         self._state_at_ns = state_at_ns
         self._publish = publish
         self._lost = lost
@@ -160,11 +160,11 @@ class CameraRig:
 
     def _has_ended(self, camera: Camera) -> bool:
         carrier = camera.carrier
-        return carrier is not None and self._performers[carrier].body.ended is not None
+        return carrier is not None and self._actors[carrier].body.ended is not None
 
     def _bodies(self) -> list[BodyState]:
         return states_of(
-            self._performers.values(),
+            self._actors.values(),
             self._frame,
             self._ground_m,
             self._director.now_ns,

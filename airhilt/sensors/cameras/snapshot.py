@@ -11,12 +11,12 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.loading import draw
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.mounts import frame_of
-from airhilt.sensors.cameras.renderer_process import RemoteStudio
+from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.units import seconds_to_ns
-from airhilt.world.actors import build_cast
-from airhilt.world.site import Setting
+from airhilt.world.actors import build_actors
+from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
 """Control tick of the actors, as in a run."""
@@ -43,15 +43,15 @@ def still(
     now_ns, tick_ns = seconds_to_ns(at_s), seconds_to_ns(TICK_S)
     ticks = now_ns // tick_ns
     realised, _ = draw(scenario, seed)
-    setting = Setting.of(realised)
-    with RemoteStudio(realised, [camera], renderer, FINE) as studio:
-        cast = build_cast(realised, setting, seed, TICK_S)
+    site = ScenarioSite.of(realised)
+    with RendererProcess(realised, [camera], renderer, FINE) as studio:
+        actors = build_actors(realised, site, seed, TICK_S)
         for _ in range(ticks):
-            for performer in cast.values():
-                if performer.body.ended is None:
-                    performer.body.advance()
-        frame = frame_of(setting)
-        bodies = states_of(cast.values(), frame, setting.ground_m, now_ns, ticks * tick_ns)
+            for actor in actors.values():
+                if actor.body.ended is None:
+                    actor.body.advance()
+        frame = frame_of(site)
+        bodies = states_of(actors.values(), frame, site.ground_m, now_ns, ticks * tick_ns)
         return studio.shoot([camera], bodies, now_ns)[0]
 
 

@@ -9,14 +9,14 @@ import numpy as np
 from airhilt.audio.wav import SAMPLE_BYTES, to_pcm
 from airhilt.messages import Transmission
 from airhilt.sensors.radio.backend import Reception
-from airhilt.sensors.radio.channel import WHISTLES_HZ, Background, Channel, Other
+from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
 from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine
 
 
-class Spoken:
+class AudioRadio:
     """Calls are spoken with everybody's own voice, and go through a channel."""
 
     def __init__(self, voices: TtsEngine, channel: Channel, seed: int) -> None:
@@ -40,7 +40,7 @@ class Spoken:
         on_air: OnAir,
         heard_over: tuple[OnAir, ...],
         snr_db: float | None,
-        background: Background,
+        background: BackgroundNoise,
     ) -> Reception:
         """Return what the units' receiver gives out of a transmission that has ended."""
         said = on_air.utterance

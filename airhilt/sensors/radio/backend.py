@@ -12,7 +12,7 @@ from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.voices.engine import Audio
 
 if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import Background
+    from airhilt.sensors.radio.channel import BackgroundNoise
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Reception:
     """Its words where there is no sound to recognise them from."""
 
 
-class Sound(Protocol):
+class RadioBackend(Protocol):
     """The voices of a run and its receiver."""
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
@@ -44,7 +44,7 @@ class Sound(Protocol):
         on_air: OnAir,
         heard_over: tuple[OnAir, ...],
         snr_db: float | None,
-        background: Background,
+        background: BackgroundNoise,
     ) -> Reception:
         """Return a transmission that has ended, as it is received.
 
@@ -70,7 +70,7 @@ class Publish(Protocol):
     def __call__(self, key: str, message: Message, *, raw: bytes | None = None) -> None: ...  # noqa: D102
 
 
-class Text:
+class TextRadio:
     """A radio without sound: calls take the time of their words, and arrive as text.
 
     What was blocked arrives as nothing.
@@ -88,7 +88,7 @@ class Text:
         on_air: OnAir,
         heard_over: tuple[OnAir, ...],
         snr_db: float | None,
-        background: Background,  # noqa: ARG002
+        background: BackgroundNoise,  # noqa: ARG002
     ) -> Reception:
         """Return the transmission without sound, and its words as a transcript at once."""
         said = on_air.utterance
@@ -102,7 +102,7 @@ class Text:
         return Reception(header, b"", transcript)
 
 
-class Fragile:
+class FallbackRadio:
     """A radio with sound until its voices or its channel fail, and without from then on.
 
     Calls then take the time of their words and arrive without samples. Nor do their words arrive:
@@ -118,9 +118,11 @@ class Fragile:
         Called once with the cause when it fails.
     """
 
-    def __init__(self, sound: Sound, words_per_minute: float, lost: Callable[[str], None]) -> None:
-        self._sound = sound
-        self._text = Text(words_per_minute)
+    def __init__(
+        self, sound: RadioBackend, words_per_minute: float, lost: Callable[[str], None]
+    ) -> None:
+        self._backend = sound
+        self._text = TextRadio(words_per_minute)
         self._lost = lost
         self.is_lost = False
 
@@ -128,7 +130,7 @@ class Fragile:
         """Return a text as speech, None without sound, and how long it takes."""
         if not self.is_lost:
             try:
-                return self._sound.speak(speaker, text)
+                return self._backend.speak(speaker, text)
             except SpeechError as error:
                 self._lose(error)
         return self._text.speak(speaker, text)
@@ -138,12 +140,12 @@ class Fragile:
         on_air: OnAir,
         heard_over: tuple[OnAir, ...],
         snr_db: float | None,
-        background: Background,
+        background: BackgroundNoise,
     ) -> Reception:
         """Return the transmission with the sound that it has."""
         if not self.is_lost:
             try:
-                return self._sound.receive(on_air, heard_over, snr_db, background)
+                return self._backend.receive(on_air, heard_over, snr_db, background)
             except SpeechError as error:
                 self._lose(error)
         return Reception(self._text.receive(on_air, heard_over, snr_db, background).header, b"")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from airhilt.record.folder import sha256
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES, is_learned
-from airhilt.sensors.radio.backend import Sound, Text
+from airhilt.sensors.radio.backend import RadioBackend, TextRadio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import Channel
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 USUAL_PROFILE = "vhf"
 
 
-def sound_of(radio: Radio, seed: int, tts: str | None) -> Sound:
+def backend_of(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
     """Return the sound of a run; without voices, text.
 
     Raises
@@ -25,12 +25,12 @@ def sound_of(radio: Radio, seed: int, tts: str | None) -> Sound:
         There are no voices of that name, or they or the channel cannot be loaded.
     """
     if tts is None:
-        return Text(radio.words_per_minute)
+        return TextRadio(radio.words_per_minute)
     # Not at the top: a run without speech starts without the libraries behind it.
-    from airhilt.sensors.radio.audio_radio import Spoken
+    from airhilt.sensors.radio.audio_radio import AudioRadio
     from airhilt.voices.engines import tts_engine
 
-    return Spoken(tts_engine(tts), channel_of(radio.profile or USUAL_PROFILE), seed)
+    return AudioRadio(tts_engine(tts), channel_of(radio.profile or USUAL_PROFILE), seed)
 
 
 def channel_of(profile: str) -> Channel:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from airhilt.scenario.conversation import needed_lines
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, Scenario, ScriptedCommand
 
 
 @dataclass(eq=False)
-class Exchange:
+class RadioCall:
     """One call, which may have to be made again, and who has taken it."""
 
     id: str
@@ -20,15 +20,15 @@ class Exchange:
     addressed: str | None
     text: str
     commands: tuple[ScriptedCommand, ...] = ()
-    in_reply_to: Exchange | None = None
+    in_reply_to: RadioCall | None = None
     is_repeated: bool = True
     """Whether it is made again if nobody answers."""
-    scripted: HappeningLine | None = None
-    asks_for: Exchange | None = None
+    scripted: EffectiveLine | None = None
+    asks_for: RadioCall | None = None
     """The call that it asks to be made again."""
-    answer: Exchange | None = None
+    answer: RadioCall | None = None
     """What its addressee says once he has taken it."""
-    needs: tuple[Exchange | None, ...] = ()
+    needs: tuple[RadioCall | None, ...] = ()
     """What its speaker must have taken before; None is never said."""
     times_said: int = 0
     is_due_again: bool = False
@@ -86,10 +86,10 @@ class Exchange:
             action()
 
 
-def exchanges_of(scenario: Scenario, lines: Sequence[HappeningLine]) -> dict[str, Exchange]:
+def calls_of(scenario: Scenario, lines: Sequence[EffectiveLine]) -> dict[str, RadioCall]:
     """Return the calls of the lines that are said, by their ids."""
     found = {
-        happening.declared.id: Exchange(
+        happening.declared.id: RadioCall(
             happening.line.id,
             happening.line.frequency_khz,
             happening.line.speaker,
@@ -103,9 +103,9 @@ def exchanges_of(scenario: Scenario, lines: Sequence[HappeningLine]) -> dict[str
     }
     needed = needed_lines(scenario)
     needed_by_others = {name for names in needed.values() for name in names}
-    for name, exchange in found.items():
-        exchange.needs = tuple(found.get(other) for other in needed[name])
-        exchange.in_reply_to = next(iter(exchange.needs), None)
-        has_orders = any(scripted.actor != exchange.speaker for scripted in exchange.commands)
-        exchange.is_repeated = not exchange.needs or has_orders or name in needed_by_others
+    for name, call in found.items():
+        call.needs = tuple(found.get(other) for other in needed[name])
+        call.in_reply_to = next(iter(call.needs), None)
+        has_orders = any(scripted.actor != call.speaker for scripted in call.commands)
+        call.is_repeated = not call.needs or has_orders or name in needed_by_others
     return found

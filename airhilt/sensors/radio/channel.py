@@ -22,7 +22,7 @@ from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
-Background = Literal["cockpit", "tower", "none"]
+BackgroundNoise = Literal["cockpit", "tower", "none"]
 """What else the microphone picks up."""
 
 LEVEL_RMS = 0.1
@@ -67,7 +67,7 @@ class Channel(Protocol):
         snr_db: float | None,
         rng: np.random.Generator,
         others: Sequence[Other] = (),
-        background: Background = "none",
+        background: BackgroundNoise = "none",
     ) -> Audio:
         """Return what is heard of ``speech``; at least as long as it.
 
@@ -104,7 +104,7 @@ class VhfChannel:
         snr_db: float | None,
         rng: np.random.Generator,
         others: Sequence[Other] = (),
-        background: Background = "none",
+        background: BackgroundNoise = "none",
     ) -> Audio:
         """Return what is heard: the call, noise, and the squelch tail."""
         profile = self._profile
@@ -129,7 +129,7 @@ class VhfChannel:
         snr_db: float | None,
         rng: np.random.Generator,
         others: Sequence[Other] = (),
-        background: Background = "none",
+        background: BackgroundNoise = "none",
     ) -> Parts:
         """Return the parts of what is received, each as long as ``speech``.
 
@@ -152,7 +152,7 @@ class VhfChannel:
         return Parts(signal, noise, interference, is_active)
 
     def _modulated(
-        self, speech: Audio, rng: np.random.Generator, background: Background
+        self, speech: Audio, rng: np.random.Generator, background: BackgroundNoise
     ) -> tuple[Audio, NDArray[np.bool_]]:
         profile = self._profile
         levelled, is_active = _level(speech)
@@ -259,7 +259,7 @@ def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Au
     return np.asarray(evenly, np.float32)
 
 
-def _surroundings(count: int, background: Background, rng: np.random.Generator) -> Audio:
+def _surroundings(count: int, background: BackgroundNoise, rng: np.random.Generator) -> Audio:
     """Return the noise of a place, of power one: rumble and airflow, or a room's murmur."""
     size = next_fast_len(count, real=True)
     frequency = np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ).astype(np.float32)

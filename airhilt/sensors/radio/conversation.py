@@ -1,8 +1,8 @@
 """The radio of a run: calls are made, heard, answered, and acted upon.
 
-`RadioLoop` takes the lines of the script as they come due and follows each until its addressee has
-taken it, or its speaker has given up. Who is not sure of a call asks for it again; who does not
-answer is called again; who has understood something else does that.
+`RadioConversation` takes the lines of the script as they come due and follows each until its
+addressee has taken it, or its speaker has given up. Who is not sure of a call asks for it again;
+who does not answer is called again; who has understood something else does that.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from functools import partial
 
 from airhilt.commands import Command
 from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, RadioLine, Scenario, ScriptedCommand, StuckMicrophone
 from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.backend import Publish, Sound
-from airhilt.sensors.radio.call import Exchange, exchanges_of
-from airhilt.sensors.radio.frequency_arbiter import GAP_S, OnAir, RadioBus, Utterance
+from airhilt.sensors.radio.backend import Publish, RadioBackend
+from airhilt.sensors.radio.call import RadioCall, calls_of
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter, OnAir, Utterance
 from airhilt.sensors.radio.hearing import HearingModel, Outcome
 from airhilt.sensors.radio.script import RadioScript
 from airhilt.sensors.radio.stations import Stations
@@ -55,7 +55,7 @@ Read = Callable[[str, tuple[float, ...] | None], None]
 """Takes the words of a transcript, none if there is no transcript, and their confidences."""
 
 
-class RadioLoop:
+class RadioConversation:
     """Lets the calls of a scenario happen.
 
     Parameters
@@ -78,16 +78,16 @@ class RadioLoop:
         self,
         director: Director,
         scenario: Scenario,
-        lines: Sequence[HappeningLine],
+        lines: Sequence[EffectiveLine],
         stations: Stations,
-        sound: Sound,
+        sound: RadioBackend,
         seed: int,
         ended_lines: set[str],
         *,
         once: Callable[[Condition, Callable[[], None]], None],
         publish: Publish,
         do: Callable[[str, Command], None],
-        failed: Callable[[HappeningLine], None],
+        failed: Callable[[EffectiveLine], None],
         microphone_stuck: Callable[[str, str], None],
         microphones_free: Callable[[], None],
     ) -> None:
@@ -95,7 +95,7 @@ class RadioLoop:
         self._director = director
         self._radio = scenario.radio
         self._stations = stations
-        self._sound = sound
+        self._backend = sound
         self._seed = seed
         self._hearing = HearingModel(seed)
         self._answers = Answers(scenario.radio.phraseology)
@@ -106,9 +106,9 @@ class RadioLoop:
         self._microphones_free = microphones_free
         self._stuck = 0
         """How many microphones are."""
-        self._bus = RadioBus(director, sound.speak, stations.audible, self._ended)
-        self._exchanges = exchanges_of(scenario, lines)
-        self._on_air: dict[str, Exchange] = {}
+        self._bus = FrequencyArbiter(director, sound.speak, stations.audible, self._ended)
+        self._calls = calls_of(scenario, lines)
+        self._on_air: dict[str, RadioCall] = {}
         """By the id of the transmission."""
         self._unread: dict[str, list[Read]] = {}
         """Who waits for the transcript of a transmission."""
@@ -136,34 +136,34 @@ class RadioLoop:
 
     def _due(self, line: RadioLine) -> None:
         """Say a line once its speaker has taken what it follows from."""
-        exchange = self._exchanges[line.id]
-        for needed in exchange.needs:
+        call = self._calls[line.id]
+        for needed in call.needs:
             if needed is None:
                 return
-            if exchange.speaker not in needed.taken_by:
+            if call.speaker not in needed.taken_by:
                 due = partial(self._after, GAP_S, partial(self._due, line))
-                needed.once_taken_by(exchange.speaker, due)
+                needed.once_taken_by(call.speaker, due)
                 return
-        self._say(exchange)
+        self._say(call)
 
-    def _say(self, exchange: Exchange) -> None:
-        if not self._stations.is_there(exchange.speaker):
+    def _say(self, call: RadioCall) -> None:
+        if not self._stations.is_there(call.speaker):
             return
-        again = exchange.times_said
-        exchange.times_said += 1
-        exchange.is_due_again = False
-        scripted = exchange.scripted
-        replied_to = exchange.in_reply_to
+        again = call.times_said
+        call.times_said += 1
+        call.is_due_again = False
+        scripted = call.scripted
+        replied_to = call.in_reply_to
         utterance = Utterance(
-            f"{exchange.id}.repeat-{again}" if again else exchange.id,
-            exchange.frequency_khz,
-            exchange.speaker,
-            exchange.addressed,
-            exchange.said,
+            f"{call.id}.repeat-{again}" if again else call.id,
+            call.frequency_khz,
+            call.speaker,
+            call.addressed,
+            call.said,
             None if replied_to is None else replied_to.id,
             listens_first=again > 0 or scripted is None or scripted.listens_first,
         )
-        self._on_air[utterance.id] = exchange
+        self._on_air[utterance.id] = call
         self._bus.say(utterance)
 
     def _after(self, delay_s: float, action: Callable[[], None]) -> None:
@@ -177,19 +177,19 @@ class RadioLoop:
         said = on_air.utterance
         mixed_with = self._mixed_with(on_air)
         transcript = self._receive(on_air, mixed_with)
-        exchange = self._on_air.pop(said.id, None)
-        if exchange is not None:
-            self._ended_lines.add(exchange.id)
-            self._let_read(exchange, said, is_blocked=bool(mixed_with))
+        call = self._on_air.pop(said.id, None)
+        if call is not None:
+            self._ended_lines.add(call.id)
+            self._let_read(call, said, is_blocked=bool(mixed_with))
         if transcript is not None:
             self._publish(f"asr/{said.frequency_khz}", transcript)
-        if exchange is None:
+        if call is None:
             return
-        if exchange.is_first_time:
-            self._carry_out(exchange, exchange.speaker)
-        for listener in exchange.recipients():
+        if call.is_first_time:
+            self._carry_out(call, call.speaker)
+        for listener in call.recipients():
             if not self._reads(listener):
-                self._hear(exchange, on_air, listener)
+                self._hear(call, on_air, listener)
 
     def close(self) -> None:
         """Let what is on the air be received as far as it has come; nobody acts upon it."""
@@ -214,7 +214,7 @@ class RadioLoop:
         if not (self._squelch_opens and self._stations.received(said.speaker)):
             return None
         background = self._stations.background_of(said.speaker)
-        reception = self._sound.receive(on_air, mixed_with, self._radio.snr_db, background)
+        reception = self._backend.receive(on_air, mixed_with, self._radio.snr_db, background)
         self._publish(f"radio/{said.frequency_khz}/tx", reception.header, raw=reception.pcm)
         return reception.transcript
 
@@ -251,44 +251,44 @@ class RadioLoop:
 
     # --- listening --------------------------------------------------------------------------
 
-    def _hear(self, exchange: Exchange, on_air: OnAir, listener: str) -> None:
+    def _hear(self, call: RadioCall, on_air: OnAir, listener: str) -> None:
         """Let somebody listen to a call that is for him."""
         said = on_air.utterance
-        if listener in exchange.deaf or not self._reaches(on_air, listener):
-            self._make_of(exchange, said, listener, NOTHING, "")
+        if listener in call.deaf or not self._reaches(on_air, listener):
+            self._make_of(call, said, listener, NOTHING, "")
             return
         heard = self._hearing.listen(said.id, listener, said.text, self._radio.snr_db)
         match heard.outcome:
             case "understood":
                 understanding = AS_SAID
             case "misheard":
-                understanding = self._sense(exchange, said, listener, heard.text, None)
+                understanding = self._sense(call, said, listener, heard.text, None)
             case "unsure":
                 understanding = UNCLEAR
             case "missed":
                 understanding = NOTHING
-        self._make_of(exchange, said, listener, understanding, heard.text)
+        self._make_of(call, said, listener, understanding, heard.text)
 
     def _reads(self, listener: str) -> bool:
         """Return whether somebody reads the radio instead of listening to it."""
         return self._radio.topology == "asr_first" and self._stations.is_crew(listener)
 
-    def _let_read(self, exchange: Exchange, said: Utterance, *, is_blocked: bool) -> None:
+    def _let_read(self, call: RadioCall, said: Utterance, *, is_blocked: bool) -> None:
         """Let the crews that read the radio wait for the transcript of a call.
 
         Nobody reads a call that was received with another in it.
         """
-        recipients = exchange.recipients()
+        recipients = call.recipients()
         for listener in self._stations.actors_on(said.frequency_khz):
             if listener == said.speaker or not self._reads(listener):
                 continue
-            if listener in recipients and (is_blocked or listener in exchange.deaf):
-                self._make_of(exchange, said, listener, NOTHING, "", read=True)
+            if listener in recipients and (is_blocked or listener in call.deaf):
+                self._make_of(call, said, listener, NOTHING, "", read=True)
             elif listener in recipients:
-                read = partial(self._read, exchange, said, listener)
+                read = partial(self._read, call, said, listener)
                 self._unread.setdefault(said.id, []).append(read)
-            elif self._radio.overhearing and not is_blocked and listener not in exchange.taken_by:
-                overhear = partial(self._overhear, exchange, said, listener)
+            elif self._radio.overhearing and not is_blocked and listener not in call.taken_by:
+                overhear = partial(self._overhear, call, said, listener)
                 self._unread.setdefault(said.id, []).append(overhear)
         if said.id in self._unread:
             self._after(TRANSCRIPT_PATIENCE_S, partial(self._give_out, said.id, "", None))
@@ -307,21 +307,19 @@ class RadioLoop:
 
     def _read(
         self,
-        exchange: Exchange,
+        call: RadioCall,
         said: Utterance,
         listener: str,
         text: str,
         confidences: tuple[float, ...] | None,
     ) -> None:
         """Let the recipient of a call read it."""
-        understanding = (
-            self._sense(exchange, said, listener, text, confidences) if text else NOTHING
-        )
-        self._make_of(exchange, said, listener, understanding, text, read=True)
+        understanding = self._sense(call, said, listener, text, confidences) if text else NOTHING
+        self._make_of(call, said, listener, understanding, text, read=True)
 
     def _overhear(
         self,
-        exchange: Exchange,
+        call: RadioCall,
         said: Utterance,
         listener: str,
         text: str,
@@ -330,16 +328,16 @@ class RadioLoop:
         """Let a crew read a call for somebody else, which it may take for its own."""
         if not text or self._stations.is_actor(said.speaker):
             return
-        understanding = self._listener(exchange).overhear(
+        understanding = self._listener(call).overhear(
             text, said.text, listener, self._stations.bound_runway(listener), confidences
         )
         if understanding.kind == "otherwise":
             self._tell_hearing(said, listener, understanding, text, read=True)
-            self._comply(exchange, listener, understanding.commands)
+            self._comply(call, listener, understanding.commands)
 
     def _sense(
         self,
-        exchange: Exchange,
+        call: RadioCall,
         said: Utterance,
         listener: str,
         heard: str,
@@ -351,20 +349,20 @@ class RadioLoop:
         caller's.
         """
         stations = self._stations
-        names = [listener, exchange.addressed or ""]
+        names = [listener, call.addressed or ""]
         if not stations.is_actor(listener):
-            names = [exchange.speaker]
+            names = [call.speaker]
         known_by = tuple(name for name in names if stations.is_actor(name))
-        return self._listener(exchange).make_sense(
+        return self._listener(call).make_sense(
             heard, said.text, known_by, stations.bound_runway(listener), confidences
         )
 
-    def _listener(self, exchange: Exchange) -> Listener:
-        return Listener(self._stations.actors_on(exchange.frequency_khz))
+    def _listener(self, call: RadioCall) -> Listener:
+        return Listener(self._stations.actors_on(call.frequency_khz))
 
     def _make_of(
         self,
-        exchange: Exchange,
+        call: RadioCall,
         said: Utterance,
         listener: str,
         understanding: Understanding,
@@ -376,15 +374,15 @@ class RadioLoop:
         self._tell_hearing(said, listener, understanding, text, read=read)
         match understanding.kind:
             case "as_said":
-                self._carry_out(exchange, listener)
-                self._taken(exchange, said, listener, understanding)
+                self._carry_out(call, listener)
+                self._taken(call, said, listener, understanding)
             case "otherwise":
-                self._mistaken(exchange, listener, understanding)
-                self._taken(exchange, said, listener, understanding)
-            case "unclear" if listener == exchange.addressed:
-                self._unclear(exchange, listener)
-            case "not_for_me" if listener == exchange.addressed:
-                self._unanswered(exchange, listener)
+                self._mistaken(call, listener, understanding)
+                self._taken(call, said, listener, understanding)
+            case "unclear" if listener == call.addressed:
+                self._unclear(call, listener)
+            case "not_for_me" if listener == call.addressed:
+                self._unanswered(call, listener)
 
     def _tell_hearing(
         self,
@@ -407,15 +405,15 @@ class RadioLoop:
 
     # --- doing ------------------------------------------------------------------------------
 
-    def _carry_out(self, exchange: Exchange, actor: str) -> None:
+    def _carry_out(self, call: RadioCall, actor: str) -> None:
         """Let somebody do what a call means for him."""
-        for scripted in exchange.meant:
+        for scripted in call.meant:
             if scripted.actor == actor:
-                self._after(scripted.delay_s, partial(self._when_due, exchange, scripted))
+                self._after(scripted.delay_s, partial(self._when_due, call, scripted))
 
-    def _when_due(self, exchange: Exchange, scripted: ScriptedCommand) -> None:
+    def _when_due(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:
-            if scripted.actor not in exchange.withdrawn_for:
+            if scripted.actor not in call.withdrawn_for:
                 self._do(scripted.actor, scripted.command)
 
         if scripted.when is None:
@@ -423,111 +421,111 @@ class RadioLoop:
         else:
             self._once(scripted.when, act)
 
-    def _comply(self, exchange: Exchange, actor: str, commands: Iterable[Command]) -> None:
+    def _comply(self, call: RadioCall, actor: str, commands: Iterable[Command]) -> None:
         """Let an actor do what it has taken a call for."""
         for command in commands:
             scripted = ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
-            self._after(scripted.delay_s, partial(self._when_due, exchange, scripted))
+            self._after(scripted.delay_s, partial(self._when_due, call, scripted))
 
     # --- answering --------------------------------------------------------------------------
 
     def _taken(
-        self, exchange: Exchange, said: Utterance, listener: str, understanding: Understanding
+        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
     ) -> None:
         """Go on with what follows from a call once somebody has taken it."""
-        exchange.take(listener)
+        call.take(listener)
         if self._radio.readbacks == "generated":
-            self._read_back(exchange, said, listener, understanding)
-        if listener != exchange.addressed:
+            self._read_back(call, said, listener, understanding)
+        if listener != call.addressed:
             return
-        if exchange.asks_for is not None:
-            self._repeat(exchange.asks_for, ANSWER_AFTER_S)
-        if exchange.answer is not None:
-            self._after(ANSWER_AFTER_S, partial(self._say, exchange.answer))
+        if call.asks_for is not None:
+            self._repeat(call.asks_for, ANSWER_AFTER_S)
+        if call.answer is not None:
+            self._after(ANSWER_AFTER_S, partial(self._say, call.answer))
         if self._radio.controller_checks_readbacks:
-            self._check(exchange, said, listener)
+            self._check(call, said, listener)
 
-    def _mistaken(self, exchange: Exchange, listener: str, understanding: Understanding) -> None:
+    def _mistaken(self, call: RadioCall, listener: str, understanding: Understanding) -> None:
         """Let an actor do what it has taken a call for, and read that back."""
         if not self._stations.is_actor(listener):
             return
-        self._comply(exchange, listener, understanding.commands)
-        readback = self._readback_in_script(exchange, listener)
+        self._comply(call, listener, understanding.commands)
+        readback = self._readback_in_script(call, listener)
         if readback is not None and understanding.call is not None:
             readback.text = self._answers.readback(listener, understanding.call.instructions)
             readback.commands = ()
 
-    def _readback_in_script(self, exchange: Exchange, speaker: str) -> Exchange | None:
-        for other in self._exchanges.values():
-            if other.in_reply_to is exchange and other.speaker == speaker:
+    def _readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
+        for other in self._calls.values():
+            if other.in_reply_to is call and other.speaker == speaker:
                 return other
         return None
 
     def _read_back(
-        self, exchange: Exchange, said: Utterance, listener: str, understanding: Understanding
+        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
     ) -> None:
         """Let an actor read back an instruction of a unit that no line of the script does."""
         if (
-            exchange.in_reply_to is not None
+            call.in_reply_to is not None
             or not self._stations.is_actor(listener)
-            or self._stations.is_actor(exchange.speaker)
-            or self._readback_in_script(exchange, listener) is not None
+            or self._stations.is_actor(call.speaker)
+            or self._readback_in_script(call, listener) is not None
         ):
             return
-        listens = self._listener(exchange)
-        call = understanding.call or listens.parse(said.text, listens.callsigns, None)
-        if call.instructions:
-            readback = Exchange(
-                f"{exchange.id}.readback",
-                exchange.frequency_khz,
+        listens = self._listener(call)
+        parsed = understanding.call or listens.parse(said.text, listens.callsigns, None)
+        if parsed.instructions:
+            readback = RadioCall(
+                f"{call.id}.readback",
+                call.frequency_khz,
                 listener,
-                exchange.speaker,
-                self._answers.readback(listener, call.instructions),
-                in_reply_to=exchange,
+                call.speaker,
+                self._answers.readback(listener, parsed.instructions),
+                in_reply_to=call,
                 is_repeated=self._radio.controller_checks_readbacks,
             )
             self._after(ANSWER_AFTER_S, partial(self._say, readback))
 
-    def _unclear(self, exchange: Exchange, listener: str) -> None:
+    def _unclear(self, call: RadioCall, listener: str) -> None:
         """Let somebody ask for a call again that he is not sure of."""
-        if exchange.asks_for is not None:
-            self._repeat(exchange.asks_for, REPEAT_AFTER_S)
-        if not self._may_repeat(exchange):
+        if call.asks_for is not None:
+            self._repeat(call.asks_for, REPEAT_AFTER_S)
+        if not self._may_repeat(call):
             return
-        question = Exchange(
-            f"{exchange.id}.say-again-{exchange.times_said}",
-            exchange.frequency_khz,
+        question = RadioCall(
+            f"{call.id}.say-again-{call.times_said}",
+            call.frequency_khz,
             listener,
-            exchange.speaker,
-            self._answers.say_again(self._callsign(listener), self._callsign(exchange.speaker)),
-            in_reply_to=exchange,
+            call.speaker,
+            self._answers.say_again(self._callsign(listener), self._callsign(call.speaker)),
+            in_reply_to=call,
             is_repeated=False,
-            asks_for=exchange,
+            asks_for=call,
         )
         self._after(ANSWER_AFTER_S, partial(self._say, question))
 
     def _callsign(self, name: str) -> str | None:
         return name if self._stations.is_actor(name) else None
 
-    def _unanswered(self, exchange: Exchange, listener: str) -> None:
+    def _unanswered(self, call: RadioCall, listener: str) -> None:
         """Let a call that its addressee has not taken be made again."""
-        if listener in exchange.deaf and not self._radio.controller_checks_readbacks:
+        if listener in call.deaf and not self._radio.controller_checks_readbacks:
             return  # Nobody notices: so the scenario has it.
-        if exchange.asks_for is not None:
-            self._repeat(exchange.asks_for, REPEAT_AFTER_S)
-        self._repeat(exchange, REPEAT_AFTER_S)
+        if call.asks_for is not None:
+            self._repeat(call.asks_for, REPEAT_AFTER_S)
+        self._repeat(call, REPEAT_AFTER_S)
 
-    def _may_repeat(self, exchange: Exchange) -> bool:
-        is_wanted = exchange.is_repeated or self._radio.controller_checks_readbacks
-        return is_wanted and exchange.asks_for is None and exchange.times_said <= MOST_REPEATS
+    def _may_repeat(self, call: RadioCall) -> bool:
+        is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
+        return is_wanted and call.asks_for is None and call.times_said <= MOST_REPEATS
 
-    def _repeat(self, exchange: Exchange, after_s: float) -> None:
-        if self._may_repeat(exchange) and not exchange.is_due_again:
-            exchange.is_due_again = True
-            spread = stream(self._seed, f"repeat/{exchange.id}", exchange.times_said).random()
-            self._after(after_s + REPEAT_SPREAD_S * spread, partial(self._say, exchange))
+    def _repeat(self, call: RadioCall, after_s: float) -> None:
+        if self._may_repeat(call) and not call.is_due_again:
+            call.is_due_again = True
+            spread = stream(self._seed, f"repeat/{call.id}", call.times_said).random()
+            self._after(after_s + REPEAT_SPREAD_S * spread, partial(self._say, call))
 
-    def _check(self, readback: Exchange, said: Utterance, unit: str) -> None:
+    def _check(self, readback: RadioCall, said: Utterance, unit: str) -> None:
         """Let a controller correct a readback that is wrong, or is somebody else's."""
         instruction, crew = readback.in_reply_to, readback.speaker
         if (
@@ -545,7 +543,7 @@ class RadioLoop:
         elif self._listener(readback).differs(said.text, right.text):
             self._correct(readback, instruction, right)
 
-    def _correct(self, readback: Exchange, instruction: Exchange, right: RadioLine) -> None:
+    def _correct(self, readback: RadioCall, instruction: RadioCall, right: RadioLine) -> None:
         """Let a controller say again what was read back wrongly, and the crew do that instead."""
         crew, unit, listens = readback.speaker, instruction.speaker, self._listener(readback)
         readback.withdrawn_for.add(crew)
@@ -562,7 +560,7 @@ class RadioLoop:
             for command in commands_of(meant, self._stations.bound_runway(crew))
         )
         read_again = self._answers.readback(crew, meant) if scripted is None else scripted.text
-        correction = Exchange(
+        correction = RadioCall(
             f"{readback.id}.correction",
             readback.frequency_khz,
             unit,
@@ -571,7 +569,7 @@ class RadioLoop:
             commands,
             in_reply_to=readback,
         )
-        correction.answer = Exchange(
+        correction.answer = RadioCall(
             f"{correction.id}.readback",
             readback.frequency_khz,
             crew,

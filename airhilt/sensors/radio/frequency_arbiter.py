@@ -58,7 +58,7 @@ class OnAir:
         return not self.utterance.text
 
 
-class RadioBus:
+class FrequencyArbiter:
     """All frequencies of a run.
 
     Parameters

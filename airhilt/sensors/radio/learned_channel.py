@@ -16,7 +16,7 @@ import numpy as np
 from airhilt.errors import SpeechError, first_line
 from airhilt.onnx import open_network
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import LEVEL_RMS, Background, Other, VhfChannel, active
+from airhilt.sensors.radio.channel import LEVEL_RMS, BackgroundNoise, Other, VhfChannel, active
 from airhilt.voices.engine import Audio
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
@@ -52,7 +52,7 @@ class LearnedChannel:
         snr_db: float | None,
         rng: np.random.Generator,
         others: Sequence[Other] = (),
-        background: Background = "none",  # noqa: ARG002
+        background: BackgroundNoise = "none",  # noqa: ARG002
     ) -> Audio:
         """Return what is heard of ``speech``, as long as it; the model has its own background."""
         noise = self._vhf.parts(speech, snr_db, rng).noise

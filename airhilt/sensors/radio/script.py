@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from airhilt.scenario.failures import HappeningLine
+from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, RadioLine
-from airhilt.sensors.radio.backend import Sound
+from airhilt.sensors.radio.backend import RadioBackend
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
@@ -28,9 +28,9 @@ class RadioScript:
     def __init__(
         self,
         director: Director,
-        lines: Sequence[HappeningLine],
+        lines: Sequence[EffectiveLine],
         once: Callable[[Condition, Callable[[], None]], None],
-        failed: Callable[[HappeningLine], None],
+        failed: Callable[[EffectiveLine], None],
         due: Callable[[RadioLine], None],
     ) -> None:
         self._director = director
@@ -41,13 +41,13 @@ class RadioScript:
             at_ns = seconds_to_ns(happening.declared.at_s)
             director.at(at_ns, partial(self._await, happening), Priority.SCRIPT)
 
-    def _await(self, happening: HappeningLine) -> None:
+    def _await(self, happening: EffectiveLine) -> None:
         if happening.declared.when is None:
             self._due(happening)
         else:
             self._once(happening.declared.when, partial(self._due, happening))
 
-    def _due(self, happening: HappeningLine) -> None:
+    def _due(self, happening: EffectiveLine) -> None:
         if happening.failures:
             self._failed(happening)
         if happening.line is None:
@@ -60,7 +60,7 @@ class RadioScript:
             self._director.at(due_ns, say, Priority.SCRIPT)
 
 
-def planned_ends_ns(lines: Sequence[HappeningLine], sound: Sound) -> dict[str, int]:
+def planned_ends_ns(lines: Sequence[EffectiveLine], sound: RadioBackend) -> dict[str, int]:
     """Return when each line, by its id, ends if it waits for nothing and its frequency is free.
 
     Raises

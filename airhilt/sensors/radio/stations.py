@@ -9,11 +9,11 @@ from airhilt.geodesy.relative_motion import Kinematics, relative
 from airhilt.scenario.models import RadioLine
 from airhilt.surveillance.adsb import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
-from airhilt.world.actors.actor import Performer
-from airhilt.world.site import Setting, Site
+from airhilt.world.actors.actor import Actor
+from airhilt.world.site import FixedSite, ScenarioSite
 
 if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import Background
+    from airhilt.sensors.radio.channel import BackgroundNoise
 
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of a unit's antenna, at the scene's centre: that of an ADS-B receiver by default."""
@@ -27,15 +27,15 @@ class Stations:
     """
 
     def __init__(
-        self, cast: Mapping[str, Performer], setting: Setting, lines: Iterable[RadioLine]
+        self, actors: Mapping[str, Actor], site: ScenarioSite, lines: Iterable[RadioLine]
     ) -> None:
-        self._cast = cast
-        self._ground_m = setting.ground_m
-        centre = setting.centre
-        self._site = Site(
+        self._actors = actors
+        self._ground_m = site.ground_m
+        centre = site.centre
+        self._site = FixedSite(
             centre.lat_deg * DEGREE,
             centre.lon_deg * DEGREE,
-            altitude_m=setting.ground_m + GROUND_ANTENNA_M,
+            altitude_m=site.ground_m + GROUND_ANTENNA_M,
         )
         self._on: dict[int, dict[str, None]] = {}
         for line in lines:
@@ -50,7 +50,7 @@ class Stations:
 
     def actors_on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the callsigns of the actors that are on a frequency."""
-        return tuple(name for name in self.on(frequency_khz) if name in self._cast)
+        return tuple(name for name in self.on(frequency_khz) if name in self._actors)
 
     def frequencies_of(self, name: str) -> tuple[int, ...]:
         """Return the frequencies that somebody is on."""
@@ -58,7 +58,7 @@ class Stations:
 
     def is_actor(self, name: str) -> bool:
         """Return whether somebody is an actor, not a unit."""
-        return name in self._cast
+        return name in self._actors
 
     def is_there(self, name: str) -> bool:
         """Return whether somebody can still speak and hear."""
@@ -66,13 +66,13 @@ class Stations:
 
     def bound_runway(self, name: str) -> str | None:
         """Return the runway that an actor means to use."""
-        return self._cast[name].bound_runway if name in self._cast else None
+        return self._actors[name].bound_runway if name in self._actors else None
 
     def is_crew(self, name: str) -> bool:
         """Return whether somebody is the crew of an aircraft."""
-        return name in self._cast and self._cast[name].category == "aircraft"
+        return name in self._actors and self._actors[name].category == "aircraft"
 
-    def background_of(self, name: str) -> Background:
+    def background_of(self, name: str) -> BackgroundNoise:
         """Return what else the microphone of somebody picks up."""
         return "cockpit" if self.is_actor(name) else "tower"
 
@@ -98,10 +98,10 @@ class Stations:
 
     def _place(self, name: str) -> Kinematics | None:
         """Return where somebody is; None if he is no more."""
-        performer = self._cast.get(name)
-        if performer is None:
+        actor = self._actors.get(name)
+        if actor is None:
             return self._site
-        return None if performer.body.ended is not None else performer.body.state
+        return None if actor.body.ended is not None else actor.body.state
 
     def _height_m(self, place: Kinematics) -> float:
         return max(place.altitude_m - self._ground_m, LEAST_ANTENNA_HEIGHT_M)

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 
 from airhilt.commands import Command
 from airhilt.messages import Advisory, EmitterCategory
-from airhilt.scenario.models import Actor
+from airhilt.scenario.models import ActorSpec
 from airhilt.world.mover import Mover
 
 Category = Literal["aircraft", "vehicle", "wildlife"]
@@ -29,11 +29,11 @@ class Reaction:
     text: str
 
 
-class Performer(Protocol):
+class Actor(Protocol):
     """An actor of the scenario with the body that it moves."""
 
     @property
-    def actor(self) -> Actor:
+    def spec(self) -> ActorSpec:
         """As the scenario declares it."""
 
     @property

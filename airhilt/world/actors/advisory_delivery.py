@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from airhilt.messages import Advisory, AdvisoryAudio, EventKind, Message
-from airhilt.scenario.models import WildlifeActor
+from airhilt.scenario.models import WildlifeSpec
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
-from airhilt.world.actors.actor import Performer, Reaction, Unable
+from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.reactions import FOLLOWED_FROM
 
 
-class Advised:
+class AdvisoryDelivery:
     """Lets actors react to advisories: to one that is spoken, when its voice begins to be heard.
 
     Spoken are those at or above `FOLLOWED_FROM` that are active; others, and all of them without a
@@ -30,7 +30,7 @@ class Advised:
     def __init__(
         self,
         director: Director,
-        cast: Mapping[str, Performer],
+        actors: Mapping[str, Actor],
         event: Callable[[EventKind, str, str], None],
         *,
         is_voiced: bool,
@@ -39,11 +39,11 @@ class Advised:
         self._event = event
         self._is_voiced = is_voiced
         addresses = {
-            performer.actor.icao24: performer
-            for performer in cast.values()
-            if not isinstance(performer.actor, WildlifeActor)
+            actor.spec.icao24: actor
+            for actor in actors.values()
+            if not isinstance(actor.spec, WildlifeSpec)
         }
-        self._by_address: dict[str, Performer] = {**addresses, **cast}
+        self._by_address: dict[str, Actor] = {**addresses, **actors}
         """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """The last revision of those that wait for their voice, by id and recipient."""
@@ -76,15 +76,15 @@ class Advised:
         return self._is_voiced and advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
 
     def _tell(self, advisory: Advisory) -> None:
-        performer = self._by_address[advisory.recipient]
-        reaction = performer.hear(advisory)
+        actor = self._by_address[advisory.recipient]
+        reaction = actor.hear(advisory)
         if reaction is not None:
             due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
-            react = partial(self._react, performer, advisory, reaction)
+            react = partial(self._react, actor, advisory, reaction)
             self._director.at(due_ns, react, Priority.SCRIPT)
 
-    def _react(self, performer: Performer, advisory: Advisory, reaction: Reaction) -> None:
-        if performer.body.ended is not None:
+    def _react(self, actor: Actor, advisory: Advisory, reaction: Reaction) -> None:
+        if actor.body.ended is not None:
             return
         try:
             if reaction.act():

@@ -1,4 +1,4 @@
-"""The performers of a scenario: aircraft with their crews, vehicles with drivers, wildlife."""
+"""The actors of a scenario: aircraft with their crews, vehicles with drivers, wildlife."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.messages import Advisory, EmitterCategory
 from airhilt.scenario.models import (
-    Actor,
+    ActorSpec,
     Airborne,
-    AircraftActor,
+    AircraftSpec,
     GroundStart,
     HoldingShort,
     LinedUp,
     OnFinal,
     Scenario,
     Standing,
-    VehicleActor,
+    VehicleSpec,
     Weather,
-    WildlifeActor,
+    WildlifeSpec,
 )
 from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Performer, Reaction, Unable
+from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.driver import Driver
 from airhilt.world.actors.ground_paths import NOSE_MARGIN_M
-from airhilt.world.actors.reactions import Person
-from airhilt.world.actors.wildlife import Beast
+from airhilt.world.actors.reactions import ReactionModel
+from airhilt.world.actors.wildlife import Animal
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.model import ModelError
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
-from airhilt.world.site import Setting, azimuth
+from airhilt.world.site import ScenarioSite, azimuth
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.runway import Place
 
@@ -57,7 +57,7 @@ EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
 class Flight:
     """One aircraft of the scenario, with its crew."""
 
-    actor: AircraftActor
+    spec: AircraftSpec
     body: Aircraft
     crew: Crew
     category: Literal["aircraft"] = "aircraft"
@@ -103,69 +103,69 @@ def atmosphere_of(weather: Weather) -> Atmosphere:
     )
 
 
-def build_cast(
-    scenario: Scenario, setting: Setting, seed: int, tick_s: float
-) -> dict[str, Performer]:
-    """Return the performers of a scenario by callsign.
+def build_actors(
+    scenario: Scenario, site: ScenarioSite, seed: int, tick_s: float
+) -> dict[str, Actor]:
+    """Return the actors of a scenario by callsign.
 
     Raises
     ------
     ScenarioError
         One cannot begin as the scenario says, or cannot do what it is told at the start.
     """
-    builder = _Builder(scenario, setting, seed, tick_s, {})
+    builder = _Builder(scenario, site, seed, tick_s, {})
     for actor in scenario.actors:
         try:
-            builder.cast[actor.callsign] = builder.build(actor)
+            builder.actors[actor.callsign] = builder.build(actor)
         except (ValueError, ModelError, Unable, ScenarioError) as error:
             raise ScenarioError(
                 f"actors/{actor.callsign}: cannot begin like that: {error}"
             ) from None
-    return builder.cast
+    return builder.actors
 
 
 @dataclass(frozen=True)
 class _Builder:
     scenario: Scenario
-    setting: Setting
+    site: ScenarioSite
     seed: int
     tick_s: float
-    cast: dict[str, Performer]
+    actors: dict[str, Actor]
 
-    def build(self, actor: Actor) -> Performer:
+    def build(self, actor: ActorSpec) -> Actor:
         match actor:
-            case AircraftActor():
+            case AircraftSpec():
                 return self._flight(actor)
-            case VehicleActor():
+            case VehicleSpec():
                 return self._driver(actor)
-            case WildlifeActor():
-                return self._beast(actor)
+            case WildlifeSpec():
+                return self._animal(actor)
 
     def _seed_of(self, name: str) -> int:
         return int(stream(self.seed, name).integers(2**31))
 
-    def _flight(self, actor: AircraftActor) -> Flight:
-        setting = self.setting
+    def _flight(self, actor: AircraftSpec) -> Flight:
+        site = self.site
         kind = load_aircraft_type(actor.aircraft)
-        route = [setting.place(position) for position in actor.route]
+        route = [site.place(position) for position in actor.route]
         condition: InitialCondition | OnGround
         match actor.initial:
             case Airborne() as initial:
-                condition = _airborne(initial, setting, route)
+                condition = _airborne(initial, site, route)
             case OnFinal() as initial:
-                condition = _on_final(initial, setting, kind.speeds.approach_kt * KNOT)
+                condition = _on_final(initial, site, kind.speeds.approach_kt * KNOT)
             case initial:
-                place, heading = _on_ground(initial, setting, kind.dimensions.length_m)
+                place, heading = _on_ground(initial, site, kind.dimensions.length_m)
                 condition = OnGround(*place, heading, isinstance(initial, LinedUp))
         aircraft = Aircraft(
             kind,
             condition,
             seed=self._seed_of(f"turbulence/{actor.callsign}"),
             atmosphere=atmosphere_of(self.scenario.weather),
-            terrain_elevation_m=setting.ground_m,
+            terrain_elevation_m=site.ground_m,
             tick_s=self.tick_s,
         )
-        crew = Crew(Person(actor.callsign, actor.pilot, self.seed), aircraft, setting)
+        crew = Crew(ReactionModel(actor.callsign, actor.pilot, self.seed), aircraft, site)
         match actor.initial:
             case OnFinal(runway=runway):
                 crew.runway_work.begin_on_final(runway)
@@ -177,33 +177,33 @@ class _Builder:
             crew.command(command)
         return Flight(actor, aircraft, crew)
 
-    def _driver(self, actor: VehicleActor) -> Driver:
+    def _driver(self, actor: VehicleSpec) -> Driver:
         kind = load_kind(actor.kind, "vehicle")
-        place, heading = _on_ground(actor.initial, self.setting, kind.dimensions.length_m)
+        place, heading = _on_ground(actor.initial, self.site, kind.dimensions.length_m)
         body = kind.create(
-            place, heading, ground_m=self.setting.ground_m, tick_s=self.tick_s, seed=self.seed
+            place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
-        person = Person(actor.callsign, actor.driver, self.seed)
-        driver = Driver(actor, body, self.setting, person)
+        person = ReactionModel(actor.callsign, actor.driver, self.seed)
+        driver = Driver(actor, body, self.site, person)
         for command in actor.commands:
             driver.command(command)
         return driver
 
-    def _beast(self, actor: WildlifeActor) -> Beast:
-        place, heading = _on_ground(actor.initial, self.setting, 0.0)
+    def _animal(self, actor: WildlifeSpec) -> Animal:
+        place, heading = _on_ground(actor.initial, self.site, 0.0)
         body = load_kind(actor.kind, "wildlife").create(
             place,
             heading,
-            ground_m=self.setting.ground_m,
+            ground_m=self.site.ground_m,
             tick_s=self.tick_s,
             seed=self._seed_of(f"wildlife/{actor.callsign}"),
             height_m=actor.height_ft * FOOT,
         )
-        return Beast(actor, body, self.setting, self.cast)
+        return Animal(actor, body, self.site, self.actors)
 
 
-def _airborne(initial: Airborne, setting: Setting, route: list[Place]) -> InitialCondition:
-    place = setting.place(initial.position)
+def _airborne(initial: Airborne, site: ScenarioSite, route: list[Place]) -> InitialCondition:
+    place = site.place(initial.position)
     track = azimuth(place, route[0]) if initial.track_deg is None else initial.track_deg * DEGREE
     return InitialCondition(
         *place,
@@ -213,14 +213,14 @@ def _airborne(initial: Airborne, setting: Setting, route: list[Place]) -> Initia
     )
 
 
-def _on_final(initial: OnFinal, setting: Setting, speed_m_s: float) -> InitialCondition:
-    runway = setting.runway(initial.runway)
+def _on_final(initial: OnFinal, site: ScenarioSite, speed_m_s: float) -> InitialCondition:
+    runway = site.runway(initial.runway)
     distance_m = initial.distance_nm * NAUTICAL_MILE
-    place = setting.place(RunwayPosition(type="runway", runway=initial.runway, along_m=-distance_m))
+    place = site.place(RunwayPosition(type="runway", runway=initial.runway, along_m=-distance_m))
     slope = math.tan(runway.glide_path_rad)
     return InitialCondition(
         *place,
-        altitude_m=setting.ground_m + (distance_m + AIM_POINT_M) * slope,
+        altitude_m=site.ground_m + (distance_m + AIM_POINT_M) * slope,
         track_rad=azimuth(place, runway.end),
         calibrated_airspeed_m_s=speed_m_s,
         vertical_rate_m_s=-speed_m_s * slope,
@@ -228,18 +228,18 @@ def _on_final(initial: OnFinal, setting: Setting, speed_m_s: float) -> InitialCo
     )
 
 
-def _on_ground(initial: GroundStart, setting: Setting, length_m: float) -> tuple[Place, float]:
+def _on_ground(initial: GroundStart, site: ScenarioSite, length_m: float) -> tuple[Place, float]:
     """Return where the centre of an actor of some length begins, and its heading."""
     match initial:
         case LinedUp(runway=ident):
-            runway = setting.runway(ident)
+            runway = site.runway(ident)
             return (
                 onward(runway.start, runway.course_rad, LINED_UP_M + length_m / 2.0),
                 runway.course_rad,
             )
         case HoldingShort(runway=ident, taxiway=taxiway, before_m=before_m):
-            hold = setting.airport.hold(ident, taxiway)
+            hold = site.airport.hold(ident, taxiway)
             back_m = length_m / 2.0 + NOSE_MARGIN_M + before_m
             return onward(hold.place, hold.heading_rad, -back_m), hold.heading_rad
         case Standing(position=position, heading_deg=heading_deg):
-            return setting.place(position), heading_deg * DEGREE
+            return site.place(position), heading_deg * DEGREE

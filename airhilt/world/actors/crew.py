@@ -30,9 +30,9 @@ from airhilt.messages import (
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.departure_arrival import DepartureArrival
-from airhilt.world.actors.reactions import FOLLOWED_FROM, Person
+from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import Place
 
 
@@ -43,12 +43,12 @@ class Crew:
     is over. Runways and taxiways are the matter of its `DepartureArrival`.
     """
 
-    def __init__(self, person: Person, aircraft: Aircraft, setting: Setting) -> None:
+    def __init__(self, person: ReactionModel, aircraft: Aircraft, site: ScenarioSite) -> None:
         self.callsign = person.callsign
         self.aircraft = aircraft
-        self.runway_work = DepartureArrival(aircraft, setting)
+        self.runway_work = DepartureArrival(aircraft, site)
         self._person = person
-        self._setting = setting
+        self._site = site
         self._return_lateral: Callable[[], None] = partial(
             aircraft.hold_track, aircraft.state.track_rad
         )
@@ -115,7 +115,7 @@ class Crew:
             case SpeedCommand(cas_kt=speed):
                 aircraft.hold_speed(speed * KNOT)
             case RouteCommand(route=route):
-                self.fly_route([self._setting.place(position) for position in route])
+                self.fly_route([self._site.place(position) for position in route])
             case ResumeRouteCommand() if self._has_route:
                 aircraft.resume_route()
                 self._return_lateral = aircraft.resume_route

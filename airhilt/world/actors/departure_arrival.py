@@ -25,7 +25,7 @@ from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.ground_paths import FinalApproach, exit_for, hold_beside, taxi_path
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import Place, RunwayEnd
 
 DECISION_SPEED_PART = 0.95
@@ -46,11 +46,11 @@ CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
 class DepartureArrival:
     """One aircraft's dealings with runways."""
 
-    def __init__(self, aircraft: Aircraft, setting: Setting) -> None:
+    def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
         self._final: FinalApproach | None = None
         """That of the runway it is bound for."""
         self._aircraft = aircraft
-        self._setting = setting
+        self._site = site
         self._cleared_to_land = False
         self._next: Callable[[], bool] | None = None
         """What comes next once its moment has come; tells whether it was done."""
@@ -71,8 +71,8 @@ class DepartureArrival:
         ScenarioError
             There is none of that name.
         """
-        end = self._setting.runway(runway)
-        self._final = FinalApproach(self._setting.airport, end)
+        end = self._site.runway(runway)
+        self._final = FinalApproach(self._site.airport, end)
         return end
 
     # --- as told ----------------------------------------------------------------------------
@@ -142,7 +142,7 @@ class DepartureArrival:
         aircraft = self._aircraft
         if aircraft.phase not in ("glide", "flare") or aircraft.on_ground:
             return False
-        usual_m = self._setting.ground_m + GO_AROUND_CLIMB_M
+        usual_m = self._site.ground_m + GO_AROUND_CLIMB_M
         self._break_off(max(usual_m, aircraft.state.altitude_m + LEAST_CLIMB_M))
         return True
 
@@ -181,18 +181,18 @@ class DepartureArrival:
     def _taxi(self, command: TaxiCommand) -> None:
         self._next = None
         nose_m = self._aircraft.kind.dimensions.length_m / 2.0
-        path = taxi_path(self._setting, self._here(), command, nose_m)
+        path = taxi_path(self._site, self._here(), command, nose_m)
         speed = None if command.speed_kt is None else command.speed_kt * KNOT
         self._aircraft.taxi(path, speed)
 
     def _line_up(self, runway: str) -> None:
         aircraft, here = self._aircraft, self._here()
-        final = FinalApproach(self._setting.airport, self._setting.runway(runway))
+        final = FinalApproach(self._site.airport, self._site.runway(runway))
         if aircraft.phase == "taxi":
             self._next = partial(self._line_up_once_standing, runway)
         elif aircraft.phase not in ("lined_up", "line_up"):
-            hold = hold_beside(self._setting, here, runway)
-            path = self._setting.airport.entry_path(hold, runway)
+            hold = hold_beside(self._site, here, runway)
+            path = self._site.airport.entry_path(hold, runway)
             # Held on its way in, it goes on from there, and not back to the hold line.
             aside_m = abs(final.right_m(here))
             ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
@@ -222,21 +222,21 @@ class DepartureArrival:
         return True
 
     def _land(self, command: LandCommand) -> None:
-        aircraft, setting = self._aircraft, self._setting
+        aircraft, site = self._aircraft, self._site
         if aircraft.on_ground:
             raise Unable("unable, on the ground")
-        runway = setting.runway(command.runway)
+        runway = site.runway(command.runway)
         if aircraft.phase in ("glide", "flare") and not command.via:
             self._require_final_of(runway)
         exit_path: Sequence[Place] = ()
         if command.vacate:
             speed_m_s = aircraft.kind.speeds.approach_kt * KNOT
-            way_out = exit_for(setting, runway, speed_m_s, command.exit)
+            way_out = exit_for(site, runway, speed_m_s, command.exit)
             exit_path = way_out.path if way_out else ()
         self.bind(command.runway)
         self._cleared_to_land = True
         if command.via:
-            via = [setting.place(position) for position in command.via]
+            via = [site.place(position) for position in command.via]
             aircraft.fly_route([*via, runway.threshold])
         self._next = partial(self._land_once_on_final, exit_path)
         if not command.via:
@@ -279,5 +279,5 @@ class DepartureArrival:
         self._final = None
 
     def _side_step(self, runway: str) -> None:
-        self._aircraft.side_step(self._setting.runway(runway))
+        self._aircraft.side_step(self._site.runway(runway))
         self.bind(runway)

@@ -7,23 +7,23 @@ from typing import Literal
 
 from airhilt.commands import Command, ContinueCommand, HoldPositionCommand, TaxiCommand
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition
-from airhilt.scenario.models import VehicleActor
+from airhilt.scenario.models import VehicleSpec
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.ground_paths import taxi_path
-from airhilt.world.actors.reactions import FOLLOWED_FROM, Person
+from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.mover import Driven
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 
 @dataclass(frozen=True)
 class Driver:
     """Drives as told, and stops when an advisory says so."""
 
-    actor: VehicleActor
+    spec: VehicleSpec
     body: Driven
-    setting: Setting
-    person: Person
+    site: ScenarioSite
+    person: ReactionModel
     category: Literal["vehicle"] = "vehicle"
     bound_runway: None = None
     """A vehicle is on runways only to get across or to work there."""
@@ -31,7 +31,7 @@ class Driver:
     @property
     def emitter_category(self) -> EmitterCategory:
         """What its transponder says that it is."""
-        return "C1" if "fire" in self.actor.kind else "C2"
+        return "C1" if "fire" in self.spec.kind else "C2"
 
     def command(self, command: Command) -> None:
         """Do as told.
@@ -52,7 +52,7 @@ class Driver:
                 state = self.body.state
                 here = (state.latitude_rad, state.longitude_rad)
                 nose_m = self.body.dimensions.length_m / 2.0
-                path = taxi_path(self.setting, here, command, nose_m)
+                path = taxi_path(self.site, here, command, nose_m)
                 self.body.drive(path, None if speed is None else speed * KNOT)
             case HoldPositionCommand():
                 self.body.stop()

@@ -11,7 +11,7 @@ from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import HoldShortPosition
 from airhilt.units import wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.site import Setting, azimuth, distance_m
+from airhilt.world.site import ScenarioSite, azimuth, distance_m
 from airhilt.world.surface.runway import Place, RunwayEnd
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ EXIT_SPEED_M_S = 8.0
 """At which a taxiway is turned on to."""
 
 
-def taxi_path(setting: Setting, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
+def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
     """Return the way to the end of a taxi command, its last place for the actor's centre.
 
     Short of a hold line the nose stops before it.
@@ -40,10 +40,10 @@ def taxi_path(setting: Setting, here: Place, command: TaxiCommand, nose_m: float
         There is no such way.
     """
     try:
-        end = setting.place(command.to)
+        end = site.place(command.to)
         if command.off_taxiways:
             return [here, end]
-        path = setting.airport.taxi_route(here, end, command.via)
+        path = site.airport.taxi_route(here, end, command.via)
     except ScenarioError as error:
         raise Unable(str(error)) from None
     if isinstance(command.to, HoldShortPosition):
@@ -64,7 +64,7 @@ def shortened(path: list[Place], by_m: float) -> list[Place]:
     return left
 
 
-def hold_beside(setting: Setting, here: Place, runway: str) -> Hold:
+def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
     """Return the hold-short position of a runway at which an actor stands.
 
     Raises
@@ -72,7 +72,7 @@ def hold_beside(setting: Setting, here: Place, runway: str) -> Hold:
     Unable
         It stands at none.
     """
-    airport = setting.airport
+    airport = site.airport
     try:
         strip = airport.strip_of(runway)
     except ScenarioError as error:
@@ -85,7 +85,7 @@ def hold_beside(setting: Setting, here: Place, runway: str) -> Hold:
 
 
 def exit_for(
-    setting: Setting, runway: RunwayEnd, speed_m_s: float, name: str | None
+    site: ScenarioSite, runway: RunwayEnd, speed_m_s: float, name: str | None
 ) -> Exit | None:
     """Return the exit by that name, or the first that a normal rollout makes; None: none does.
 
@@ -94,7 +94,7 @@ def exit_for(
     Unable
         The runway has no exit of that name.
     """
-    exits = setting.airport.exits(runway.ident)
+    exits = site.airport.exits(runway.ident)
     if name is not None:
         named = [each for each in exits if name in (each.taxiway, each.position)]
         if not named:
@@ -106,7 +106,7 @@ def exit_for(
     if not made:
         return None
     # Where a taxiway crosses the runway, to the side of the stands.
-    stands = [setting.airport.node(stand) for stand in setting.airport.stands]
+    stands = [site.airport.node(stand) for stand in site.airport.stands]
     both_sides = [each for each in made if each.along_m < made[0].along_m + 1.0]
     return min(
         both_sides,

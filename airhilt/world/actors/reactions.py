@@ -17,7 +17,7 @@ of ICAO Annex 10, volume IV, has 2.5 s after 5 s."""
 
 
 @dataclass(frozen=True, slots=True)
-class Person:
+class ReactionModel:
     """Who reacts: a lognormal reaction time, and how probable it is to follow at all."""
 
     callsign: str

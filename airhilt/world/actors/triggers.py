@@ -8,7 +8,7 @@ Test = Callable[[int], bool]
 """Tells whether a condition is true at a time in nanoseconds."""
 
 
-class Cues:
+class Triggers:
     """Actions, each done once, as soon as its test is true."""
 
     def __init__(self) -> None:

@@ -10,23 +10,23 @@ from airhilt.commands import Command, MoveCommand, StandCommand
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Advisory
-from airhilt.scenario.models import WildlifeActor
+from airhilt.scenario.models import WildlifeSpec
 from airhilt.units import FOOT
-from airhilt.world.actors.actor import Performer, Reaction, Unable
+from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.mover import Creature
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import Place
 
 
 @dataclass(frozen=True)
-class Beast:
+class Animal:
     """An animal, or a flock, of the scenario."""
 
-    actor: WildlifeActor
+    spec: WildlifeSpec
     body: Creature
-    setting: Setting
-    others: Mapping[str, Performer]
-    """All performers of the scenario, itself among them."""
+    site: ScenarioSite
+    others: Mapping[str, Actor]
+    """All actors of the scenario, itself among them."""
     category: Literal["wildlife"] = "wildlife"
     bound_runway: None = None
     emitter_category: Literal["A0"] = "A0"
@@ -44,7 +44,7 @@ class Beast:
                 self.body.stand()
             case MoveCommand(gait=gait, to=to, height_ft=height):
                 try:
-                    self._move(gait, self.setting.place(to), height * FOOT)
+                    self._move(gait, self.site.place(to), height * FOOT)
                 except (ValueError, ScenarioError) as error:
                     raise Unable(str(error)) from None
             case _:
@@ -65,7 +65,7 @@ class Beast:
 
     def attend(self) -> None:
         """Flee what has come too near and moves."""
-        within_m = self.actor.startles_within_m
+        within_m = self.spec.startles_within_m
         if within_m <= 0.0 or self.body.startled:
             return
         own = self.body.state

@@ -106,7 +106,7 @@ class AnimalKind(BaseModel):
         tick_s: float,
         seed: int = 0,
         height_m: float = 0.0,
-    ) -> Animal:
+    ) -> AnimalBody:
         """Return an animal of this kind; see `airhilt.world.surface.kinds.Kind`.
 
         Raises
@@ -114,7 +114,7 @@ class AnimalKind(BaseModel):
         ValueError
             It was to begin at no place, or in the air and does not fly.
         """
-        return Animal(
+        return AnimalBody(
             self,
             place,
             heading_rad,
@@ -147,7 +147,7 @@ def flock_on_the_ground(bird: Dimensions, count: int, spacing_m: float) -> Dimen
     )
 
 
-class Animal:
+class AnimalBody:
     """An animal, or a flock that moves as one.
 
     On its way it wanders: direction and speed are autoregressive draws of its own random streams.

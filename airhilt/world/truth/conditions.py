@@ -25,7 +25,7 @@ from airhilt.scenario.models import (
     TimeReached,
 )
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
-from airhilt.world.actors.actor import Performer
+from airhilt.world.actors.actor import Actor
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
 
@@ -38,12 +38,12 @@ class ConditionCompiler:
 
     def __init__(
         self,
-        cast: Mapping[str, Performer],
+        actors: Mapping[str, Actor],
         monitor: ConflictMonitor,
         runways: RunwayMonitor | None,
         ended_lines: set[str],
     ) -> None:
-        self._cast = cast
+        self._actors = actors
         self._monitor = monitor
         self._runways = runways
         self._ended_lines = ended_lines
@@ -71,14 +71,14 @@ class ConditionCompiler:
             case Collided(actors=pair):
                 return lambda _: self._monitor.collided(pair)
             case InPhase() | BoundForRunway() | OnRunway() | ThresholdWithin():
-                return self._of_performer(condition)
+                return self._of_actor(condition)
             case SpeedAbove(actor=actor, speed_kt=speed_kt):
-                body = self._cast[actor].body
+                body = self._actors[actor].body
                 return lambda _: (
                     body.ended is None and body.state.ground_speed_m_s > speed_kt * KNOT
                 )
             case HeightBelow(actor=actor, height_ft=height_ft):
-                body = self._cast[actor].body
+                body = self._actors[actor].body
                 return lambda _: body.ended is None and body.state.height_agl_m < height_ft * FOOT
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
@@ -95,23 +95,21 @@ class ConditionCompiler:
         return loss is not None and loss <= within_s
 
     def _bound_for(self, condition: BoundForAltitude) -> Test:
-        aircraft = self._cast[condition.actor].body
+        aircraft = self._actors[condition.actor].body
         altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
         return lambda _: (
             aircraft.ended is None
             and abs(getattr(aircraft, "target_altitude_m", math.inf) - altitude_m) <= within_m
         )
 
-    def _of_performer(
-        self, condition: InPhase | BoundForRunway | OnRunway | ThresholdWithin
-    ) -> Test:
-        performer, runways = self._cast[condition.actor], self._runways
+    def _of_actor(self, condition: InPhase | BoundForRunway | OnRunway | ThresholdWithin) -> Test:
+        actor, runways = self._actors[condition.actor], self._runways
         name = condition.actor
 
         def true() -> bool:
             match condition:
                 case InPhase(phases=phases):
-                    return performer.body.phase in phases
+                    return actor.body.phase in phases
                 case BoundForRunway(runway=runway):
                     return runways is not None and runways.is_bound_for(name, runway)
                 case OnRunway(runway=runway):
@@ -122,7 +120,7 @@ class ConditionCompiler:
                     time_s = runways.time_to_threshold_s(name, runway)
                     return time_s is not None and time_s <= within_s
 
-        return lambda _: performer.body.ended is None and true()
+        return lambda _: actor.body.ended is None and true()
 
     def _separation(self, condition: SeparationBelow) -> Test:
         pair = condition.actors

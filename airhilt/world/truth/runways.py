@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import FOOT
-from airhilt.world.actors.actor import Performer
+from airhilt.world.actors.actor import Actor
 from airhilt.world.truth.outlines import Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
@@ -81,9 +81,9 @@ class Incursion:
 
 @dataclass(frozen=True)
 class _Position:
-    """Where a performer is, in the airport's frame."""
+    """Where an actor is, in the airport's frame."""
 
-    performer: Performer
+    actor: Actor
     east_m: float
     north_m: float
 
@@ -105,14 +105,14 @@ class RunwayMonitor:
     def __init__(
         self,
         layout: Layout,
-        cast: Mapping[str, Performer],
+        actors: Mapping[str, Actor],
         misled: set[str],
         occupied: Callable[[str, RunwayTruth], None],
         incurred: Callable[[Incursion], None],
     ) -> None:
         self.incursions: dict[tuple[str, str | None, str], Incursion] = {}
         self._layout = layout
-        self._cast = cast
+        self._actors = actors
         self._misled = misled
         self._occupied = occupied
         self._incurred = incurred
@@ -154,15 +154,15 @@ class RunwayMonitor:
 
     def is_bound_for(self, callsign: str, runway: str) -> bool:
         """Return whether an actor means to use a runway, in that direction."""
-        return self._cast[callsign].bound_runway == self._layout.runway(runway).ident
+        return self._actors[callsign].bound_runway == self._layout.runway(runway).ident
 
     def time_to_threshold_s(self, callsign: str, runway: str) -> float | None:
         """Return how long an airborne aircraft bound for a runway is from its threshold."""
-        performer = self._cast[callsign]
-        if performer.body.on_ground or not self.is_bound_for(callsign, runway):
+        actor = self._actors[callsign]
+        if actor.body.on_ground or not self.is_bound_for(callsign, runway):
             return None
         ident = self._layout.runway(runway).ident
-        along_m, closing_m_s = self._along(performer, ident, *self._local(performer))
+        along_m, closing_m_s = self._along(actor, ident, *self._local(actor))
         if along_m > 0.0 or closing_m_s <= 1.0:
             return None
         return -along_m / closing_m_s
@@ -176,15 +176,15 @@ class RunwayMonitor:
 
     # --- where everybody is -----------------------------------------------------------------
 
-    def _local(self, performer: Performer) -> tuple[float, float]:
-        state = performer.body.state
+    def _local(self, actor: Actor) -> tuple[float, float]:
+        state = actor.body.state
         return self._layout.frame.to_local((state.latitude_rad, state.longitude_rad))
 
     def _positions(self) -> dict[str, _Position]:
         return {
-            callsign: _Position(performer, *self._local(performer))
-            for callsign, performer in self._cast.items()
-            if performer.body.ended is None
+            callsign: _Position(actor, *self._local(actor))
+            for callsign, actor in self._actors.items()
+            if actor.body.ended is None
         }
 
     def _inside(self, positions: dict[str, _Position]) -> dict[str, tuple[str, ...]]:
@@ -192,10 +192,10 @@ class RunwayMonitor:
         low = [
             (callsign, position)
             for callsign, position in positions.items()
-            if position.performer.body.on_ground
+            if position.actor.body.on_ground
             or (
-                position.performer.category == "wildlife"
-                and position.performer.body.state.height_agl_m < LOW_M
+                position.actor.category == "wildlife"
+                and position.actor.body.state.height_agl_m < LOW_M
             )
         ]
         return {
@@ -205,7 +205,7 @@ class RunwayMonitor:
 
     def _reaches(self, strip: RunwayStrip, position: _Position) -> bool:
         """Return whether any part of somebody is in a protected area."""
-        body, (east, north) = position.performer.body, (position.east_m, position.north_m)
+        body, (east, north) = position.actor.body, (position.east_m, position.north_m)
         margin = radius_m(body)
         start_east, start_north, sin, cos = self._axes[strip.ends[0].ident]
         aside = (east - start_east) * cos - (north - start_north) * sin
@@ -221,12 +221,12 @@ class RunwayMonitor:
         )
 
     def _along(
-        self, performer: Performer, runway: str, east_m: float, north_m: float
+        self, actor: Actor, runway: str, east_m: float, north_m: float
     ) -> tuple[float, float]:
         """Return distance past the threshold (m), and speed along the runway (m/s)."""
         threshold_east, threshold_north, sin, cos = self._axes[runway]
         along = (east_m - threshold_east) * sin + (north_m - threshold_north) * cos
-        state = performer.body.state
+        state = actor.body.state
         return along, state.velocity_east_m_s * sin + state.velocity_north_m_s * cos
 
     # --- who uses a runway, and who is in the way -------------------------------------------
@@ -234,37 +234,35 @@ class RunwayMonitor:
     def _users(self, strip: RunwayStrip, positions: dict[str, _Position]) -> Iterator[User]:
         idents = {end.ident for end in strip.ends}
         for callsign, position in positions.items():
-            performer = position.performer
-            runway, phase = performer.bound_runway, performer.body.phase
+            actor = position.actor
+            runway, phase = actor.bound_runway, actor.body.phase
             if runway not in idents:
                 continue
-            along, speed = self._along(performer, runway, position.east_m, position.north_m)
+            along, speed = self._along(actor, runway, position.east_m, position.north_m)
             if phase in ROLLING or (phase in ROLLING_OUT and speed > 1.0):
                 yield User(callsign, runway, along, 0.0, rolling=True)
             elif phase in LANDING and speed > 1.0:
                 to_go_s = max(-along, 0.0) / speed
-                yield User(callsign, runway, along, to_go_s, performer.body.on_ground)
+                yield User(callsign, runway, along, to_go_s, actor.body.on_ground)
 
     def _is_in_way(self, user: User, other: _Position) -> bool:
         if user.time_to_threshold_s > ARRIVAL_WITHIN_S:
             return False
-        performer = other.performer
-        along, _ = self._along(performer, user.runway, other.east_m, other.north_m)
+        actor = other.actor
+        along, _ = self._along(actor, user.runway, other.east_m, other.north_m)
         if along < user.along_m - BEHIND_M:
             return False
-        follows = performer.bound_runway == user.runway and performer.body.phase in (
-            ROLLING | ROLLING_OUT
-        )
+        follows = actor.bound_runway == user.runway and actor.body.phase in (ROLLING | ROLLING_OUT)
         # Who rolls ahead in the same direction leaves in time, as a rule: the next may not cross
         # the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
         return not follows or user.rolling or user.time_to_threshold_s <= 0.0
 
     def _has_no_business(self, callsign: str) -> bool:
         """Return whether an actor is there by mistake, and not bound for a runway of its own."""
-        performer = self._cast[callsign]
-        if performer.category == "wildlife":
+        actor = self._actors[callsign]
+        if actor.category == "wildlife":
             return True
-        return callsign in self._misled and performer.bound_runway is None
+        return callsign in self._misled and actor.bound_runway is None
 
     def _has_incurred(self, runway: str, intruder: str) -> bool:
         return any(
@@ -280,7 +278,7 @@ class RunwayMonitor:
         incursion = Incursion(now_ns, name, user, intruder)
         self.incursions[name, user, intruder] = incursion
         if user is not None:
-            incursion.closest = gap(self._cast[user].body, self._cast[intruder].body)
+            incursion.closest = gap(self._actors[user].body, self._actors[intruder].body)
         self._incurred(incursion)
 
     def _follow(self) -> None:
@@ -288,7 +286,10 @@ class RunwayMonitor:
         for incursion in self.incursions.values():
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
-            user, intruder = self._cast[incursion.user].body, self._cast[incursion.intruder].body
+            user, intruder = (
+                self._actors[incursion.user].body,
+                self._actors[incursion.intruder].body,
+            )
             if user.ended or intruder.ended or {user.phase, intruder.phase}.isdisjoint(USING):
                 incursion.over = True
                 continue

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import ActorTruth
-from airhilt.scenario.models import Separation, WildlifeActor
+from airhilt.scenario.models import Separation, WildlifeSpec
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, bearing_degrees
-from airhilt.world.actors import Performer
+from airhilt.world.actors import Actor
 from airhilt.world.flight import Aircraft
-from airhilt.world.site import Setting, Site
+from airhilt.world.site import FixedSite, ScenarioSite
 
 
-def truth_of(performer: Performer, now_ns: int) -> ActorTruth:
+def truth_of(actor: Actor, now_ns: int) -> ActorTruth:
     """Return the true state of an actor."""
-    body, actor = performer.body, performer.actor
+    body, spec = actor.body, actor.spec
     state = body.state
     flown: dict[str, float] = {}
     if isinstance(body, Aircraft):
@@ -26,9 +26,9 @@ def truth_of(performer: Performer, now_ns: int) -> ActorTruth:
         }
     return ActorTruth(
         t_ns=now_ns,
-        actor=actor.callsign,
-        category=performer.category,
-        icao24=None if isinstance(actor, WildlifeActor) else actor.icao24,
+        actor=spec.callsign,
+        category=actor.category,
+        icao24=None if isinstance(spec, WildlifeSpec) else spec.icao24,
         phase=body.phase,
         on_ground=body.on_ground,
         latitude_deg=state.latitude_rad / DEGREE,
@@ -51,9 +51,9 @@ def minima_of(separation: Separation) -> Minima:
     )
 
 
-def zone_of(setting: Setting) -> Site | None:
+def zone_of(site: ScenarioSite) -> FixedSite | None:
     """Return the centre of the airport, if there is one."""
-    if setting.layout is None:
+    if site.layout is None:
         return None
-    centre = setting.layout.frame.to_place(0.0, 0.0)
-    return Site(*centre, altitude_m=setting.ground_m)
+    centre = site.layout.frame.to_place(0.0, 0.0)
+    return FixedSite(*centre, altitude_m=site.ground_m)

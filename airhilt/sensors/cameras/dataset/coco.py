@@ -27,13 +27,13 @@ from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, cast
 from airhilt.sensors.cameras.mounts import frame_of
 from airhilt.sensors.cameras.scene.bodies import state_of
-from airhilt.sensors.cameras.scene.builder import light_of, open_studio
-from airhilt.sensors.cameras.scene_renderer import Frame, Sighting, Studio
+from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
+from airhilt.sensors.cameras.scene_renderer import Frame, SceneRenderer, Sighting
 from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, seconds_to_ns
-from airhilt.world.actors import build_cast
-from airhilt.world.site import Setting
+from airhilt.world.actors import build_actors
+from airhilt.world.site import ScenarioSite
 
 CLASSES: tuple[VisibleClass, ...] = get_args(VisibleClass)
 """A category's id is its place here, from 1."""
@@ -116,9 +116,9 @@ def _shots(
         number += 1
 
 
-def studio_of(sitting: Sitting, renderer: RendererName) -> Studio:
+def studio_of(sitting: Sitting, renderer: RendererName) -> SceneRenderer:
     """Return the studio in which a sitting is drawn; close it."""
-    return Studio(
+    return SceneRenderer(
         sitting.world,
         sitting.light,
         sitting.models,
@@ -162,9 +162,9 @@ def scenario_pictures(
 
 
 def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -> Iterator[Picture]:
-    setting = Setting.of(realised)
-    light, frame = light_of(realised, setting), frame_of(setting)
-    performers = list(build_cast(realised, setting, seed, TICK_S).values())
+    site = ScenarioSite.of(realised)
+    light, frame = light_of(realised, site), frame_of(site)
+    actors = list(build_actors(realised, site, seed, TICK_S).values())
     stations = {
         camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
         for camera in realised.cameras
@@ -173,24 +173,24 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -
     names = list(stations)
     instants = -(-count // len(names))
     ticks = round(realised.duration_s / TICK_S)
-    studio = open_studio(realised, setting, None, renderer)
+    studio = open_scene_renderer(realised, site, None, renderer)
     try:
         tick = 0
         for index in range(instants):
             due = ticks * index // instants
             for _ in range(due - tick):
-                for performer in performers:
-                    if performer.body.ended is None:
-                        performer.body.advance()
+                for actor in actors:
+                    if actor.body.ended is None:
+                        actor.body.advance()
             tick = due
             t_s = tick * TICK_S
-            bodies = [state_of(each, frame, setting.ground_m, t_s) for each in performers]
+            bodies = [state_of(each, frame, site.ground_m, t_s) for each in actors]
             wanted = names[: count - index * len(names)]
             for taken in studio.shoot(wanted, bodies, seconds_to_ns(t_s)):
                 yield Picture(
                     taken,
                     studio.actors,
-                    None if setting.layout is None else setting.layout.airport.icao,
+                    None if site.layout is None else site.layout.airport.icao,
                     light.visibility_m,
                     realised.daylight.solar_time_h,
                     light.sun_elevation_rad / DEGREE,

@@ -26,7 +26,7 @@ from airhilt.sensors.cameras.scene.bodies import (
     vehicle_model,
 )
 from airhilt.sensors.cameras.scene.builder import air_and_sun
-from airhilt.sensors.cameras.scene.illumination import EXTINCTION, Light
+from airhilt.sensors.cameras.scene.illumination import EXTINCTION, Illumination
 from airhilt.sensors.cameras.scene.landscape import World, airport_world, open_country
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.units import DEGREE
@@ -87,7 +87,7 @@ class Sitting:
     place: str
     weather: Weather
     daylight: Daylight
-    light: Light
+    light: Illumination
     world: World
     layout: Layout | None
     height_m: float
@@ -209,7 +209,7 @@ def cast(
 
 def _weather(
     frame: LocalFrame, en_route: bool, draws: np.random.Generator
-) -> tuple[Weather, Daylight, Light]:
+) -> tuple[Weather, Daylight, Illumination]:
     """Return weather and daylight: day, twilight and night in turn by chance."""
     visibility = math.exp(draws.uniform(math.log(800.0), math.log(30_000.0)))
     rain = math.exp(draws.uniform(0.0, math.log(30.0))) if draws.random() < 0.2 else 0.0

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from airhilt.errors import RendererError
 from airhilt.sensors.cameras import RENDERERS, RendererName
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
@@ -71,7 +71,7 @@ class Renderer(Protocol):
 
 
 def open_renderer(
-    name: RendererName, world: Mesh, shapes: Mapping[str, Mesh], light: Light
+    name: RendererName, world: Mesh, shapes: Mapping[str, Mesh], light: Illumination
 ) -> Renderer:
     """Return a backend that draws a world and bodies of some shapes.
 
@@ -105,7 +105,7 @@ def require_renderer(name: RendererName) -> None:
         Something that it needs is not installed.
     """
     triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
-    light = Light(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
+    light = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
     renderer = open_renderer(name, triangle, {}, light)
     view = View(Intrinsics(16, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
     renderer.world(view, view.whole)

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.renderers.tiles import Tiles, edges
-from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY, Light
+from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY, Illumination
 from airhilt.sensors.cameras.view import NEAR_M, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
@@ -237,7 +237,7 @@ class ModernGLRenderer:
         moderngl or EGL is not installed.
     """
 
-    def __init__(self, world: Mesh, light: Light) -> None:
+    def __init__(self, world: Mesh, light: Illumination) -> None:
         self._context = context = _open_context()
         # Everything is closed and faces outwards; in a picture upside down, clockwise.
         context.front_face = "cw"

@@ -25,7 +25,7 @@ from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import (
     LEVELS,
     SKY_STEPS,
-    Light,
+    Illumination,
     encode,
     encode_levels,
 )
@@ -73,7 +73,7 @@ class Open3DRenderer:
         Open3D is not installed, or not able to start.
     """
 
-    def __init__(self, world: Mesh, light: Light) -> None:
+    def __init__(self, world: Mesh, light: Illumination) -> None:
         self._open3d = _import_open3d()
         self._light = light
         self._world = self._scene(world)
@@ -322,7 +322,7 @@ def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
     return rays
 
 
-def _pieces(world: Mesh, light: Light) -> tuple[Pieces, Doubles, Doubles, Floats]:
+def _pieces(world: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:
     """Return the piece of each triangle; normals, heights and colours of pieces in columns.
 
     Triangles of one colour in one plane are one piece. The first entry stands for no triangle,

@@ -29,7 +29,7 @@ SKY_M = 1e7
 SAMPLES_AT_ONCE = 2_500_000
 
 
-class Backdrop:
+class Background:
     """The world as one camera sees it.
 
     Parameters
@@ -152,7 +152,7 @@ def resolved(drawn: Samples, samples: int) -> Samples:
     if samples == 1:
         return drawn
     rows, columns = (side // samples for side in drawn.distance_m.shape)
-    fine = drawn.colour.reshape(rows, samples, columns, samples, 3)
-    colour = np.round(fine.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
+    supersampling = drawn.colour.reshape(rows, samples, columns, samples, 3)
+    colour = np.round(supersampling.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
     middle = samples // 2
     return Samples(colour, np.ascontiguousarray(drawn.distance_m[middle::samples, middle::samples]))

@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import VisibleClass
-from airhilt.scenario.models import Actor, AircraftActor, VehicleActor
-from airhilt.sensors.cameras.scene.lights import Lamp, aircraft_lamps, vehicle_lamps
+from airhilt.scenario.models import ActorSpec, AircraftSpec, VehicleSpec
+from airhilt.sensors.cameras.scene.lights import Light, aircraft_lights, vehicle_lights
 from airhilt.sensors.cameras.view import Pose
 from airhilt.shapes import animals, vehicles
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.shapes.mesh import Mesh
 from airhilt.units import SECOND_NS
-from airhilt.world.actors.actor import Performer
+from airhilt.world.actors.actor import Actor
 from airhilt.world.flight import Aircraft
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.mover import Dimensions, Size, carried_on
@@ -78,12 +78,12 @@ class Model:
     label: VisibleClass
     kind: str
     shapes: Mapping[str, Mesh]
-    lamps: Callable[[float, bool], Iterator[Lamp]]
+    lights: Callable[[float, bool], Iterator[Light]]
     far: Mapping[str, Mesh] = field(default_factory=dict)
     aircraft: AircraftType | None = None
 
 
-def model_of(actor: Actor) -> Model:
+def model_of(actor: ActorSpec) -> Model:
     """Return how an actor of a scenario looks.
 
     Raises
@@ -91,9 +91,9 @@ def model_of(actor: Actor) -> Model:
     ScenarioError
         There is no such kind.
     """
-    if isinstance(actor, AircraftActor):
+    if isinstance(actor, AircraftSpec):
         return aircraft_model(actor.aircraft)
-    if isinstance(actor, VehicleActor):
+    if isinstance(actor, VehicleSpec):
         return vehicle_model(actor.kind)
     return animal_model(actor.kind)
 
@@ -105,7 +105,7 @@ def aircraft_model(name: str) -> Model:
         "airplane",
         name,
         aircraft_meshes(kind),
-        lambda t_s, lit: aircraft_lamps(kind, t_s, lit),
+        lambda t_s, lit: aircraft_lights(kind, t_s, lit),
         aircraft_meshes(kind, coarse=True),
         kind,
     )
@@ -123,7 +123,7 @@ def vehicle_model(name: str) -> Model:
     mesh = makers.get(name, vehicles.block)(size)
     # Something is towed: what is seen of it is the aircraft.
     label: VisibleClass = "airplane" if name == "tug_with_aircraft" else "truck"
-    return Model(label, name, {"driving": mesh}, lambda t_s, _: vehicle_lamps(size, t_s))
+    return Model(label, name, {"driving": mesh}, lambda t_s, _: vehicle_lights(size, t_s))
 
 
 def animal_model(name: str) -> Model:
@@ -147,12 +147,12 @@ def _bird(size: Size | Dimensions, count: int, beat: int | None) -> Mesh:
     return animals.goose(size, beat) if count == 1 else animals.flock(size, count, beat)
 
 
-def _no_lamps(_t_s: float, _lit: bool) -> Iterator[Lamp]:
+def _no_lamps(_t_s: float, _lit: bool) -> Iterator[Light]:
     return iter(())
 
 
 def states_of(
-    performers: Iterable[Performer], frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
+    actors: Iterable[Actor], frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
 ) -> list[BodyState]:
     """Return where everybody is; those that have ended lie where they did.
 
@@ -164,18 +164,18 @@ def states_of(
     elapsed_s = (now_ns - ticked_ns) / SECOND_NS
     return [
         state_of(
-            performer,
+            actor,
             frame,
             ground_m,
             now_ns / SECOND_NS,
-            elapsed_s if performer.body.ended is None else 0.0,
+            elapsed_s if actor.body.ended is None else 0.0,
         )
-        for performer in performers
+        for actor in actors
     ]
 
 
 def state_of(
-    performer: Performer, frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
+    actor: Actor, frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
 ) -> BodyState:
     """Return where an actor is, in the axes of the scene.
 
@@ -190,11 +190,11 @@ def state_of(
     The scene is flat: heights are altitudes less that of the ground, wherever that is. Between
     two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
     """
-    state = carried_on(performer.body.state, elapsed_s)
+    state = carried_on(actor.body.state, elapsed_s)
     east, north = frame.to_local((state.latitude_rad, state.longitude_rad))
     up = state.altitude_m - ground_m
-    callsign = performer.actor.callsign
-    body = performer.body
+    callsign = actor.spec.callsign
+    body = actor.body
     if isinstance(body, Aircraft):
         height = body.state.height_agl_m
         shape = "gear" if height < GEAR_DOWN_BELOW_M else "clean"
@@ -202,7 +202,7 @@ def state_of(
         angles = body.state.heading_rad, body.state.pitch_rad, body.state.roll_rad
         return BodyState(callsign, east, north, up, *angles, shape, lit)
     shape = "driving"
-    if performer.category == "wildlife":
+    if actor.category == "wildlife":
         shape = "standing"
         if not body.on_ground:
             rate = WING_BEATS_HZ if body.dimensions.length_m < 3.0 else STARLING_BEATS_HZ

@@ -9,13 +9,13 @@ from airhilt.scenario.models import Airborne, Daylight, Weather
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera, frame_of
 from airhilt.sensors.cameras.scene.bodies import Model, model_of
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import World, airport_world, open_country
 from airhilt.sensors.cameras.scene.rain import rain_visibility_m
 from airhilt.sensors.cameras.scene.sun import sun_direction
-from airhilt.sensors.cameras.scene_renderer import Studio
+from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.units import FOOT
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 FOGGY_M = 3000.0
 HAZY_M = 8000.0
@@ -28,45 +28,47 @@ CLOUDS_UNDER_TRAFFIC = 0.6
 LOWEST_CLOUDS_M = 400.0
 
 
-def light_of(scenario: Scenario, setting: Setting) -> Light:
+def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
     """Return how a scenario is lit."""
-    latitude_rad, _ = frame_of(setting).origin
-    return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, setting.layout is None)
+    latitude_rad, _ = frame_of(site).origin
+    return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, site.layout is None)
 
 
-def air_and_sun(weather: Weather, daylight: Daylight, latitude_rad: float, en_route: bool) -> Light:
+def air_and_sun(
+    weather: Weather, daylight: Daylight, latitude_rad: float, en_route: bool
+) -> Illumination:
     """Return how a place is lit; what the rain takes from the visibility is counted."""
     rain_m = rain_visibility_m(weather.rain_mm_h)
     visibility = 1.0 / (1.0 / weather.visibility_m + 1.0 / rain_m)
     thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
     sun = sun_direction(latitude_rad, daylight.date, daylight.solar_time_h)
-    backdrop = BACKDROP_EN_ROUTE if en_route else 1.0
-    return Light(sun, visibility, overcast, backdrop)
+    background = BACKDROP_EN_ROUTE if en_route else 1.0
+    return Illumination(sun, visibility, overcast, background)
 
 
-def world_of(scenario: Scenario, setting: Setting, light: Light) -> World:
+def world_of(scenario: Scenario, site: ScenarioSite, light: Illumination) -> World:
     """Return what stands still in a scenario."""
-    if setting.layout is not None:
-        return airport_world(setting.layout, light)
+    if site.layout is not None:
+        return airport_world(site.layout, light)
     heights = [
-        actor.initial.altitude_ft * FOOT - setting.ground_m
+        actor.initial.altitude_ft * FOOT - site.ground_m
         for actor in scenario.actors
         if isinstance(actor.initial, Airborne)
     ]
     tops = CLOUDS_UNDER_TRAFFIC * min(heights, default=0.0)
     clouds = tops if tops > LOWEST_CLOUDS_M else None
-    name = f"{setting.centre.lat_deg:.3f} {setting.centre.lon_deg:.3f}"
+    name = f"{site.centre.lat_deg:.3f} {site.centre.lon_deg:.3f}"
     return open_country(light, name, clouds)
 
 
-def open_studio(
+def open_scene_renderer(
     scenario: Scenario,
-    setting: Setting,
+    site: ScenarioSite,
     names: Sequence[str] | None = None,
     renderer: RendererName = "open3d",
-    fine: int = 1,
-) -> Studio:
+    supersampling: int = 1,
+) -> SceneRenderer:
     """Return a studio with cameras of a scenario: those named, or those it declares.
 
     Raises
@@ -77,9 +79,11 @@ def open_studio(
         The renderer cannot be opened.
     """
     models: dict[str, Model] = {actor.callsign: model_of(actor) for actor in scenario.actors}
-    known = cameras_of(scenario, setting, models)
+    known = cameras_of(scenario, site, models)
     wanted = [camera.name for camera in scenario.cameras] if names is None else names
     cameras: list[Camera] = [find_camera(known, name) for name in wanted]
-    light = light_of(scenario, setting)
-    world = world_of(scenario, setting, light)
-    return Studio(world, light, models, cameras, renderer, scenario.weather.rain_mm_h, fine)
+    light = light_of(scenario, site)
+    world = world_of(scenario, site, light)
+    return SceneRenderer(
+        world, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling
+    )

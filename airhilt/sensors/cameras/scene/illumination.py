@@ -1,7 +1,7 @@
 """How a scene is lit, what the sky looks like, and what the air does to both.
 
 All colours are linear; `encode` makes 8-bit sRGB of them. Both backends and the cached pictures
-use the numbers of one `Light`, which is why they agree.
+use the numbers of one `Illumination`, which is why they agree.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _HOURS = (
 
 
 @dataclass(frozen=True)
-class Light:
+class Illumination:
     """Sun, sky and air of a scene; they do not change during a run.
 
     Attributes
@@ -66,7 +66,7 @@ class Light:
     sun: npt.NDArray[np.float64]
     visibility_m: float
     overcast: float
-    backdrop: float = 1.0
+    background: float = 1.0
 
     @property
     def sun_elevation_rad(self) -> float:
@@ -193,7 +193,7 @@ class Light:
     @property
     def backdrop_extinction_per_m(self) -> float:
         """Of the air before ground and clouds."""
-        return self.extinction_per_m / self.backdrop
+        return self.extinction_per_m / self.background
 
     def through_air(self, colours: Floats, distances_m: Floats, extinction_per_m: float) -> Floats:
         """Return what is left of light after some way, and what the air adds; changes colours.

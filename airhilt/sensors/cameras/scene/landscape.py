@@ -16,8 +16,8 @@ from shapely.ops import unary_union
 from airhilt.errors import CameraError
 from airhilt.sensors.cameras.scene import markings, scenery
 from airhilt.sensors.cameras.scene.ground import Layer, cells, require_triangulation, ring, sheet
-from airhilt.sensors.cameras.scene.illumination import Light
-from airhilt.sensors.cameras.scene.lights import Lamp, airport_lamps
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.lights import Light, airport_lights
 from airhilt.shapes.mesh import Colour, Mesh, join, srgb
 from airhilt.world.surface.layout import Layout
 
@@ -76,7 +76,7 @@ class World:
     """
 
     mesh: Mesh
-    lamps: tuple[Lamp, ...]
+    lights: tuple[Light, ...]
     blocks: tuple[Block, ...]
     tallest_m: float
 
@@ -102,13 +102,13 @@ class World:
                 )
 
 
-def airport_world(layout: Layout, light: Light) -> World:
+def airport_world(layout: Layout, light: Illumination) -> World:
     """Return an airport."""
     require_triangulation()
     return _Airport(layout, light).world()
 
 
-def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
+def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> World:
     """Return land without an airport, with a layer of clouds below some height."""
     require_triangulation()
     seed = _seed(name)
@@ -130,7 +130,7 @@ def open_country(light: Light, name: str, cloud_tops_m: float | None) -> World:
 
 
 class _Airport:
-    def __init__(self, layout: Layout, light: Light) -> None:
+    def __init__(self, layout: Layout, light: Illumination) -> None:
         self._layout = layout
         self._airport = layout.airport
         self._frame = layout.frame
@@ -176,7 +176,7 @@ class _Airport:
             if found is not None:
                 parts.append(found)
         tallest = max([60.0, *(block.height_m for block in self._blocks)])
-        return World(join(parts), airport_lamps(self._layout), self._blocks, tallest)
+        return World(join(parts), airport_lights(self._layout), self._blocks, tallest)
 
     # --- ground -------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from shapely import Point
 
-from airhilt.sensors.cameras.scene.illumination import Light
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import NEAR_M, Pose, View
 from airhilt.shapes.aircraft import wing_tip_m
 from airhilt.shapes.mesh import Colour, Floats, srgb
@@ -50,7 +50,7 @@ FAINTEST_LAMP = 0.02
 """Part of the light that saturates a pixel: what is fainter is not drawn."""
 
 
-class Lamp(NamedTuple):
+class Light(NamedTuple):
     """A point of light.
 
     ``beam`` points where it shines most; None: it shines all round.
@@ -63,12 +63,12 @@ class Lamp(NamedTuple):
     beam_sharpness: float = LANDING_BEAM
 
 
-def airport_lamps(layout: Layout) -> tuple[Lamp, ...]:
+def airport_lights(layout: Layout) -> tuple[Light, ...]:
     """Return the lights of runways and taxiways."""
     return tuple(_runway_lamps(layout)) + tuple(_taxiway_lamps(layout))
 
 
-def _runway_lamps(layout: Layout) -> Iterator[Lamp]:
+def _runway_lamps(layout: Layout) -> Iterator[Light]:
     for strip in layout.strips.values():
         first, second = strip.ends
         low, high = (layout.frame.to_local(end.start) for end in (first, second))
@@ -94,7 +94,7 @@ def _runway_lamps(layout: Layout) -> Iterator[Lamp]:
                     yield _lamp(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
 
 
-def _taxiway_lamps(layout: Layout) -> Iterator[Lamp]:
+def _taxiway_lamps(layout: Layout) -> Iterator[Light]:
     nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
     runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
     for edge in layout.airport.taxiways.edges:
@@ -117,38 +117,38 @@ def _lamp(
     candela: float,
     beam: tuple[float, float, float] | None = None,
     sharpness: float = LANDING_BEAM,
-) -> Lamp:
-    return Lamp((float(place[0]), float(place[1]), 0.4), colour, candela, beam, sharpness)
+) -> Light:
+    return Light((float(place[0]), float(place[1]), 0.4), colour, candela, beam, sharpness)
 
 
-def aircraft_lamps(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Lamp]:
+def aircraft_lights(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Light]:
     """Yield the lights of an aircraft, in its own axes, that are on at an instant."""
     half, at, tip_up = wing_tip_m(kind)
     length = kind.dimensions.length_m
-    yield Lamp((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
-    yield Lamp((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
-    yield Lamp((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
+    yield Light((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
+    yield Light((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
+    yield Light((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
     if (t_s * BEACON_HZ) % 1.0 < FLASH_PART:
         top = 0.6 * kind.mesh.fuselage_diameter_m + 0.3
-        yield Lamp((0.0, 0.0, top), RED, BEACON_CD)
-        yield Lamp((0.0, 0.0, -top), RED, BEACON_CD)
+        yield Light((0.0, 0.0, top), RED, BEACON_CD)
+        yield Light((0.0, 0.0, -top), RED, BEACON_CD)
     if (t_s * STROBE_HZ + 0.5) % 1.0 < FLASH_PART:
         for side in (-1.0, 1.0):
-            yield Lamp((side * half, at - 0.5, tip_up), WHITE, STROBE_CD)
+            yield Light((side * half, at - 0.5, tip_up), WHITE, STROBE_CD)
     if landing:
         root = 0.14 * half if kind.category in ("jet", "heavy_jet") else 0.5 * half
         for side in (-1.0, 1.0):
             beam = (0.0, 0.998, -0.06)
-            yield Lamp((side * root, 0.12 * length, -0.3), WHITE, LANDING_CD / 2.0, beam)
+            yield Light((side * root, 0.12 * length, -0.3), WHITE, LANDING_CD / 2.0, beam)
 
 
-def vehicle_lamps(size: Size, t_s: float) -> Iterator[Lamp]:
+def vehicle_lights(size: Size, t_s: float) -> Iterator[Light]:
     """Yield the flashing beacon and the headlamps of a vehicle, in its own axes."""
     if (t_s * 1.3) % 1.0 < 0.35:
-        yield Lamp((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
+        yield Light((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
     for side in (-0.35, 0.35):
         place = (side * min(size.span_m, 2.5), size.length_m / 2.0, 0.8)
-        yield Lamp(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
+        yield Light(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
 
 
 class Spot(NamedTuple):
@@ -162,7 +162,7 @@ class Spot(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Lamps:
+class Lights:
     """Points of light, in columns.
 
     Attributes
@@ -178,32 +178,32 @@ class Lamps:
     sharpness: npt.NDArray[np.float64]
 
     @classmethod
-    def of(cls, lamps: Sequence[Lamp]) -> Lamps:
+    def of(cls, lights: Sequence[Light]) -> Lights:
         """Return lamps that are given one by one."""
         rows = [
             (*lamp.place_m, *lamp.colour, lamp.candela, *(lamp.beam or (0.0, 0.0, 0.0)),
              lamp.beam_sharpness if lamp.beam else 0.0)
-            for lamp in lamps
+            for lamp in lights
         ]  # fmt: skip
         table = np.array(rows, dtype=np.float64).reshape(-1, 11)
         return cls(table[:, :3], table[:, 3:6], table[:, 6], table[:, 7:10], table[:, 10])
 
     @classmethod
-    def carried(cls, groups: Sequence[tuple[Pose, Sequence[Lamp]]]) -> Lamps:
+    def carried(cls, groups: Sequence[tuple[Pose, Sequence[Light]]]) -> Lights:
         """Return lamps that are given in the axes of what carries them."""
-        lamps = cls.of([lamp for _, group in groups for lamp in group])
+        lights = cls.of([lamp for _, group in groups for lamp in group])
         counts = [len(group) for _, group in groups]
         if not sum(counts):
-            return lamps
+            return lights
         turns = np.repeat([pose.rotation for pose, _ in groups], counts, axis=0)
         moves = np.repeat([pose.position_m for pose, _ in groups], counts, axis=0)
         return replace(
-            lamps,
-            places_m=np.einsum("nij,nj->ni", turns, lamps.places_m) + moves,
-            beams=np.einsum("nij,nj->ni", turns, lamps.beams),
+            lights,
+            places_m=np.einsum("nij,nj->ni", turns, lights.places_m) + moves,
+            beams=np.einsum("nij,nj->ni", turns, lights.beams),
         )
 
-    def seen(self, view: View, light: Light) -> list[Spot]:
+    def seen(self, view: View, light: Illumination) -> list[Spot]:
         """Return those that are in the picture and bright enough to be seen."""
         if not len(self.places_m):
             return []

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from airhilt.assistant.reference import DETECTOR
+from airhilt.cosim.router import UNREGISTERED
+from airhilt.cosim.simulation import Observer, run
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.messages import (
     WORKER_OUTPUTS,
@@ -24,13 +26,11 @@ from airhilt.messages import (
     Transmission,
     WorkerDescription,
 )
-from airhilt.options import Foreign, Options, Recorded
+from airhilt.options import Options, Recorded, UnregisteredMessage
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.folder import RunOptions, sha256, versions
 from airhilt.record.latency import RecordedLatencies
-from airhilt.run.router import FOREIGN
-from airhilt.run.simulation import Observer, run
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import RENDERER, RENDERERS, RendererName
 from airhilt.sensors.radio.backend import Reception
@@ -41,7 +41,7 @@ from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
 
 if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import Background
+    from airhilt.sensors.radio.channel import BackgroundNoise
 
 UNENDING_S = 86_400.0
 """A call lasts longer than any run that its run has cut off."""
@@ -132,7 +132,7 @@ def _recorded(
         elif loss is not None:
             losses[name] = loss
         given = [_given(folder, logged) for logged in log if logged.publisher == name]
-        worker = RecordedWorker(
+        worker = ReplayedWorker(
             given, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
         )
         workers.append(Participant(description, worker, attached=True))
@@ -144,7 +144,7 @@ def _recorded(
             breaks_off=breaks_off,
         ),
         end_ns=log[-1].t_ns if breaks_off and log else None,
-        blindness=_blindness(log),
+        unavailable_reason=_unavailable_reason(log),
         cameras_lost=_cameras_lost(log),
         has_pictures=any(logged.key.startswith("camera/") for logged in log),
         sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
@@ -152,9 +152,9 @@ def _recorded(
         programs=programs,
         losses=losses,
         foreign=tuple(
-            Foreign(logged.key, logged.t_ns, logged.data)
+            UnregisteredMessage(logged.key, logged.t_ns, logged.data)
             for logged in log
-            if logged.publisher == FOREIGN
+            if logged.publisher == UNREGISTERED
         ),
     )
 
@@ -175,7 +175,7 @@ def _renderer(name: str) -> RendererName:
     return next((known for known in RENDERERS if known == name), RENDERER)
 
 
-def _blindness(log: Sequence[Logged]) -> str:
+def _unavailable_reason(log: Sequence[Logged]) -> str:
     """Return why no pictures could be drawn from the start; empty if they could."""
     for logged in log:
         if logged.key == "status/vision":
@@ -198,7 +198,7 @@ def _is_spoken_elsewhere(options: RunOptions) -> bool:
     return options.speech and is_service(options.tts)
 
 
-def _sound(folder: RunFolder, log: Sequence[Logged]) -> RecordedSound:
+def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
     """Return what was on the air, and why that ended."""
     durations_s: dict[tuple[str, str], float] = {}
     received: dict[str, Transmission] = {}
@@ -220,7 +220,7 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> RecordedSound:
             event = Event.model_validate_json(logged.data)
             is_over = is_over or event.kind in ("finished", "stopped")
             lost = event if event.kind == "radio_lost" else lost
-    return RecordedSound(folder.audio_path, durations_s, received, lost.text if lost else None)
+    return ReplayedRadio(folder.audio_path, durations_s, received, lost.text if lost else None)
 
 
 def _given(folder: RunFolder, logged: Logged) -> Output:
@@ -233,7 +233,7 @@ def _given(folder: RunFolder, logged: Logged) -> Output:
     return Output(logged.key, pcm, logged.t_ns, header.model_dump(mode="json"))
 
 
-class RecordedWorker:
+class ReplayedWorker:
     """Gives what a worker of another process gave, step by step.
 
     Parameters
@@ -260,17 +260,17 @@ class RecordedWorker:
         self._wakes_ns = wakes_ns
         self._failure = failure
 
-    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RecordedStep:  # noqa: ARG002
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> ReplayedStep:  # noqa: ARG002
         """Return the step as it was."""
         if self._failure is not None and self._failure[0] == seq:
-            return RecordedStep(Reply((), 0.0), self._failure[1])
+            return ReplayedStep(Reply((), 0.0), self._failure[1])
         count = min(self._outputs.get(seq, 0), len(self._given))
         outputs = tuple(self._given.popleft() for _ in range(count))
-        return RecordedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
+        return ReplayedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
 
 
 @dataclass(frozen=True)
-class RecordedStep:
+class ReplayedStep:
     """A step of an earlier run."""
 
     reply: Reply
@@ -289,7 +289,7 @@ class RecordedStep:
         return self.reply
 
 
-class RecordedSound:
+class ReplayedRadio:
     """The voices of an earlier run, and what its receiver gave out.
 
     Parameters
@@ -334,7 +334,7 @@ class RecordedSound:
         on_air: OnAir,
         heard_over: tuple[OnAir, ...],  # noqa: ARG002
         snr_db: float | None,  # noqa: ARG002
-        background: Background,  # noqa: ARG002
+        background: BackgroundNoise,  # noqa: ARG002
     ) -> Reception:
         """Return the transmission as it was received.
 

@@ -10,30 +10,30 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from airhilt.cosim.participants import Participants
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.options import Options, Recorded
 from airhilt.record import RunFolder, RunInfo, read_latencies
-from airhilt.record.folder import RecordedWorker, RunOptions, machine, versions
+from airhilt.record.folder import RunOptions, WorkerRecord, machine, versions
 from airhilt.record.video import require_video
-from airhilt.run.participants import Team
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import HappeningLine, as_it_happens
+from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.loading import draw
 from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
-from airhilt.sensors.radio.backend import Sound, Text
-from airhilt.sensors.radio.backends import models_of, sound_of
+from airhilt.sensors.radio.backend import RadioBackend, TextRadio
+from airhilt.sensors.radio.backends import backend_of, models_of
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
-from airhilt.world.actors import Performer, build_cast
-from airhilt.world.site import Setting
+from airhilt.world.actors import Actor, build_actors
+from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 
 
 @dataclass(frozen=True)
-class Prepared:
+class Setup:
     """What a run is set up with.
 
     Attributes
@@ -57,20 +57,20 @@ class Prepared:
     latency: LatencySpec
     pace: Pace
     folder: RunFolder
-    setting: Setting
-    cast: dict[str, Performer]
-    sound: Sound
-    lines: Sequence[HappeningLine]
+    site: ScenarioSite
+    actors: dict[str, Actor]
+    sound: RadioBackend
+    lines: Sequence[EffectiveLine]
     ends_ns: Mapping[str, int]
 
-    def info(self, team: Team, pace: Pace, endpoint: str) -> RunInfo:
+    def info(self, participants: Participants, pace: Pace, endpoint: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it begins."""
         options = self.options
         return RunInfo(
             run=self.name,
             options=RunOptions(
                 seed=options.seed,
-                assistant=team.assistant,
+                assistant=participants.assistant,
                 pace=pace.name,
                 latency=self.latency.text,
                 attached=options.attach,
@@ -89,11 +89,11 @@ class Prepared:
             realised=self.scenario.model_dump(mode="json"),
             draws=[draw.model_dump() for draw in self.draws],
             workers=[
-                RecordedWorker(
+                WorkerRecord(
                     description=participant.description,
                     where="attached" if participant.attached else "in process",
                 )
-                for participant in team.participants
+                for participant in participants.participants
             ],
             endpoint=endpoint,
             started_at=datetime.now(UTC).isoformat(timespec="seconds"),
@@ -103,7 +103,7 @@ class Prepared:
         )
 
 
-def prepare(given: Scenario, options: Options, recorded: Recorded) -> Prepared:
+def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     """Settle what a run needs, and put everybody where they begin.
 
     Raises
@@ -120,14 +120,14 @@ def prepare(given: Scenario, options: Options, recorded: Recorded) -> Prepared:
     folder.require_free(options.overwrite)
     if options.video:
         _require_something_to_film(options, scenario)
-    setting = Setting.of(scenario)
-    cast = build_cast(scenario, setting, options.seed, TICK_S)
+    site = ScenarioSite.of(scenario)
+    actors = build_actors(scenario, site, options.seed, TICK_S)
     tts = options.tts if options.speech else None
-    sound = recorded.sound or sound_of(scenario.radio, options.seed, tts)
-    lines = as_it_happens(scenario)
+    sound = recorded.sound or backend_of(scenario.radio, options.seed, tts)
+    lines = apply_failures(scenario)
     # For the summary alone; a record knows what was said, but not what was planned and was not.
-    planned = sound if recorded.sound is None else Text(scenario.radio.words_per_minute)
-    return Prepared(
+    planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
+    return Setup(
         name=name,
         options=options,
         recorded=recorded,
@@ -137,8 +137,8 @@ def prepare(given: Scenario, options: Options, recorded: Recorded) -> Prepared:
         latency=latency,
         pace=pace,
         folder=folder,
-        setting=setting,
-        cast=cast,
+        site=site,
+        actors=actors,
         sound=sound,
         lines=lines,
         ends_ns=planned_ends_ns(lines, planned),

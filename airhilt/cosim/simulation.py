@@ -19,6 +19,11 @@ from pydantic import ValidationError
 
 from airhilt.bus.session import Bus
 from airhilt.commands import Command
+from airhilt.cosim.briefing import briefing_of
+from airhilt.cosim.cameras import Vision, open_vision
+from airhilt.cosim.participants import Participants, connect
+from airhilt.cosim.router import UNREGISTERED, MessageRouter
+from airhilt.cosim.setup import TICK_S, Setup, set_up
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
 from airhilt.messages import (
     ActorCommand,
@@ -43,24 +48,19 @@ from airhilt.record import LatencyLog, LogWriter, RunInfo
 from airhilt.record.audio import AudioRecorder
 from airhilt.record.folder import sha256
 from airhilt.report.report import write_report
-from airhilt.run.briefing import briefing_of
-from airhilt.run.cameras import Vision, open_vision
-from airhilt.run.participants import Team, gather
-from airhilt.run.router import FOREIGN, Exchange
-from airhilt.run.setup import TICK_S, Prepared, prepare
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import HappeningLine
-from airhilt.scenario.models import AircraftActor, Condition, EngineFailure, WildlifeActor
+from airhilt.scenario.failures import EffectiveLine
+from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.sensors.adsb import AdsbSensor
-from airhilt.sensors.radio.backend import Fragile
-from airhilt.sensors.radio.conversation import RadioLoop
+from airhilt.sensors.radio.backend import FallbackRadio
+from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers.pool import WorkerPool, parse_output
-from airhilt.world.actors import Performer, Unable
-from airhilt.world.actors.advisory_delivery import Advised
-from airhilt.world.actors.triggers import Cues
+from airhilt.world.actors import Actor, Unable
+from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
+from airhilt.world.actors.triggers import Triggers
 from airhilt.world.flight import Aircraft
 from airhilt.world.truth.conditions import ConditionCompiler
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
@@ -123,27 +123,27 @@ def run(
         Likewise.
     """
     observer = observer or Observer()
-    prepared = prepare(scenario, options or Options(), recorded or Recorded())
-    options, pace = prepared.options, prepared.pace
+    setup = set_up(scenario, options or Options(), recorded or Recorded())
+    options, pace = setup.options, setup.pace
     with ExitStack() as stack:
-        bus = stack.enter_context(closing(Bus(prepared.name, options.listen)))
+        bus = stack.enter_context(closing(Bus(setup.name, options.listen)))
         _tell_clock(bus, 0, "waiting", pace)
-        team = gather(options, prepared.scenario, prepared.recorded, bus, observer.notice)
-        if team.programs and options.pace is None and not prepared.recorded.programs:
+        participants = connect(options, setup.scenario, setup.recorded, bus, observer.notice)
+        if participants.programs and options.pace is None and not setup.recorded.programs:
             pace = RealTime()
-        vision = stack.enter_context(open_vision(prepared, team, observer.notice))
-        prepared.folder.create(options.overwrite)
-        info = prepared.info(team, pace, bus.endpoint)
-        prepared.folder.write_info(info)
-        simulation = Simulation(prepared, team, pace, vision, bus, observer)
+        vision = stack.enter_context(open_vision(setup, participants, observer.notice))
+        setup.folder.create(options.overwrite)
+        info = setup.info(participants, pace, bus.endpoint)
+        setup.folder.write_info(info)
+        simulation = Simulation(setup, participants, pace, vision, bus, observer)
         with interruptible(simulation.interrupt):
             try:
                 result = simulation.run(info)
             except BaseException:
                 with suppress(AirhiltError):  # What stopped the run is the news, not its report.
-                    write_report(prepared.folder.path)
+                    write_report(setup.folder.path)
                 raise
-            write_report(prepared.folder.path)
+            write_report(setup.folder.path)
             return result
 
 
@@ -157,101 +157,105 @@ class Simulation:
 
     def __init__(
         self,
-        prepared: Prepared,
-        team: Team,
+        setup: Setup,
+        participants: Participants,
         pace: Pace,
         vision: Vision,
         bus: Bus,
         observer: Observer,
     ) -> None:
-        scenario, setting, options = prepared.scenario, prepared.setting, prepared.options
-        cast, folder, lines = prepared.cast, prepared.folder, prepared.lines
+        scenario, site, options = setup.scenario, setup.site, setup.options
+        actors, folder, lines = setup.actors, setup.folder, setup.lines
         self._scenario = scenario
-        self._setting = setting
+        self._site = site
         self._options = options
         self._bus = bus
         self._folder = folder
-        self._cast = cast
+        self._actors = actors
         self._observer = observer
         self._director = Director(pace)
         self._log = LogWriter(folder.log_path)
         self._latency_log = LatencyLog(folder.latency_path)
-        self._exchange = Exchange(bus, self._log)
+        self._router = MessageRouter(bus, self._log)
         self._phase: Phase = "running"
         self._ticked_ns = 0
         self._heard_unregistered = False
-        self._team = team
-        self._programs = set(team.programs)
-        self._has_decision = bool(team.programs) or team.does("decision")
+        self._participants = participants
+        self._programs = set(participants.programs)
+        self._has_decision = bool(participants.programs) or participants.does("decision")
         self._ended_lines: set[str] = set()
 
-        self._cues = Cues()
+        self._cues = Triggers()
         self._misled: set[str] = set()
         """Actors that act under a failure that has happened."""
         self._pair = pair_of(scenario)
         self._monitor = ConflictMonitor(
-            {c: p.body for c, p in cast.items() if isinstance(p.body, Aircraft)},
-            {c: p.body for c, p in cast.items() if not isinstance(p.body, Aircraft)},
+            {c: p.body for c, p in actors.items() if isinstance(p.body, Aircraft)},
+            {c: p.body for c, p in actors.items() if not isinstance(p.body, Aircraft)},
             minima_of(scenario.separation),
-            setting.ground_m,
-            zone_of(setting),
+            site.ground_m,
+            zone_of(site),
             TICK_S,
             frozenset(
                 actor.callsign
                 for actor in scenario.actors
-                if isinstance(actor, AircraftActor) and actor.transponder.equipped
+                if isinstance(actor, AircraftSpec) and actor.transponder.equipped
             ),
             frozenset() if self._pair is None else frozenset({self._pair}),
             self._became_true,
         )
         self._runways = None
-        if setting.layout is not None:
+        if site.layout is not None:
             self._runways = RunwayMonitor(
-                setting.layout, cast, self._misled, self._exchange.publish, self._incurred
+                site.layout, actors, self._misled, self._router.publish, self._incurred
             )
-        self._conditions = ConditionCompiler(cast, self._monitor, self._runways, self._ended_lines)
+        self._conditions = ConditionCompiler(
+            actors, self._monitor, self._runways, self._ended_lines
+        )
         compiled = self._conditions.compile
         self._opens = None if scenario.conflict is None else compiled(scenario.conflict.opens_when)
         self._ends = [compiled(condition) for condition in scenario.end_when]
-        self._sound = Fragile(prepared.sound, scenario.radio.words_per_minute, self._lose_radio)
-        self._radio = RadioLoop(
+        self._sound = FallbackRadio(setup.sound, scenario.radio.words_per_minute, self._lose_radio)
+        self._radio = RadioConversation(
             self._director,
             scenario,
             lines,
-            Stations(cast, setting, scenario.radio.lines),
+            Stations(actors, site, scenario.radio.lines),
             self._sound,
             options.seed,
             self._ended_lines,
             once=self._once,
-            publish=self._exchange.publish,
+            publish=self._router.publish,
             do=self._do,
             failed=self._failed,
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
         )
-        plans = Plans(lines, prepared.ends_ns)
-        self._collector = Collector(scenario, setting.ground_m, self._monitor, self._runways, plans)
+        plans = Plans(lines, setup.ends_ns)
+        self._collector = Collector(scenario, site.ground_m, self._monitor, self._runways, plans)
         self._pool = WorkerPool(
             self._director,
-            team.participants,
-            prepared.latency,
+            participants.participants,
+            setup.latency,
             options.seed,
-            publish=self._exchange.publish,
+            publish=self._router.publish,
             done=self._worker_done,
             lost=lambda worker, cause: self._lose(worker.name, worker.modality, cause),
         )
-        self._exchange.listen(AudioRecorder(folder.audio_path).take)
-        self._exchange.observe(self._collector.take)
-        self._exchange.listen(self._pool.offer)
-        self._advised = Advised(self._director, cast, self._event, is_voiced=team.does("voice"))
-        self._exchange.listen(self._radio.take)
-        self._exchange.listen(self._advised.take)
+        self._router.listen(AudioRecorder(folder.audio_path).take)
+        self._router.observe(self._collector.take)
+        self._router.listen(self._pool.offer)
+        self._advised = AdvisoryDelivery(
+            self._director, actors, self._event, is_voiced=participants.does("voice")
+        )
+        self._router.listen(self._radio.take)
+        self._router.listen(self._advised.take)
         self._sensor = AdsbSensor(
             self._director,
             scenario,
-            setting,
-            cast,
-            prepared.latency,
+            site,
+            actors,
+            setup.latency,
             options.seed,
             state_at_ns=lambda: self._ticked_ns,
             publish=self._publish_report,
@@ -260,14 +264,14 @@ class Simulation:
         self._vision = vision
         vision.mount(
             self._director,
-            self._exchange,
+            self._router,
             state_at_ns=lambda: self._ticked_ns,
             closest_ns=self._closest_approach_ns,
             lost=partial(self._go_on_without, "vision", "cameras_lost", "cameras"),
         )
         self._schedule_world()
         self._schedule_occurrences()
-        self._schedule_recorded(prepared.recorded)
+        self._schedule_recorded(setup.recorded)
         self._serve_bus()
 
     # --- the run ----------------------------------------------------------------------------
@@ -330,7 +334,7 @@ class Simulation:
         return self._collector.summary(
             {
                 "seed": self._options.seed,
-                "assistant": self._team.assistant,
+                "assistant": self._participants.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
@@ -369,7 +373,7 @@ class Simulation:
 
     def _end_if_due(self) -> None:
         now_ns = self._director.now_ns
-        everybody_ended = all(p.body.ended is not None for p in self._cast.values())
+        everybody_ended = all(p.body.ended is not None for p in self._actors.values())
         if everybody_ended or any(test(now_ns) for test in self._ends):
             self._director.stop()
 
@@ -377,29 +381,29 @@ class Simulation:
 
     def _tick(self) -> None:
         now_ns = self._director.now_ns
-        for performer in self._cast.values():
-            body = performer.body
+        for actor in self._actors.values():
+            body = actor.body
             if body.ended is None:
                 body.advance()
                 if body.ended is not None:
-                    self._actor_ended(performer)
+                    self._actor_ended(actor)
         self._ticked_ns = now_ns
         self._monitor.tick(now_ns)
 
-    def _actor_ended(self, performer: Performer) -> None:
-        callsign, cause = performer.actor.callsign, performer.body.ended or ""
+    def _actor_ended(self, actor: Actor) -> None:
+        callsign, cause = actor.spec.callsign, actor.body.ended or ""
         self._collector.ended_actors[callsign] = cause
         self._event("actor_ended", callsign, cause)
 
     def _look_around(self) -> None:
         """Let everything that waits for the world to be so look whether it is."""
         now_ns = self._director.now_ns
-        for performer in self._cast.values():
-            if performer.body.ended is None:
+        for actor in self._actors.values():
+            if actor.body.ended is None:
                 try:
-                    performer.attend()
+                    actor.attend()
                 except Unable as unable:
-                    self._event("unable", performer.actor.callsign, str(unable))
+                    self._event("unable", actor.spec.callsign, str(unable))
         self._cues.look(now_ns)
         self._watch_window()
 
@@ -411,14 +415,14 @@ class Simulation:
         for failure in self._scenario.failures:
             if isinstance(failure, EngineFailure):
                 self._once(failure.when, partial(self._fail_engine, failure))
-        for performer in self._cast.values():
-            if isinstance(performer.actor, WildlifeActor):
-                for cue in performer.actor.plan:
-                    action = partial(self._do, performer.actor.callsign, cue.command)
+        for actor in self._actors.values():
+            if isinstance(actor.spec, WildlifeSpec):
+                for cue in actor.spec.plan:
+                    action = partial(self._do, actor.spec.callsign, cue.command)
                     self._once(cue.when, action)
 
     def _fail_engine(self, failure: EngineFailure) -> None:
-        body = self._cast[failure.actor].body
+        body = self._actors[failure.actor].body
         if isinstance(body, Aircraft) and body.ended is None:
             body.fail_engine(failure.engine)
             self._event("failure", failure.actor, f"engine {failure.engine} stops")
@@ -446,10 +450,10 @@ class Simulation:
     def _became_true(
         self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
     ) -> None:
-        if all(self._cast[callsign].category == "wildlife" for callsign in pair):
+        if all(self._actors[callsign].category == "wildlife" for callsign in pair):
             return  # A herd.
         now_ns = self._director.now_ns
-        self._exchange.publish(
+        self._router.publish(
             "truth/conflict",
             ConflictTruth(
                 t_ns=now_ns,
@@ -463,15 +467,15 @@ class Simulation:
             if self._runways is not None:
                 self._runways.collided(*pair)
             for callsign, other in (pair, pair[::-1]):
-                performer, struck = self._cast[callsign], self._cast[other]
+                actor, struck = self._actors[callsign], self._actors[other]
                 if struck.category == "wildlife" and not struck.body.on_ground:
                     continue  # An aircraft flies on after a bird strike.
-                performer.body.ended = f"collision with {other}"
-                self._actor_ended(performer)
+                actor.body.ended = f"collision with {other}"
+                self._actor_ended(actor)
 
     def _incurred(self, incursion: Incursion) -> None:
         actors = (incursion.user, incursion.intruder)
-        self._exchange.publish(
+        self._router.publish(
             "truth/conflict",
             ConflictTruth(
                 t_ns=self._director.now_ns,
@@ -484,16 +488,16 @@ class Simulation:
         )
 
     def _publish_conflict(self, phase: ConflictPhase, pair: Pair) -> None:
-        self._exchange.publish(
+        self._router.publish(
             "truth/conflict",
             ConflictTruth(t_ns=self._director.now_ns, phase=phase, actors=pair),
         )
 
     def _publish_truth(self) -> None:
         now_ns = self._director.now_ns
-        for callsign, performer in self._cast.items():
-            if performer.body.ended is None:
-                self._exchange.publish(f"truth/state/{callsign}", truth_of(performer, now_ns))
+        for callsign, actor in self._actors.items():
+            if actor.body.ended is None:
+                self._router.publish(f"truth/state/{callsign}", truth_of(actor, now_ns))
 
     # --- sensors ----------------------------------------------------------------------------
 
@@ -503,9 +507,9 @@ class Simulation:
         return None if truth is None or truth.closest is None else truth.closest.t_ns
 
     def _publish_report(self, report: AdsbReport) -> None:
-        self._exchange.publish(f"adsb/{report.icao24}", report)
+        self._router.publish(f"adsb/{report.icao24}", report)
 
-    def _failed(self, happening: HappeningLine) -> None:
+    def _failed(self, happening: EffectiveLine) -> None:
         self._misled |= happening.misled
         for text in happening.failures:
             self._event("failure", happening.declared.id, text)
@@ -524,17 +528,17 @@ class Simulation:
 
     def _do(self, callsign: str, command: Command) -> None:
         """Let an actor do what a line or its plan says."""
-        if self._cast[callsign].body.ended is None:
+        if self._actors[callsign].body.ended is None:
             self._event("command", callsign, command.model_dump_json(exclude_none=True))
             self._obey(callsign, command)
 
     def _obey(self, callsign: str, command: Command) -> None:
         """Let an actor do as it was told, or say that it cannot."""
-        performer = self._cast[callsign]
-        if performer.body.ended is not None:
+        actor = self._actors[callsign]
+        if actor.body.ended is not None:
             return
         try:
-            performer.command(command)
+            actor.command(command)
         except Unable as unable:
             self._event("unable", callsign, str(unable))
 
@@ -567,7 +571,7 @@ class Simulation:
     def _serve_bus(self) -> None:
         """Notice workers that go, and hear what other programs publish by themselves."""
         attached = {
-            p.description.name for p in self._team.participants if p.attached
+            p.description.name for p in self._participants.participants if p.attached
         } | self._programs
 
         def changed(name: str, alive: bool) -> None:
@@ -616,35 +620,35 @@ class Simulation:
         if isinstance(stamped, Advisory) and not self._has_decision:
             self._has_decision = True
             self._set_modality("decision", "on")
-        self._exchange.heard(key, stamped, FOREIGN)
+        self._router.heard(key, stamped, UNREGISTERED)
         if isinstance(stamped, ActorCommand):
             callsign = key.split("/")[1]
-            if callsign in self._cast:
+            if callsign in self._actors:
                 self._obey(callsign, stamped.command)
 
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        briefing = briefing_of(self._scenario, self._setting)
-        self._exchange.publish("briefing", briefing)
+        briefing = briefing_of(self._scenario, self._site)
+        self._router.publish("briefing", briefing)
         self._bus.keep("briefing", briefing.model_dump_json().encode())
 
     def _set_modalities(self) -> None:
         scenario = self._scenario
         equipped = any(
-            not isinstance(actor, WildlifeActor) and actor.transponder.equipped
+            not isinstance(actor, WildlifeSpec) and actor.transponder.equipped
             for actor in scenario.actors
         )
         self._set_modality("adsb", "on" if equipped else "off")
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
-        self._set_modality("speech", "on" if self._team.does("speech") else "off")
-        self._set_modality("voice", "on" if self._team.does("voice") else "off")
+        self._set_modality("speech", "on" if self._participants.does("speech") else "off")
+        self._set_modality("voice", "on" if self._participants.does("voice") else "off")
         self._set_modality("vision", *self._vision.state)
         self._set_modality("decision", "on" if self._has_decision else "off")
 
     def _set_modality(self, modality: Modality, state: ModalityState, cause: str = "") -> None:
         self._collector.modalities[modality] = state
-        self._exchange.publish(
+        self._router.publish(
             f"status/{modality}",
             Status(t_ns=self._director.now_ns, modality=modality, state=state, cause=cause),
         )
@@ -653,7 +657,7 @@ class Simulation:
         _tell_clock(self._bus, self._director.now_ns, self._phase, self._director.pace)
 
     def _event(self, kind: EventKind, subject: str, text: str) -> None:
-        self._exchange.publish(
+        self._router.publish(
             "truth/event",
             Event(t_ns=self._director.now_ns, kind=kind, subject=subject, text=text),
         )
@@ -697,7 +701,7 @@ def _parse_foreign(key: str, data: bytes, now_ns: int) -> Message:
         It is not what belongs there.
     """
     if not key.startswith("command/"):
-        return parse_output(FOREIGN, key, data, now_ns)
+        return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return ActorCommand.model_validate_json(data)
     except ValidationError as error:

@@ -10,14 +10,14 @@ from airhilt.record.log import LogWriter
 
 RUN = "run"
 """Publisher of what the run itself publishes."""
-FOREIGN = "unregistered"
+UNREGISTERED = "unregistered"
 """Publisher of what an unregistered program put on the bus."""
 
 Listener = Callable[[str, Message, bytes], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
 
 
-class Exchange:
+class MessageRouter:
     """Publishes a message once to everybody; truth reaches the log and viewers only."""
 
     def __init__(self, bus: Bus, log: LogWriter) -> None:

@@ -19,7 +19,7 @@ NO_DETECTOR = "none"
 
 
 @dataclass(frozen=True)
-class Team:
+class Participants:
     """Who takes part in a run besides the actors."""
 
     assistant: AssistantName
@@ -33,13 +33,13 @@ class Team:
         return any(one.description.modality == modality for one in self.participants)
 
 
-def gather(
+def connect(
     options: Options,
     scenario: Scenario,
     recorded: Recorded,
     bus: Bus,
     notice: Callable[[str], None],
-) -> Team:
+) -> Participants:
     """Wait for the programs that are to attach, and make the workers that nobody else is.
 
     Parameters
@@ -74,7 +74,7 @@ def gather(
     )
     for worker in reference_workers(assistant, scenario.radio, taken, engines):
         participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
-    return Team(assistant, tuple(participants), tuple(programs))
+    return Participants(assistant, tuple(participants), tuple(programs))
 
 
 def _detector(options: Options, scenario: Scenario) -> str | None:

@@ -9,23 +9,23 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.cosim.participants import Participants
+from airhilt.cosim.router import MessageRouter
+from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.metrics.collector import pair_of
 from airhilt.record.pictures import KeyPictures, require_pillow
 from airhilt.record.video import VideoRecorder
-from airhilt.run.participants import Team
-from airhilt.run.router import Exchange
-from airhilt.run.setup import Prepared
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import RendererName
 from airhilt.sim import Director
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.renderer_process import RemoteStudio
+    from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.scene_renderer import Frame
-    from airhilt.sensors.cameras.sensor import CameraRig
+    from airhilt.sensors.cameras.sensor import CameraSensor
 
 
 class Recorder(Protocol):
@@ -53,31 +53,31 @@ class Vision:
 
     def __init__(
         self,
-        prepared: Prepared,
-        studio: RemoteStudio | None,
-        blindness: str,
+        setup: Setup,
+        studio: RendererProcess | None,
+        unavailable_reason: str,
         is_watched: bool,
         notice: Callable[[str], None],
     ) -> None:
-        self._prepared = prepared
+        self._setup = setup
         self._studio = studio
-        self._blindness = blindness
+        self._unavailable_reason = unavailable_reason
         self._is_watched = is_watched
         self._notice = notice
-        self._rig: CameraRig | None = None
+        self._sensor: CameraSensor | None = None
         self._recorders: list[Recorder] = []
 
     @property
     def state(self) -> tuple[ModalityState, str]:
         """How it stands with vision when the run begins, and why."""
-        if self._blindness:
-            return "not evaluated", self._blindness
+        if self._unavailable_reason:
+            return "not evaluated", self._unavailable_reason
         return "on" if self._studio is not None and self._is_watched else "off", ""
 
     def mount(
         self,
         director: Director,
-        exchange: Exchange,
+        router: MessageRouter,
         *,
         state_at_ns: Callable[[], int],
         closest_ns: Callable[[], int | None],
@@ -88,7 +88,7 @@ class Vision:
         Parameters
         ----------
         state_at_ns
-            Returns the time that the states of the performers are of.
+            Returns the time that the states of the actors are of.
         closest_ns
             Returns when the pair of the conflict was nearest up to now; None if there is no pair.
         lost
@@ -96,32 +96,32 @@ class Vision:
         """
         if self._studio is None:
             return
-        from airhilt.sensors.cameras.sensor import CameraRig
+        from airhilt.sensors.cameras.sensor import CameraSensor
 
-        prepared = self._prepared
-        actors = pair_of(prepared.scenario) or tuple(prepared.cast)
-        pictures_path, video_path = prepared.folder.pictures_path, prepared.folder.video_path
+        setup = self._setup
+        actors = pair_of(setup.scenario) or tuple(setup.actors)
+        pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
         self._recorders = [KeyPictures(pictures_path, actors=actors, closest_ns=closest_ns)]
-        if prepared.options.video:
+        if setup.options.video:
             self._recorders.append(VideoRecorder(video_path, notice=self._notice))
         for recorder in self._recorders:
-            exchange.observe(recorder.take)
-        loss = prepared.recorded.cameras_lost
-        self._rig = CameraRig(
+            router.observe(recorder.take)
+        loss = setup.recorded.cameras_lost
+        self._sensor = CameraSensor(
             director,
             self._studio if loss is None else _UntilLost(self._studio, *loss),
-            prepared.scenario.cameras,
-            prepared.setting,
-            prepared.cast,
+            setup.scenario.cameras,
+            setup.site,
+            setup.actors,
             state_at_ns=state_at_ns,
-            publish=exchange.publish,
+            publish=router.publish,
             lost=lost,
         )
 
     def start(self) -> None:
         """Tell of the cameras, and let them expose."""
-        if self._rig is not None:
-            self._rig.start()
+        if self._sensor is not None:
+            self._sensor.start()
 
     def finish(self) -> None:
         """Write what is still to be kept of the pictures.
@@ -137,7 +137,9 @@ class Vision:
 
 
 @contextmanager
-def open_vision(prepared: Prepared, team: Team, notice: Callable[[str], None]) -> Iterator[Vision]:
+def open_vision(
+    setup: Setup, participants: Participants, notice: Callable[[str], None]
+) -> Iterator[Vision]:
     """Let the renderer be there for the time of a run, if somebody might look at its pictures.
 
     Parameters
@@ -154,33 +156,37 @@ def open_vision(prepared: Prepared, team: Team, notice: Callable[[str], None]) -
     RunStopped
         Nothing can be drawn, and the run is strict.
     """
-    options, recorded = prepared.options, prepared.recorded
-    studio, blindness = None, recorded.blindness
+    options, recorded = setup.options, setup.recorded
+    studio, unavailable_reason = None, recorded.unavailable_reason
     with ExitStack() as stack:
-        if not blindness and (_has_viewers(prepared, team) or recorded.has_pictures):
+        if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
-                studio = stack.enter_context(_open_studio(prepared.scenario, options.renderer))
+                studio = stack.enter_context(
+                    _open_renderer_process(setup.scenario, options.renderer)
+                )
             except RendererError as error:
                 if recorded.latency is not None:
                     raise RendererError(f"cannot be replayed here: {error}") from None
-                blindness = str(error)
-                _tell(f"vision is not evaluated: {blindness}", options.strict, notice)
-        yield Vision(prepared, studio, blindness, team.does("vision"), notice)
+                unavailable_reason = str(error)
+                _tell(f"vision is not evaluated: {unavailable_reason}", options.strict, notice)
+        yield Vision(setup, studio, unavailable_reason, participants.does("vision"), notice)
 
 
-def _has_viewers(prepared: Prepared, team: Team) -> bool:
+def _has_viewers(setup: Setup, participants: Participants) -> bool:
     """Return whether there are cameras, and somebody might look at their pictures."""
-    options = prepared.options
-    is_watched = team.does("vision") or bool(team.programs) or options.listen is not None
-    return options.cameras and bool(prepared.scenario.cameras) and (is_watched or options.video)
+    options = setup.options
+    is_watched = (
+        participants.does("vision") or bool(participants.programs) or options.listen is not None
+    )
+    return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _open_studio(scenario: Scenario, renderer: RendererName) -> RemoteStudio:
+def _open_renderer_process(scenario: Scenario, renderer: RendererName) -> RendererProcess:
     # Not at the top: a run without cameras starts without the libraries behind them.
-    from airhilt.sensors.cameras.renderer_process import RemoteStudio
+    from airhilt.sensors.cameras.renderer_process import RendererProcess
 
     require_pillow()  # A run with pictures keeps some.
-    return RemoteStudio(scenario, renderer=renderer)
+    return RendererProcess(scenario, renderer=renderer)
 
 
 def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
@@ -194,7 +200,7 @@ def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
 class _UntilLost:
     """Takes pictures up to the instant at which an earlier run could take no more."""
 
-    def __init__(self, studio: RemoteStudio, lost_ns: int, cause: str) -> None:
+    def __init__(self, studio: RendererProcess, lost_ns: int, cause: str) -> None:
         self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = studio.own_aircraft
         self._studio = studio
         self._lost_ns = lost_ns

@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING
 
 from airhilt.messages import AirportBriefing, Briefing, RosterEntry, RunwayBriefing
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import AircraftActor, VehicleActor
+from airhilt.scenario.models import AircraftSpec, VehicleSpec
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.site import Setting
+from airhilt.world.site import ScenarioSite
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout
     from airhilt.world.surface.runway import Place
 
 
-def briefing_of(scenario: Scenario, setting: Setting) -> Briefing:
+def briefing_of(scenario: Scenario, site: ScenarioSite) -> Briefing:
     """Return the briefing for a scenario."""
     separation = scenario.separation
     return Briefing(
@@ -24,7 +24,7 @@ def briefing_of(scenario: Scenario, setting: Setting) -> Briefing:
         horizontal_separation_nm=separation.horizontal_nm,
         vertical_separation_ft=separation.vertical_ft,
         roster=_roster(scenario),
-        airport=None if setting.layout is None else _charted(setting.layout),
+        airport=None if site.layout is None else _charted(site.layout),
     )
 
 
@@ -33,10 +33,10 @@ def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
     entries = []
     for actor in scenario.actors:
         match actor:
-            case AircraftActor(callsign=callsign, on_roster=True, aircraft=name):
+            case AircraftSpec(callsign=callsign, on_roster=True, aircraft=name):
                 designator = load_aircraft_type(name).icao_designator
                 entries.append(RosterEntry(callsign=callsign, category="aircraft", type=designator))
-            case VehicleActor(callsign=callsign, kind=kind):
+            case VehicleSpec(callsign=callsign, kind=kind):
                 entries.append(RosterEntry(callsign=callsign, category="vehicle", type=kind))
     return tuple(entries)
 
