@@ -7,16 +7,12 @@ Nothing is ever loaded because a scenario file says where it lies.
 
 from __future__ import annotations
 
-import pkgutil
-from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal, Protocol, TypeVar, overload, runtime_checkable
 
 from airhilt.errors import ScenarioError
-from airhilt.library import nearest
+from airhilt.plugins import Family
 from airhilt.world.mover import Creature, Driven, Mover, Size
 from airhilt.world.surface.runway import Place
-
-ENTRY_POINT_GROUP = "airhilt.kinds"
 
 Category = Literal["vehicle", "wildlife"]
 M_co = TypeVar("M_co", bound=Mover, covariant=True)
@@ -73,9 +69,12 @@ class Kind(Protocol[M_co]):
         """
 
 
+FAMILY = Family("kind", "airhilt.kinds", __name__, "KIND", Kind, ScenarioError)
+
+
 def kind_names() -> list[str]:
     """Return the names of all kinds that can be loaded, sorted."""
-    return sorted({point.name for point in _points()})
+    return FAMILY.names()
 
 
 @overload
@@ -98,35 +97,7 @@ def load_kind(name: str, category: Category | None = None) -> Kind[Mover]:
         There is none, or more than one; it cannot be loaded, or is no kind; or it is one of
         the other category.
     """
-    found = [point for point in _points() if point.name == name]
-    if not found:
-        raise ScenarioError(f"no kind named {name!r}{nearest(name, kind_names())}")
-    if len(found) > 1:
-        where = ", ".join(point.value for point in found)
-        raise ScenarioError(f"there is more than one kind named {name!r}: {where}")
-    kind = _load(found[0])
+    kind: Kind[Any] = FAMILY.load(name)
     if category is not None and kind.category != category:
         raise ScenarioError(f"{name!r} is a kind of {kind.category}; expected one of {category}")
-    return kind
-
-
-def _points() -> list[EntryPoint]:
-    """Return where kinds are: the files of this package, and the entry points of others."""
-    files = (found.name for found in pkgutil.iter_modules(__path__))
-    return [
-        *(EntryPoint(name, f"{__name__}.{name}:KIND", ENTRY_POINT_GROUP) for name in files),
-        *entry_points(group=ENTRY_POINT_GROUP),
-    ]
-
-
-def _load(point: EntryPoint) -> Kind[Any]:
-    try:
-        kind = point.load()
-    except Exception as error:
-        raise ScenarioError(
-            f"kind {point.name!r} cannot be loaded from {point.value}: "
-            f"{type(error).__name__}: {error}"
-        ) from error
-    if not isinstance(kind, Kind) or kind.name != point.name:
-        raise ScenarioError(f"{point.value} is no kind named {point.name!r}: {kind!r}")
     return kind

@@ -1,0 +1,92 @@
+"""Members of AIRHILT that come one file each, its own and those of other packages.
+
+A family of members (kinds, engines, sensors, commands ...) has a package, in which every module is
+a member, and an entry point group, by which other installed packages add theirs. Both give a name
+and an object: the module's attribute, or the object that the entry point names. Nothing is loaded
+until somebody asks for it, and nothing because a scenario file says where it lies.
+"""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+from airhilt.errors import AirhiltError
+from airhilt.library import nearest
+
+
+@dataclass(frozen=True)
+class Family:
+    """Members that do the same job.
+
+    Attributes
+    ----------
+    word
+        A member in words, for errors, such as ``kind``.
+    group
+        Entry point group of members in other packages, such as ``airhilt.kinds``.
+    package
+        Package whose modules are members; modules that begin with ``_`` or are in ``not_members``
+        are not.
+    attribute
+        Name of the object in each of these modules, such as ``KIND``.
+    protocol
+        What each member must be an instance of; a member with a ``name`` goes by that name alone.
+    error
+        Raised for a member that does not exist or cannot be loaded.
+    """
+
+    word: str
+    group: str
+    package: str
+    attribute: str
+    protocol: type[Any] = object
+    error: Callable[[str], AirhiltError] = AirhiltError
+    not_members: frozenset[str] = frozenset()
+
+    def points(self) -> list[EntryPoint]:
+        """Return where all members are, those of AIRHILT first."""
+        modules = (
+            found.name
+            for found in pkgutil.iter_modules(import_module(self.package).__path__)
+            if not found.name.startswith("_") and found.name not in self.not_members
+        )
+        own = [
+            EntryPoint(name, f"{self.package}.{name}:{self.attribute}", self.group)
+            for name in modules
+        ]
+        return [*own, *entry_points(group=self.group)]
+
+    def names(self) -> list[str]:
+        """Return the names of all members, sorted."""
+        return sorted({point.name for point in self.points()})
+
+    def load(self, name: str) -> Any:
+        """Return the object of a member.
+
+        Raises
+        ------
+        AirhiltError
+            There is none of that name, or more than one, or it cannot be loaded. It is of the
+            class that the family declares.
+        """
+        found = [point for point in self.points() if point.name == name]
+        if not found:
+            raise self.error(f"no {self.word} named {name!r}{nearest(name, self.names())}")
+        if len(found) > 1:
+            where = ", ".join(point.value for point in found)
+            raise self.error(f"there is more than one {self.word} named {name!r}: {where}")
+        try:
+            member = found[0].load()
+        except Exception as error:
+            raise self.error(
+                f"{self.word} {name!r} cannot be loaded from {found[0].value}: "
+                f"{type(error).__name__}: {error}"
+            ) from error
+        if not isinstance(member, self.protocol) or getattr(member, "name", name) != name:
+            raise self.error(f"{found[0].value} is no {self.word} named {name!r}: {member!r}")
+        return member
