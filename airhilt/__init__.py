@@ -30,7 +30,7 @@ def load(name_or_file: str | Path) -> Scenario:
     AirhiltError
         There is none of that name, or it is not valid.
     """
-    from airhilt.scenario import load as load_scenario
+    from airhilt.world.loading import load as load_scenario
 
     return load_scenario(name_or_file)
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from airhilt import load
-from airhilt.scenario import Scenario, parse
+from airhilt.scenario import Scenario
+from airhilt.world.loading import load_text
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -23,7 +24,7 @@ def encounter() -> Scenario:
     for actor in document["actors"]:
         actor["initial"]["position"]["distance_nm"] = 13.0
     document |= {"name": "encounter", "duration_s": 30.0, "cameras": []}
-    return parse(json.dumps(document), "encounter")
+    return load_text(json.dumps(document), "encounter")
 
 
 @pytest.fixture

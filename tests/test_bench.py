@@ -5,7 +5,7 @@ from __future__ import annotations
 import runpy
 from pathlib import Path
 
-from airhilt.scenario import check
+from airhilt.world.checks import check
 
 BENCH = Path(__file__).parents[1] / "tools" / "bench.py"
 

@@ -12,8 +12,9 @@ from pydantic import TypeAdapter
 
 from airhilt.cli.main import cli
 from airhilt.messages import json_schemas
-from airhilt.scenario import Scenario, parse
+from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera, Perturbation, RadioLine
+from airhilt.world.loading import load_text
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -26,7 +27,7 @@ def json_blocks(page: str) -> list[str]:
 
 def test_the_examples_of_the_scenario_guide_are_valid() -> None:
     scenario, line, perturbation, cameras = json_blocks("scenarios.md")
-    assert parse(scenario, "guide").name == "crossing"
+    assert load_text(scenario, "guide").name == "crossing"
     RadioLine.model_validate_json(line)
     Perturbation.model_validate_json(perturbation)
     assert len(TypeAdapter(tuple[Camera, ...]).validate_json(cameras)) == 2

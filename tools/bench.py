@@ -71,7 +71,7 @@ def headon() -> dict[str, float]:
     """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
     from airhilt import load, run
     from airhilt.cosim.setup import TICK_S
-    from airhilt.scenario import realise
+    from airhilt.scenario.perturbation import realise
     from airhilt.world.actors import build_actors
     from airhilt.world.site import ScenarioSite
 
@@ -301,7 +301,7 @@ import sys, time
 from pathlib import Path
 from airhilt.cosim import Observer, run
 from airhilt.options import Options
-from airhilt.scenario import load
+from airhilt.world.loading import load
 class First(Observer):
     def snapshot(self, snapshot):
         if snapshot.t_s >= 1.0:

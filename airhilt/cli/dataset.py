@@ -71,9 +71,9 @@ def export(
     from rich.console import Console
     from rich.progress import track
 
-    from airhilt.scenario import load
     from airhilt.sensors.cameras.dataset.coco import export as write
     from airhilt.sensors.cameras.dataset.coco import random_pictures, scenario_pictures
+    from airhilt.world.loading import load
 
     if (width is None) != (height is None):
         raise AirhiltError("--width and --height go together; expected both or neither")

@@ -193,7 +193,7 @@ def cosim(scenario: str, attach: tuple[str, ...], as_json: bool, **given: Any) -
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cosim.simulation import run
     from airhilt.options import Options
-    from airhilt.scenario import load
+    from airhilt.world.loading import load
 
     if given["no_cameras"]:
         _refuse_given("--no-cameras leaves pictures out", "renderer", "detector", "video")
@@ -369,9 +369,8 @@ Examples:
 def validate(file: str) -> None:
     """Check a scenario file, and put all its actors where they begin."""
     from airhilt.cosim.setup import TICK_S
-    from airhilt.scenario import load
-    from airhilt.scenario.loading import draw
     from airhilt.world.actors import build_actors
+    from airhilt.world.loading import draw, load
     from airhilt.world.site import ScenarioSite
 
     try:

@@ -18,7 +18,6 @@ from airhilt.record.folder import RunOptions, WorkerRecord, machine, versions
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
-from airhilt.scenario.loading import draw
 from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
 from airhilt.sensors.radio.backend import RadioBackend, TextRadio
@@ -26,6 +25,7 @@ from airhilt.sensors.radio.backends import backend_of, models_of
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
 from airhilt.world.actors import Actor, build_actors
+from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05

@@ -1,7 +1,9 @@
-"""Scenario JSON: what it may say, loading it, and its seeded perturbation."""
+"""The scenario file: its models, reading it, its failures and its seeded perturbation.
 
-from airhilt.scenario.loading import check, load, parse
+Nothing here knows the world. `airhilt.world.loading` loads a scenario and checks that the world can
+hold it.
+"""
+
 from airhilt.scenario.models import Scenario
-from airhilt.scenario.perturbation import realise
 
-__all__ = ["Scenario", "check", "load", "parse", "realise"]
+__all__ = ["Scenario"]

@@ -12,13 +12,13 @@ from pydantic import TypeAdapter
 from airhilt.commands import Command
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.messages import Advisory, CancelTakeoff, Evidence, GoAround, HoldPosition, Severity
-from airhilt.scenario import load
 from airhilt.scenario.models import Reactions
 from airhilt.units import FOOT, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import load_aircraft_type
+from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
 
 B737 = load_aircraft_type("737")

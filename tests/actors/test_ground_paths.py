@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from airhilt.commands import TaxiCommand
 from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import RunwayPosition
-from airhilt.scenario import load
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.ground_paths import (
@@ -23,6 +22,7 @@ from airhilt.world.actors.ground_paths import (
     shortened,
     taxi_path,
 )
+from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite, beside, distance_m
 
 

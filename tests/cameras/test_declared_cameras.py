@@ -9,9 +9,10 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import ScenarioError
-from airhilt.scenario import Scenario, parse
+from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera
 from airhilt.sensors.cameras.view import Intrinsics
+from airhilt.world.loading import load_text
 from airhilt.world.surface.airport import Camera as AirportCamera
 
 
@@ -19,7 +20,7 @@ def with_cameras(*changes: dict[str, object]) -> Scenario:
     """Return a scenario with a camera for each, changed so."""
     document = load("s02a_headon").model_dump(mode="json")
     document["cameras"] = [document["cameras"][0] | change for change in changes]
-    return parse(json.dumps(document), "test")
+    return load_text(json.dumps(document), "test")
 
 
 @pytest.mark.parametrize("end", ["minimum", "maximum"])

@@ -22,13 +22,13 @@ from airhilt.metrics.collector import Collector, pair_of
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.phraseology.say import speak_callsign
-from airhilt.scenario import load
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sensors.radio.backend import Text
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.world.loading import load
 from airhilt.world.truth.outlines import Gap
 from airhilt.world.truth.runways import Incursion
 

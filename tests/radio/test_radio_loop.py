@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import pytest
 
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
-from airhilt.scenario import load
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.backend import TextRadio
@@ -22,6 +21,7 @@ from airhilt.sensors.radio.hearing import Heard, HearingModel
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
+from airhilt.world.loading import load
 from airhilt.world.site import FixedSite, ScenarioSite
 
 TOWER, KHZ = "Washington Centre", 134_325

@@ -9,7 +9,7 @@ import pytest
 
 from airhilt import library, load
 from airhilt.errors import ScenarioError
-from airhilt.scenario import parse
+from airhilt.world.loading import load_text
 
 BASE = load("s01b_nominal").model_dump(mode="json") | {"perturbations": []}
 
@@ -18,7 +18,7 @@ def complaint(change) -> str:
     document = copy.deepcopy(BASE)
     change(document)
     with pytest.raises(ScenarioError) as caught:
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
     return "\n".join(caught.value.problems)
 
 
@@ -96,7 +96,7 @@ def test_a_runway_en_route_is_refused():
     document["actors"][0]["initial"] = {"type": "lined_up", "runway": "01"}
     document["perturbations"] = []
     with pytest.raises(ScenarioError, match="the scene is en route"):
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
 
 
 WRONG_READBACK = {
@@ -151,7 +151,7 @@ def test_a_storm_is_refused_once_for_all_that_land():
     document = copy.deepcopy(load("s01a_bad_readback").model_dump(mode="json"))
     document["weather"]["wind"] = {"from_deg": 0, "speed_kt": 90}
     with pytest.raises(ScenarioError) as caught:
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
     (problem,) = caught.value.problems
     assert "weather/wind/speed_kt: found 90; expected at most 40" in problem
 
@@ -170,7 +170,7 @@ def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command):
     document = load("s02a_headon").model_dump(mode="json")
     document["actors"][0]["commands"] = [command]
     with pytest.raises(ScenarioError, match="the scene is en route") as caught:
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
     assert "actors/0/commands/0" in str(caught.value)
 
 

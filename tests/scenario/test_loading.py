@@ -2,12 +2,15 @@
 
 import copy
 import json
+import subprocess
+import sys
 
 import pytest
 
 from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.scenario import Scenario, load, parse
+from airhilt.scenario import Scenario
+from airhilt.world.loading import load, load_text
 
 HEAD_ON = load("s02a_headon").model_dump(mode="json")
 VERTICAL = load("s02a_vertical").model_dump(mode="json")
@@ -31,7 +34,7 @@ def changed(document, path, value):
 
 def complaint(document):
     with pytest.raises(ScenarioError) as caught:
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
     return str(caught.value)
 
 
@@ -227,7 +230,7 @@ def test_a_number_is_perturbed_once():
 def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept():
     actors = [dict(HEAD_ON["actors"][0], colour="red") for _ in range(12)]
     with pytest.raises(ScenarioError) as caught:
-        parse(json.dumps(changed(HEAD_ON, "actors", HEAD_ON["actors"] + actors)), "test.json")
+        load_text(json.dumps(changed(HEAD_ON, "actors", HEAD_ON["actors"] + actors)), "test.json")
     message = str(caught.value)
     assert message.count("unknown field") == 1
     assert "\n" not in message
@@ -241,26 +244,26 @@ def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept():
 )
 def test_what_is_not_json_is_told_with_line_and_column(text, where):
     with pytest.raises(ScenarioError, match=rf"^test\.json:{where}: not valid JSON"):
-        parse(text, "test.json")
+        load_text(text, "test.json")
 
 
 @pytest.mark.parametrize("text", ["[" * 100_000, "5", "null", '"text"', "[]"])
 def test_json_that_is_no_scenario_is_refused(text):
     with pytest.raises(ScenarioError, match=r"^test\.json: "):
-        parse(text, "test.json")
+        load_text(text, "test.json")
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999"])
 def test_numbers_are_finite(number):
     text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', number)
     with pytest.raises(ScenarioError, match=r"test\.json: duration_s: found"):
-        parse(text, "test.json")
+        load_text(text, "test.json")
 
 
 def test_a_number_of_five_thousand_digits_is_refused():
     text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', "1" * 5_000)
     with pytest.raises(ScenarioError, match=r"test\.json"):
-        parse(text, "test.json")
+        load_text(text, "test.json")
 
 
 def test_a_file_that_is_not_utf_8_is_told(tmp_path):
@@ -295,4 +298,31 @@ def test_an_unknown_name_is_told_with_the_nearest():
 def test_a_scenario_written_as_json_reads_back_the_same(name):
     scenario = load(name)
     assert Scenario.model_validate_json(scenario.model_dump_json()) == scenario
-    assert parse(scenario.model_dump_json(), "again") == scenario
+    assert load_text(scenario.model_dump_json(), "again") == scenario
+
+
+def test_a_file_may_name_its_schema_and_is_the_same_scenario():
+    document = {"$schema": "../docs/schemas/scenario.json"} | HEAD_ON
+    scenario = load_text(json.dumps(document), "test.json")
+    assert "$schema" not in scenario.model_dump_json()
+    assert json.loads(scenario.model_dump_json()) == HEAD_ON
+
+
+def test_the_schema_lets_a_file_name_it():
+    assert "$schema" in Scenario.model_json_schema()["properties"]
+
+
+def test_a_misspelt_schema_field_is_answered_with_its_name():
+    message = complaint({"$shema": "scenario.json"} | HEAD_ON)
+    assert "$shema: unknown field; did you mean '$schema'?" in message
+
+
+def test_reading_a_file_does_not_load_the_world():
+    loaded = subprocess.run(
+        [sys.executable, "-c", "import sys, airhilt.scenario.loading; print(*sys.modules)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
+    assert "airhilt.scenario.loading" in loaded
+    assert not [name for name in loaded if name.startswith(("airhilt.world", "airhilt.sensors"))]

@@ -7,9 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt import library
-from airhilt.scenario import Scenario, load, realise
+from airhilt.scenario import Scenario
 from airhilt.scenario.models import Normal, Perturbation, Uniform
-from airhilt.scenario.perturbation import locate
+from airhilt.scenario.perturbation import locate, realise
+from airhilt.world.loading import load
 
 HEAD_ON = load("s02a_headon")
 CALLSIGN = HEAD_ON.actors[0].callsign

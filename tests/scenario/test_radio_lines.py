@@ -9,11 +9,11 @@ import pytest
 from pydantic import TypeAdapter
 
 from airhilt.errors import ScenarioError
-from airhilt.scenario import load, parse
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Failure
 from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.world.loading import load, load_text
 
 DOCUMENT = load("s01a_nominal").model_dump(mode="json")
 FAILURES = TypeAdapter(tuple[Failure, ...])
@@ -29,7 +29,7 @@ def changed(**lines):
 
 def complaint(document):
     with pytest.raises(ScenarioError) as caught:
-        parse(json.dumps(document), "test.json")
+        load_text(json.dumps(document), "test.json")
     return str(caught.value)
 
 
@@ -42,7 +42,7 @@ def test_a_frequency_is_a_channel(frequency_khz):
 
 def test_an_833_khz_channel_is_one():
     document = changed(clearance={"frequency_khz": 118_005}, readback={"frequency_khz": 118_005})
-    assert parse(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
+    assert load_text(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,8 @@ def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(name):
 
 def test_what_only_contains_such_a_name_is_an_id():
     document = changed(clearance={"id": "clearance.repeat-1.again"})
-    assert parse(json.dumps(document), "test.json").radio.lines[0].id == "clearance.repeat-1.again"
+    scenario = load_text(json.dumps(document), "test.json")
+    assert scenario.radio.lines[0].id == "clearance.repeat-1.again"
 
 
 def test_ids_of_lines_differ_in_more_than_case():
@@ -136,9 +137,9 @@ def test_a_profile_of_the_radio_is_one_of_those_that_there_are():
         assert name in message
     for name in (*PROFILES, "simugan.onnx", None):
         document["radio"]["profile"] = name
-        assert parse(json.dumps(document), "test.json").radio.profile == name
+        assert load_text(json.dumps(document), "test.json").radio.profile == name
 
 
 def test_a_scenario_is_checked_without_the_libraries_behind_sound():
-    loaded = "import sys, airhilt.scenario; sys.exit('scipy' in sys.modules)"
+    loaded = "import sys, airhilt.world.loading; sys.exit('scipy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", loaded]).returncode == 0

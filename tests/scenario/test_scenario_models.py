@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
 from airhilt.geodesy.positions import GeodeticPosition, Position, RelativePosition
-from airhilt.scenario import Scenario, load
+from airhilt.scenario import Scenario
 from airhilt.scenario.models import AircraftSpec, Condition, EnRouteScene
 from airhilt.units import DEGREE, NAUTICAL_MILE
 from airhilt.world import site as geometry
+from airhilt.world.loading import load
 
 bearings = st.floats(0.0, 360.0)
 positions = st.builds(

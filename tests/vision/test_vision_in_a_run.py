@@ -17,7 +17,8 @@ from airhilt import load, run
 from airhilt.bus import free_endpoint
 from airhilt.messages import CameraFrame, Detections, Message
 from airhilt.record import read_log
-from airhilt.scenario import Scenario, parse
+from airhilt.scenario import Scenario
+from airhilt.world.loading import load_text
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 HASHING_DETECTOR = """
@@ -49,7 +50,7 @@ def glance() -> Scenario:
         for callsign in ("AAL123", "DAL456")
     ]
     document |= {"name": "glance", "duration_s": 1.0}
-    return parse(json.dumps(document), "glance")
+    return load_text(json.dumps(document), "glance")
 
 
 Kind = TypeVar("Kind", bound=Message)

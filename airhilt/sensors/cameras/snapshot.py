@@ -8,7 +8,6 @@ from pathlib import Path
 from airhilt.errors import CameraError
 from airhilt.files import replace_file
 from airhilt.scenario import Scenario
-from airhilt.scenario.loading import draw
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.mounts import frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
@@ -16,6 +15,7 @@ from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors import build_actors
+from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05

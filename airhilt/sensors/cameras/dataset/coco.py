@@ -22,7 +22,6 @@ from airhilt.files import replace_file
 from airhilt.imaging.masks import Mask, runs_of
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
-from airhilt.scenario.loading import draw
 from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, cast
 from airhilt.sensors.cameras.mounts import frame_of
@@ -33,6 +32,7 @@ from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, seconds_to_ns
 from airhilt.world.actors import build_actors
+from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
 CLASSES: tuple[VisibleClass, ...] = get_args(VisibleClass)

@@ -1,0 +1,153 @@
+"""Actors of a scenario: aircraft, ground vehicles and wildlife."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from airhilt.commands import AircraftCommand, VehicleCommand, WildlifeCommand
+from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
+from airhilt.scenario.models.base import Callsign, Model
+from airhilt.scenario.models.conditions import Condition
+
+
+class Airborne(Model):
+    """Start in unaccelerated flight."""
+
+    type: Literal["airborne"]
+    position: Position
+    altitude_ft: float = Field(ge=-1500.0, le=60_000.0)
+    cas_kt: float = Field(gt=0.0, le=500.0, description="calibrated airspeed")
+    track_deg: Bearing | None = Field(
+        default=None, description="true track; null: straight to the first point of the route"
+    )
+
+
+class OnFinal(Model):
+    """Start on final approach to a runway, on the glide path, configured to land."""
+
+    type: Literal["final"]
+    runway: RunwayIdent
+    distance_nm: float = Field(ge=1.0, le=15.0, description="to the landing threshold")
+
+
+class LinedUp(Model):
+    """Start on a runway, lined up and standing."""
+
+    type: Literal["lined_up"]
+    runway: RunwayIdent
+
+
+class HoldingShort(Model):
+    """Start at a hold-short position, or ``before_m`` metres before it, standing."""
+
+    type: Literal["hold_short"]
+    runway: RunwayIdent
+    taxiway: TaxiwayName
+    before_m: float = Field(default=0.0, ge=0.0, le=2000.0)
+
+
+class Standing(Model):
+    """Start on the ground, standing."""
+
+    type: Literal["standing"]
+    position: Position
+    heading_deg: Bearing = Field(default=0.0, description="true")
+
+
+AircraftStart = Annotated[
+    Airborne | OnFinal | LinedUp | HoldingShort | Standing, Field(discriminator="type")
+]
+GroundStart = Annotated[LinedUp | HoldingShort | Standing, Field(discriminator="type")]
+
+
+class Reactions(Model):
+    """Reaction of a crew or a driver to an advisory; the reaction time is lognormal.
+
+    The default median of 5 s is the response to a first resolution advisory in the standard pilot
+    model of ICAO Annex 10, volume IV.
+    """
+
+    reaction_median_s: float = Field(default=5.0, ge=0.0, le=120.0)
+    reaction_sigma: float = Field(default=0.3, ge=0.0, le=2.0)
+    compliance: float = Field(
+        default=1.0, ge=0.0, le=1.0, description="probability of following an advisory at all"
+    )
+
+
+class Transponder(Model):
+    """ADS-B transmitter of an actor, and the accuracy categories that it reports."""
+
+    equipped: bool = True
+    nacp: int = Field(default=9, ge=0, le=11)
+    nacv: int = Field(default=2, ge=0, le=4)
+
+
+AircraftAction = Annotated[AircraftCommand, Field(discriminator="action")]
+VehicleAction = Annotated[VehicleCommand, Field(discriminator="action")]
+WildlifeAction = Annotated[WildlifeCommand, Field(discriminator="action")]
+
+
+class AircraftSpec(Model):
+    """An aircraft, with its crew."""
+
+    type: Literal["aircraft"]
+    callsign: Callsign
+    icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
+    aircraft: str = Field(description="name of a file in aircraft/, such as 737")
+    initial: AircraftStart
+    route: tuple[Position, ...] = Field(
+        default=(), max_length=100, description="waypoints flown in order; then straight on"
+    )
+    commands: tuple[AircraftAction, ...] = Field(default=(), description="carried out at the start")
+    pilot: Reactions = Reactions()
+    transponder: Transponder = Transponder()
+    on_roster: bool = Field(
+        default=True, description="false: no controller expects it, and it is on no frequency"
+    )
+
+
+class VehicleSpec(Model):
+    """A ground vehicle, with its driver."""
+
+    type: Literal["vehicle"]
+    callsign: Callsign
+    icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
+    kind: str = Field(description="such as follow_me", examples=["fire_truck"])
+    initial: GroundStart
+    commands: tuple[VehicleAction, ...] = Field(default=(), description="carried out at the start")
+    driver: Reactions = Reactions(reaction_median_s=2.5)
+    transponder: Transponder = Transponder(equipped=False)
+
+
+class PlannedAction(Model):
+    """Action of an animal, carried out once a condition is true."""
+
+    when: Condition
+    command: WildlifeAction
+
+
+class WildlifeSpec(Model):
+    """An animal, or a flock. It follows its plan; it takes no commands from people."""
+
+    type: Literal["wildlife"]
+    callsign: Callsign = Field(description="its name in this scenario", examples=["DEER1"])
+    kind: str = Field(description="such as deer", examples=["flock"])
+    initial: Standing
+    height_ft: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=20_000.0,
+        description="above the ground, of an animal that is flying at the start",
+    )
+    plan: tuple[PlannedAction, ...] = Field(default=(), max_length=20)
+    startles_within_m: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=1000.0,
+        description="flees from what comes nearer than this; 0: never",
+    )
+
+
+ActorSpec = Annotated[AircraftSpec | VehicleSpec | WildlifeSpec, Field(discriminator="type")]

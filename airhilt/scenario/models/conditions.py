@@ -1,0 +1,166 @@
+"""Conditions on the true state, by which a scenario says when something happens."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from airhilt.geodesy.positions import RunwayIdent
+from airhilt.scenario.models.base import Callsign, Identifier, Model
+
+Pair = tuple[Callsign, Callsign]
+
+
+class TimeReached(Model):
+    """True from a time onwards."""
+
+    type: Literal["time"]
+    at_s: float = Field(ge=0.0)
+
+
+class PredictedLossOfSeparation(Model):
+    """True while a pair that flies on as it does will lose separation within a time.
+
+    The true states are extrapolated: horizontally straight on, vertically at the present rate
+    until the altitude that the aircraft is really flying to.
+    """
+
+    type: Literal["predicted_loss_of_separation"]
+    actors: Pair
+    within_s: float = Field(gt=0.0, le=1200.0)
+
+
+class SeparationBelow(Model):
+    """True while the pair is closer than both distances."""
+
+    type: Literal["separation_below"]
+    actors: Pair
+    horizontal_nm: float = Field(gt=0.0)
+    vertical_ft: float = Field(gt=0.0)
+
+
+class ClosestApproachPassed(Model):
+    """True once the pair's distance has grown for a time without a break."""
+
+    type: Literal["closest_approach_passed"]
+    actors: Pair
+    for_s: float = Field(default=20.0, gt=0.0, le=600.0)
+
+
+class BoundForAltitude(Model):
+    """True while the altitude that an actor really flies to, or holds, is this one."""
+
+    type: Literal["bound_for_altitude"]
+    actor: Callsign
+    altitude_ft: float
+    within_ft: float = Field(default=50.0, gt=0.0)
+
+
+class InPhase(Model):
+    """True while an actor is in one of some phases, such as ``takeoff_roll`` or ``standing``."""
+
+    type: Literal["in_phase"]
+    actor: Callsign
+    phases: tuple[str, ...] = Field(min_length=1)
+
+
+class BoundForRunway(Model):
+    """True while the runway that a crew really means to land on or take off from is this one."""
+
+    type: Literal["bound_for_runway"]
+    actor: Callsign
+    runway: RunwayIdent
+
+
+class OnRunway(Model):
+    """True while an actor is on the ground in the protected area of a runway."""
+
+    type: Literal["on_runway"]
+    actor: Callsign
+    runway: RunwayIdent
+
+
+class ThresholdWithin(Model):
+    """True while an airborne aircraft bound for a runway is within a time of its threshold."""
+
+    type: Literal["threshold_within"]
+    actor: Callsign
+    runway: RunwayIdent
+    within_s: float = Field(gt=0.0, le=1200.0)
+
+
+class SpeedAbove(Model):
+    """True while an actor's ground speed is above a value."""
+
+    type: Literal["speed_above"]
+    actor: Callsign
+    speed_kt: float = Field(ge=0.0)
+
+
+class HeightBelow(Model):
+    """True while an actor is lower above the ground than a value."""
+
+    type: Literal["height_below"]
+    actor: Callsign
+    height_ft: float = Field(gt=0.0)
+
+
+class DistanceBelow(Model):
+    """True while two actors are nearer to each other over the ground than a distance."""
+
+    type: Literal["distance_below"]
+    actors: Pair
+    distance_m: float = Field(gt=0.0)
+
+
+class Collided(Model):
+    """True once two actors have touched."""
+
+    type: Literal["collided"]
+    actors: Pair
+
+
+class LineEnded(Model):
+    """True once a radio line has ended."""
+
+    type: Literal["line_ended"]
+    line: Identifier
+
+
+class AllOf(Model):
+    """True while all conditions are true."""
+
+    type: Literal["all_of"]
+    conditions: tuple[Condition, ...] = Field(min_length=1)
+
+
+class AnyOf(Model):
+    """True while at least one condition is true."""
+
+    type: Literal["any_of"]
+    conditions: tuple[Condition, ...] = Field(min_length=1)
+
+
+Condition = Annotated[
+    TimeReached
+    | PredictedLossOfSeparation
+    | SeparationBelow
+    | ClosestApproachPassed
+    | BoundForAltitude
+    | InPhase
+    | BoundForRunway
+    | OnRunway
+    | ThresholdWithin
+    | SpeedAbove
+    | HeightBelow
+    | DistanceBelow
+    | Collided
+    | LineEnded
+    | AllOf
+    | AnyOf,
+    Field(discriminator="type"),
+]
+
+AllOf.model_rebuild()
+AnyOf.model_rebuild()

@@ -1,0 +1,94 @@
+"""Radio calls of a scenario, and how well people hear each other."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from airhilt.commands import Command
+from airhilt.scenario import radio_profiles as profiles
+from airhilt.scenario.models.base import Callsign, Identifier, Model
+from airhilt.scenario.models.conditions import Condition
+
+
+class ScriptedCommand(Model):
+    """Command that a radio line gives to an actor, carried out ``delay_s`` after the line's end.
+
+    With ``when``, it waits for that condition as well: "behind the landing traffic, line up".
+    """
+
+    actor: Callsign
+    command: Command
+    delay_s: float = Field(default=2.0, ge=0.0, le=600.0)
+    when: Condition | None = None
+
+
+class RadioLine(Model):
+    """One call on a frequency. If the frequency is busy, the call waits until it is free."""
+
+    id: Identifier
+    at_s: float = Field(default=0.0, ge=0.0, description="earliest time of the call")
+    when: Condition | None = Field(
+        default=None, description="the call also waits for this condition"
+    )
+    speaker: str = Field(min_length=1, max_length=40, description="a callsign, or a unit's name")
+    to: str | None = Field(default=None, description="addressed callsign or unit")
+    frequency_khz: int = Field(
+        ge=117_975, le=137_000, description="name of a channel with 25 or 8.33 kHz spacing"
+    )
+    text: str = Field(min_length=1, max_length=500)
+    commands: tuple[ScriptedCommand, ...] = ()
+    answers: Identifier | None = Field(
+        default=None,
+        description="the line that it answers; null: an actor reads back the line before on the "
+        "frequency, if that was from whom this is for and for whom this is from",
+    )
+
+
+Topology = Literal["parallel", "asr_first", "gated_fusion"]
+
+
+class Radio(Model):
+    """Radio calls in the order of time, and how well people hear each other."""
+
+    controller: str = Field(default="Centre", description="name of the unit that listens")
+    lines: tuple[RadioLine, ...] = ()
+    words_per_minute: float = Field(
+        default=160.0, ge=60.0, le=400.0, description="speaking rate of calls without sound"
+    )
+    snr_db: float | None = Field(
+        default=None,
+        ge=-30.0,
+        le=60.0,
+        description="SNR of what is received; null: nobody mishears",
+    )
+    squelch_db: float = Field(
+        default=-10.0, ge=-30.0, le=60.0, description="SNR below which receivers stay silent"
+    )
+    profile: Annotated[str, AfterValidator(profiles.checked)] | None = Field(
+        default=None,
+        description="named settings of the radio channel, or a learned channel, FILE.onnx",
+    )
+    topology: Topology = Field(
+        default="parallel",
+        description="parallel: crews hear the radio, as the assistant does; asr_first: crews get "
+        "the transcript instead; gated_fusion: as parallel, and the assistant says nothing while "
+        "it has not taken in all that was said",
+    )
+    overhearing: bool = Field(
+        default=True,
+        description="crews that get transcripts may take one of a call to others for their own",
+    )
+    phraseology: Literal["faa", "icao"] = Field(
+        default="faa", description="phraseology of generated calls"
+    )
+    readbacks: Literal["scripted", "generated"] = Field(
+        default="scripted",
+        description="generated: crews also read back instructions that no line answers",
+    )
+    controller_checks_readbacks: bool = Field(
+        default=False,
+        description="controllers correct a wrong readback, and repeat what is not answered even "
+        "where a failure is why",
+    )

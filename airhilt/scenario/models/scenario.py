@@ -1,0 +1,52 @@
+"""The scenario file as a whole."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from airhilt.scenario.models.actors import ActorSpec
+from airhilt.scenario.models.adsb import Adsb
+from airhilt.scenario.models.base import Identifier, Model
+from airhilt.scenario.models.cameras import Camera
+from airhilt.scenario.models.conditions import Condition
+from airhilt.scenario.models.conflict import Conflict, Separation
+from airhilt.scenario.models.failures import Failure
+from airhilt.scenario.models.perturbations import Perturbation
+from airhilt.scenario.models.radio import Radio
+from airhilt.scenario.models.scene import Scene
+from airhilt.scenario.models.weather import Daylight, Weather
+
+
+class Scenario(Model):
+    """A scenario file."""
+
+    schema_reference: str | None = Field(
+        default=None,
+        alias="$schema",
+        exclude=True,
+        description="path or URL of this schema, for editors; a run ignores it",
+    )
+    name: Identifier
+    title: str = Field(min_length=1, max_length=120)
+    description: str = Field(default="", max_length=4000)
+    family: Literal["S01A", "S01B", "S01C", "S02A", "S02B", "S02C"]
+    scene: Scene
+    duration_s: float = Field(gt=0.0, le=86_400.0, description="latest end of the run")
+    actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
+    radio: Radio = Radio()
+    adsb: Adsb = Adsb()
+    cameras: tuple[Camera, ...] = ()
+    weather: Weather = Weather()
+    daylight: Daylight = Daylight()
+    separation: Separation = Separation()
+    failures: tuple[Failure, ...] = Field(
+        default=(),
+        description="failures of people and equipment; everything else goes as it should",
+    )
+    conflict: Conflict | None = Field(
+        default=None, description="null: nominal scenario, in which every CAUTION is a nuisance"
+    )
+    end_when: tuple[Condition, ...] = Field(default=(), description="the run ends when one is true")
+    perturbations: tuple[Perturbation, ...] = ()

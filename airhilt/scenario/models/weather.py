@@ -1,0 +1,42 @@
+"""Weather and daylight of a scenario."""
+
+from __future__ import annotations
+
+import datetime
+
+from pydantic import Field
+
+from airhilt.geodesy.positions import Bearing
+from airhilt.scenario.models.base import Model
+
+
+class Wind(Model):
+    """A steady wind, the same everywhere."""
+
+    from_deg: Bearing = 0.0
+    speed_kt: float = Field(default=0.0, ge=0.0, le=250.0)
+
+
+class Turbulence(Model):
+    """MIL-F-8785C turbulence: severity 0 is none, 3 light, 4 moderate, 6 severe."""
+
+    severity: int = Field(default=0, ge=0, le=7)
+    wind_at_20ft_kt: float = Field(default=15.0, ge=0.0, le=100.0)
+
+
+class Weather(Model):
+    """Wind, turbulence, visibility and rain."""
+
+    wind: Wind = Wind()
+    turbulence: Turbulence = Turbulence()
+    visibility_m: float = Field(default=10_000.0, gt=0.0, le=100_000.0)
+    rain_mm_h: float = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
+
+
+class Daylight(Model):
+    """Date and time that set the sun's position; it stays there for the whole run."""
+
+    date: datetime.date = datetime.date(2026, 5, 1)
+    solar_time_h: float = Field(
+        default=10.0, ge=0.0, lt=24.0, description="local solar time: the sun is highest at 12"
+    )

@@ -1,0 +1,133 @@
+"""Problems of a scenario file, described for people: where, what was found, what was expected."""
+
+from __future__ import annotations
+
+import json
+import types
+import typing
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One mistake in a document: a JSON path, and a text."""
+
+    path: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.path or '(top)'}: {self.text}"
+
+
+def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
+    """Return one error for all problems: its message names the first."""
+    lines = tuple(f"{origin}: {problem}" for problem in problems)
+    more = f" (and {len(lines) - 1} more: see airhilt validate)" if len(lines) > 1 else ""
+    return ScenarioError(lines[0] + more, lines)
+
+
+def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:
+    """Return what pydantic found wrong, without the errors that only follow from others."""
+    return [_described(one, model) for one in _causes(error)]
+
+
+def _causes(error: ValidationError) -> list[Any]:
+    """Return the errors without those that only follow from others: a list with bad entries."""
+    errors = error.errors()
+    return [
+        one
+        for one in errors
+        if one["type"] != "too_short"
+        or not any(
+            len(other["loc"]) > len(one["loc"]) and other["loc"][: len(one["loc"])] == one["loc"]
+            for other in errors
+        )
+    ]
+
+
+def _described(error: Any, model: type[BaseModel]) -> Problem:
+    """Return one pydantic error as a path, what was found, and what was expected."""
+    path, parent = _walk(model, error["loc"])
+    found = short_json(error["input"])
+    context = error.get("ctx", {})
+    match error["type"]:
+        case "extra_forbidden":
+            fields = parent.model_fields.items() if parent else ()
+            known = sorted(field.alias or name for name, field in fields)
+            tail = library.nearest(str(error["loc"][-1]), known)
+            return Problem(path, f"unknown field{tail}")
+        case "missing":
+            return Problem(path, "missing; it is required")
+        case "union_tag_not_found":
+            return Problem(path, f"field {context['discriminator']} is missing in {found}")
+        case "union_tag_invalid":
+            known = [tag.strip(" '") for tag in str(context["expected_tags"]).split(",")]
+            tail = library.nearest(str(context["tag"]), known)
+            field = str(context["discriminator"]).strip("'")
+            return Problem(
+                f"{path}/{field}", f"found {context['tag']!r}, expected {', '.join(known)}{tail}"
+            )
+        case "literal_error":
+            return Problem(path, f"found {found}, expected {context['expected']}")
+        case _:
+            message = str(error["msg"])
+            return Problem(path, f"found {found}: {message[0].lower()}{message[1:]}")
+
+
+def short_json(value: Any) -> str:
+    """Return a value as JSON, cut to 60 characters."""
+    text = json.dumps(value, default=str)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _walk(model: type[BaseModel], loc: Sequence[str | int]) -> tuple[str, type[BaseModel] | None]:
+    """Return a pydantic location as a JSON path (without union tags) and its last model."""
+    annotation: Any = model
+    parent: type[BaseModel] | None = None
+    chunks: list[str] = []
+    for part in loc:
+        members = _members(annotation)
+        tagged = [member for member in members if _tag(member) == part]
+        if len(members) > 1 and tagged:
+            annotation = tagged[0]
+            continue
+        chunks.append(str(part))
+        if isinstance(part, int):
+            arguments = typing.get_args(annotation)
+            annotation = arguments[0] if arguments else None
+            continue
+        parent = next((member for member in members if _is_model(member)), None)
+        field = parent.model_fields.get(part) if parent else None
+        annotation = field.annotation if field else None
+    return "/".join(chunks), parent
+
+
+def _members(annotation: Any) -> list[Any]:
+    """Return the members of a union, or the annotation alone, stripped of None."""
+    while typing.get_origin(annotation) is typing.Annotated:
+        annotation = typing.get_args(annotation)[0]
+    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+        inner = [a for a in typing.get_args(annotation) if a is not type(None)]
+        return [member for a in inner for member in _members(a)]
+    return [annotation]
+
+
+def _is_model(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
+
+
+def _tag(annotation: Any) -> str | None:
+    """Return the literal by which a member of a discriminated union is known."""
+    if _is_model(annotation):
+        for field in ("type", "action"):
+            if field in annotation.model_fields:
+                literals = typing.get_args(annotation.model_fields[field].annotation)
+                return str(literals[0]) if literals else None
+    return None

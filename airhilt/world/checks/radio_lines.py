@@ -1,0 +1,46 @@
+"""Checks of radio lines: their ids, their frequencies, and what they answer."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from airhilt import library
+from airhilt.errors import ScenarioError
+from airhilt.scenario.models import Scenario
+from airhilt.scenario.problems import Problem
+from airhilt.scenario.vhf_channels import channel_spacing_khz
+
+GENERATED_ID = re.compile(
+    r"^stuck-microphone\.|\.(?:readback|correction|(?:repeat|say-again)-[0-9]+)$", re.IGNORECASE
+)
+"""Beginnings and endings of the ids of calls that are not in the script (docs/radio.md)."""
+
+
+def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
+    """Yield lines with reserved ids, no VHF channel, or answers to no line before them."""
+    line_ids = [line.id for line in scenario.radio.lines]
+    frequencies: dict[str, int] = {}
+    for index, line in enumerate(scenario.radio.lines):
+        path = f"radio/lines/{index}"
+        if GENERATED_ID.search(line.id):
+            yield Problem(
+                f"{path}/id",
+                f"found {line.id!r}, which is how calls that are not in the script are named; "
+                "expected an id that neither begins with stuck-microphone. nor ends with "
+                ".readback, .correction, .repeat-1 or .say-again-1",
+            )
+        try:
+            channel_spacing_khz(line.frequency_khz)
+        except ScenarioError as error:
+            yield Problem(f"{path}/frequency_khz", str(error))
+        if line.answers is not None and line.answers not in frequencies:
+            tail = library.nearest(line.answers, line_ids)
+            yield Problem(f"{path}/answers", f"no line {line.answers!r} before {line.id!r}{tail}")
+        elif line.answers is not None and frequencies[line.answers] != line.frequency_khz:
+            yield Problem(
+                f"{path}/answers",
+                f"line {line.answers!r} is on {frequencies[line.answers]} kHz; expected one on "
+                f"{line.frequency_khz} kHz",
+            )
+        frequencies[line.id] = line.frequency_khz

@@ -1,0 +1,44 @@
+"""Checks of references: to actors and radio lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from airhilt import library
+from airhilt.scenario.models import AircraftSpec, LineEnded, Scenario, VehicleSpec, WildlifeSpec
+from airhilt.scenario.problems import Problem
+from airhilt.world.checks.walk import conditions_of, models_of
+
+
+def dangling_references(scenario: Scenario) -> Iterator[Problem]:
+    """Yield references to actors and lines that do not exist, and pairs of one actor."""
+    callsigns = [actor.callsign for actor in scenario.actors]
+    line_ids = [line.id for line in scenario.radio.lines]
+    for path, callsign in _mentioned_actors(scenario):
+        if callsign not in callsigns:
+            yield Problem(path, f"no actor {callsign!r}{library.nearest(callsign, callsigns)}")
+    for path, condition in conditions_of(scenario):
+        if isinstance(condition, LineEnded) and condition.line not in line_ids:
+            yield Problem(
+                f"{path}/line",
+                f"no radio line {condition.line!r}{library.nearest(condition.line, line_ids)}",
+            )
+        pair = getattr(condition, "actors", None)
+        if pair is not None and pair[0] == pair[1]:
+            yield Problem(f"{path}/actors", f"found {pair[0]!r} twice; expected two actors")
+    if scenario.conflict is not None and len(set(scenario.conflict.actors)) < 2:
+        yield Problem("conflict/actors", "found one actor twice; expected two actors")
+
+
+def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    """Yield every callsign that refers to an actor, with its path."""
+    for path, model in models_of(scenario, ""):
+        if isinstance(model, AircraftSpec | VehicleSpec | WildlifeSpec):
+            continue
+        for field in ("actor", "meant", "taken_by"):
+            callsign = getattr(model, field, None)
+            if callsign is not None:
+                yield f"{path}/{field}", callsign
+        if model is not scenario:
+            for number, callsign in enumerate(getattr(model, "actors", ())):
+                yield f"{path}/actors/{number}", callsign
