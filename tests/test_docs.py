@@ -15,8 +15,8 @@ from airhilt.messages import json_schemas
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera, Perturbation, RadioLine
 from airhilt.world.loading import load_text
+from paths import ROOT
 
-ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 

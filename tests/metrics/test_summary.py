@@ -1,7 +1,6 @@
 """The numbers of a run, and what they mean."""
 
 import pytest
-from fakes import Straight, Watch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -24,13 +23,14 @@ from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
-from airhilt.sensors.radio.backend import Text
+from airhilt.sensors.radio.backend import TextRadio
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 from airhilt.world.loading import load
 from airhilt.world.truth.outlines import Gap
 from airhilt.world.truth.runways import Incursion
+from straight import Straight, Watch
 
 SCENARIO = load("s02a_headon")
 FIRST, SECOND = (actor.callsign for actor in SCENARIO.actors[:2])
@@ -196,7 +196,7 @@ def plans(*climbs):
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
     happening = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
-    return Plans(happening, planned_ends_ns(happening, Text(160.0)))
+    return Plans(happening, planned_ends_ns(happening, TextRadio(160.0)))
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)

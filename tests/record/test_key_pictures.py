@@ -11,11 +11,11 @@ import pytest
 pytest.importorskip("PIL")
 
 from PIL import Image
-from sightings import advisory, found, frame, pixels, seen, sighting, time_ns, truth, vision
 
 from airhilt.errors import RendererError, RunFolderError
 from airhilt.messages import CameraFrame, Message, SightingTruth
 from airhilt.record.pictures import KeyPictures, Picture, PictureName, Waiting, require_pillow
+from sightings import advisory, found, frame, pixels, seen, sighting, time_ns, truth, vision
 
 FULL = Path("/dev/full")
 LEFT, RIGHT = (40.0, 30.0, 60.0, 36.0), (100.0, 30.0, 130.0, 40.0)

@@ -12,7 +12,6 @@ pytest.importorskip("av")
 pytest.importorskip("PIL")
 
 import av
-from sightings import advisory, found, frame, info, pixels, seen, time_ns, vision
 
 from airhilt.errors import RunFolderError, VideoError
 from airhilt.messages import Advisory, Message
@@ -20,6 +19,7 @@ from airhilt.record.overlay import COLOURS, SEVERITY_COLOURS, Overlay, clock
 from airhilt.record.pictures import Picture
 from airhilt.record.video import VideoRecorder, require_video
 from airhilt.units import SECOND_NS
+from sightings import advisory, found, frame, info, pixels, seen, time_ns, vision
 
 FULL = Path("/dev/full")
 SIZE = (320, 180)

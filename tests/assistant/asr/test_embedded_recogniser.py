@@ -1,0 +1,338 @@
+"""The recogniser that AIRHILT brings along: with a tiny network that is known, and with its own."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import tracemalloc
+from collections.abc import Iterable
+from pathlib import Path
+
+import jiwer
+import numpy as np
+import pytest
+
+import airhilt.assistant.asr.ctc
+from airhilt.assistant.asr.ctc import FILES, Calibration, Ctc, best_path
+from airhilt.assistant.asr.engines import asr_engine
+from airhilt.errors import SpeechError
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.channel import Other, VhfChannel
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.voices.espeak import Espeak
+from paths import DATA
+
+TINY = DATA / "tiny_recogniser"
+"""Made by tools/make_tiny_recogniser.py: each tone below is a word with a known posterior."""
+ALFA_HZ, BRAVO_HZ, CHARLIE_HZ, DOUBTFUL_ALFA_HZ = 588.0, 1_202.0, 2_108.0, 3_446.0
+TONE_S = 0.24
+
+
+def silence(seconds: float) -> Audio:
+    return np.zeros(round(seconds * SAMPLE_RATE_HZ), np.float32)
+
+
+def noise(level: float, seconds: float = 5.0) -> Audio:
+    rng = np.random.default_rng(0)
+    return rng.standard_normal(len(silence(seconds)), np.float32) * np.float32(level)
+
+
+def with_tones(audio: Audio, tones: Iterable[tuple[float, float]]) -> Audio:
+    """Return audio with tones in it, each a frequency and the time at which its middle is."""
+    audio = audio.copy()
+    samples = round(TONE_S * SAMPLE_RATE_HZ)
+    phase = 2.0 * np.pi * np.arange(samples) / SAMPLE_RATE_HZ
+    for frequency_hz, middle_s in tones:
+        begin = round((middle_s - TONE_S / 2.0) * SAMPLE_RATE_HZ)
+        tone = 0.1 * np.hanning(samples) * np.sin(phase * frequency_hz)
+        audio[begin : begin + samples] += tone.astype(np.float32)
+    return audio
+
+
+def call(*frequencies_hz: float) -> Audio:
+    """Return tones one after the other, with pauses of half a second."""
+    tones = [
+        (frequency_hz, 0.75 * (place + 1)) for place, frequency_hz in enumerate(frequencies_hz)
+    ]
+    return with_tones(silence(0.75 * (len(tones) + 2)), tones)
+
+
+def said_by(speaker: str, text: str) -> Audio:
+    voices = Espeak()
+    return voices.synthesise(text, voices.voice_of(speaker))
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(TINY, tmp_path / "model"))
+
+
+def with_card(folder: Path, **changes: object) -> Ctc:
+    path = folder / "card.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | changes))
+    return Ctc(folder)
+
+
+# --- the likeliest path, and what it is worth ---------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("units", "path"),
+    [
+        ([0, 0, 0], []),
+        ([1, 1, 1], [1]),
+        ([1, 0, 1], [1, 1]),
+        ([1, 2, 1], [1, 2, 1]),
+        ([0, 2, 2, 0, 0, 1], [2, 1]),
+        ([3], [3]),
+    ],
+)
+def test_a_unit_counts_again_after_a_blank_or_another(units: list[int], path: list[int]) -> None:
+    posteriors = np.full((len(units), 4), 0.1, np.float32)
+    posteriors[np.arange(len(units)), units] = 0.7
+    assert [each.unit for each in best_path(posteriors)] == path
+
+
+def test_a_unit_is_as_sure_as_its_surest_step() -> None:
+    posteriors = np.array([[0.9, 0.1], [0.4, 0.6], [0.2, 0.8], [0.45, 0.55]], np.float32)
+    assert [each.posterior for each in best_path(posteriors)] == [pytest.approx(0.8)]
+
+
+def test_a_calibration_maps_log_odds_and_is_never_out_of_bounds() -> None:
+    as_it_is, shy = Calibration(1.0, 0.0), Calibration(0.5, -1.0)
+    for posterior in (0.01, 0.5, 0.99):
+        assert as_it_is(posterior) == pytest.approx(posterior)
+        assert shy(posterior) == pytest.approx(
+            1.0 / (1.0 + np.e * ((1.0 - posterior) / posterior) ** 0.5)
+        )
+    assert 0.0 < as_it_is(0.0) < as_it_is(1.0) < 1.0
+
+
+# --- with a network that is known ---------------------------------------------------------------
+
+
+def test_words_come_in_order_with_their_posteriors() -> None:
+    heard = Ctc(TINY).recognise(call(BRAVO_HZ, ALFA_HZ, ALFA_HZ, CHARLIE_HZ), ())
+    assert heard.text == "bravo alfa alfa charlie"
+    assert [word for word, _ in heard.words] == heard.text.split()
+    assert [sure for _, sure in heard.words] == pytest.approx([0.8, 0.9, 0.9, 0.95], abs=1e-4)
+    assert heard.confidence == pytest.approx(0.8 * 0.9 * 0.9 * 0.95, abs=1e-3)
+
+
+def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> None:
+    sharp, offset = {"slope": 2.0, "offset": 0.0}, {"slope": 1.0, "offset": -1.0}
+    engine = with_card(folder, word_calibration=sharp, call_calibration=offset)
+    heard = engine.recognise(call(BRAVO_HZ), ())
+    word = Calibration(**sharp)(0.8)
+    assert heard.words == (("bravo", pytest.approx(word, abs=1e-4)),)
+    assert heard.confidence == pytest.approx(Calibration(**offset)(word), abs=1e-3)
+
+
+def test_a_word_that_is_too_unsure_is_left_out_and_makes_the_call_unsure(folder: Path) -> None:
+    doubtful = call(BRAVO_HZ, DOUBTFUL_ALFA_HZ)
+    assert Ctc(folder).recognise(doubtful, ()).text == "bravo alfa"
+    strict = with_card(folder, least_word_confidence=0.7)
+    heard = strict.recognise(doubtful, ())
+    assert heard.text == "bravo"
+    assert heard.confidence == pytest.approx(0.8 * 0.6, abs=1e-3)
+    assert strict.recognise(call(DOUBTFUL_ALFA_HZ), ()).text == ""
+
+
+@pytest.mark.parametrize(
+    "audio",
+    [silence(0.0), noise(0.1, 0.099), silence(0.2), silence(5.0), noise(1e-6), noise(0.1)],
+    ids=["no audio", "99 ms", "a short silence", "silence", "faint noise", "noise"],
+)
+def test_where_nothing_is_said_nothing_is_heard(audio: Audio) -> None:
+    heard = Ctc(TINY).recognise(audio, ())
+    assert (heard.text, heard.words) == ("", ())
+    assert heard.confidence > 0.5
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_samples_that_are_no_numbers_are_refused(bad: float) -> None:
+    audio = call(ALFA_HZ)
+    audio[1_000] = bad
+    with pytest.raises(SpeechError, match="no numbers"):
+        Ctc(TINY).recognise(audio, ())
+
+
+# --- microphones that are stuck -----------------------------------------------------------------
+
+
+def test_in_ten_minutes_no_word_is_lost_or_doubled_where_windows_meet() -> None:
+    """They meet every 30 s. There, and 60 ms at a time around, a tone is on."""
+    meets = [(CHARLIE_HZ, 30.0 * (k + 1) + 0.06 * (k % 5 - 2)) for k in range(19)]
+    between = [(ALFA_HZ, 30.0 * k + 15.0) for k in range(20)]
+    tracemalloc.start()
+    try:
+        heard = Ctc(TINY).recognise(with_tones(silence(600.0), meets + between), ())
+        _, peak_bytes = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert heard.text == "alfa charlie " * 19 + "alfa"
+    assert peak_bytes < 250e6
+
+
+# --- model folders that are wrong ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_missing_file_is_named(name: str, folder: Path) -> None:
+    (folder / name).unlink()
+    with pytest.raises(SpeechError, match=rf"{folder} lacks {name}; expected .*train_asr"):
+        Ctc(folder)
+
+
+def test_all_that_is_missing_is_named_at_once(tmp_path: Path) -> None:
+    with pytest.raises(SpeechError) as refused:
+        Ctc(tmp_path / "nowhere")
+    for name in FILES:
+        assert name in str(refused.value)
+
+
+@pytest.mark.parametrize("words", ["", "alfa bravo", "alfa bravo charlie delta", "\udcff" * 2])
+def test_words_that_do_not_fit_the_network_are_refused(words: str, folder: Path) -> None:
+    (folder / "words.txt").write_bytes(words.encode("utf-8", "surrogateescape"))
+    with pytest.raises(SpeechError, match=r"does not fit together.*4 units.*one unit more"):
+        Ctc(folder)
+
+
+@pytest.mark.parametrize(
+    ("card", "wrong"),
+    [
+        ("", "Invalid JSON"),
+        ("[]", "object"),
+        ("{}", "word_calibration"),
+        ('{"word_calibration": {"slope": "steep", "offset": 0}}', "word_calibration/slope"),
+        ('{"word_calibration": {"slope": NaN, "offset": 0}}', "word_calibration/slope"),
+        ('{"word_calibration": {"slope": 1}}', "word_calibration/offset"),
+        ("\udcff", "Invalid JSON"),
+    ],
+)
+def test_a_card_that_does_not_say_what_it_must_is_refused(
+    card: str, wrong: str, folder: Path
+) -> None:
+    (folder / "card.json").write_bytes(card.encode("utf-8", "surrogateescape"))
+    with pytest.raises(SpeechError, match=rf"card\.json is no model card: .*{wrong}"):
+        Ctc(folder)
+
+
+def test_a_threshold_beyond_all_confidence_is_refused(folder: Path) -> None:
+    with pytest.raises(SpeechError, match=r"least_word_confidence: .*less than or equal to 1"):
+        with_card(folder, least_word_confidence=7.0)
+
+
+def test_a_file_that_is_no_network_is_refused(folder: Path) -> None:
+    (folder / "ctc.onnx").write_bytes(b"these are no weights")
+    with pytest.raises(SpeechError, match=r"ctc\.onnx: no ONNX model.*expected a network of"):
+        Ctc(folder)
+
+
+def test_a_network_of_another_kind_is_refused(folder: Path) -> None:
+    shutil.copy(DATA / "channels" / "echo.onnx", folder / "ctc.onnx")
+    with pytest.raises(SpeechError, match=r"ctc\.onnx is of another kind.*expected a network of"):
+        Ctc(folder)
+
+
+def test_the_command_line_names_a_folder_of_ones_own(folder: Path) -> None:
+    engine = asr_engine(f"embedded:{folder}")
+    assert engine.recognise(call(CHARLIE_HZ), ()).text == "charlie"
+
+
+# --- the network that ships ---------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def embedded() -> Ctc:
+    return Ctc()
+
+
+CALLS = [
+    ("TOWER", "american one two three runway zero one left cleared to land"),
+    ("AAL123", "delta four five six climb and maintain flight level three three zero"),
+    ("DAL456", "washington tower american one two three holding short runway one niner"),
+]
+
+
+@pytest.mark.parametrize("snr_db", [None, 25.0])
+def test_clear_calls_are_mostly_right(embedded: Ctc, snr_db: float | None) -> None:
+    texts, heard = [], []
+    for number, (speaker, text) in enumerate(CALLS):
+        rng = np.random.default_rng(number)
+        audio = VhfChannel(PROFILES["vhf"]).transmit(said_by(speaker, text), snr_db, rng)
+        texts.append(text)
+        heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
+    assert jiwer.wer(texts, heard) < 0.3
+
+
+@pytest.mark.parametrize("over", ["a carrier", "another voice"])
+def test_of_blocked_calls_most_words_are_lost(embedded: Ctc, over: str) -> None:
+    texts, heard = [], []
+    for number, (speaker, text) in enumerate(CALLS):
+        other = silence(20.0) if over == "a carrier" else said_by(*CALLS[number - 1])
+        for whistle_hz in (400.0, 700.0, 1_200.0):
+            audio = VhfChannel(PROFILES["vhf"]).transmit(
+                said_by(speaker, text),
+                20.0,
+                np.random.default_rng(number),
+                [Other(other, 0, whistle_hz)],
+                "cockpit",
+            )
+            texts.append(text)
+            heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
+    assert jiwer.wer(texts, heard) > 0.6
+
+
+def test_it_gives_only_its_own_words_and_confidences_between_0_and_1(embedded: Ctc) -> None:
+    known = set(_embedded_words())
+    audio = said_by("TOWER", "Rumpelstiltskin's hovercraft is full of eels, isn't it, 1,234.5?")
+    for sound in (audio, audio + noise(0.05, len(audio) / SAMPLE_RATE_HZ)):
+        heard = embedded.recognise(sound, ("AAL123",))
+        assert set(heard.text.split()) <= known
+        assert " ".join(word for word, _ in heard.words) == heard.text
+        assert all(0.0 <= confidence <= 1.0 for _, confidence in heard.words)
+        assert 0.0 <= heard.confidence <= 1.0
+
+
+def _embedded_words() -> list[str]:
+    folder = Path(airhilt.assistant.asr.ctc.__file__).parent / "model"
+    return (folder / "words.txt").read_text(encoding="utf-8").split()
+
+
+def test_the_same_audio_gives_the_same_words(embedded: Ctc) -> None:
+    audio = said_by(*CALLS[0])
+    assert embedded.recognise(audio, ("AAL123",)) == embedded.recognise(audio, ("AAL123",))
+    assert Ctc().recognise(audio, ("AAL123",)) == embedded.recognise(audio, ("AAL123",))
+
+
+@pytest.mark.parametrize("level", [0.0, 1e-4, 0.01, 0.1, 0.5])
+def test_noise_alone_gives_nothing(embedded: Ctc, level: float) -> None:
+    receiver = VhfChannel(PROFILES["vhf"]).parts(silence(5.0), 0.0, np.random.default_rng(1))
+    for sound in (noise(level), receiver.noise * np.float32(level / 0.1)):
+        assert embedded.recognise(sound, ("AAL123", "DAL456")).text == ""
+
+
+def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) -> None:
+    spoken = said_by(*CALLS[0])
+    audio = np.tile(np.concatenate([spoken, silence(0.5)]), 1 + 65 * SAMPLE_RATE_HZ // len(spoken))
+    by_windows = embedded.posteriors(audio)
+    monkeypatch.setattr(airhilt.assistant.asr.ctc, "WINDOW_STEPS", len(audio))
+    assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="needs Linux's VmHWM")
+def test_ten_minutes_of_an_open_microphone_take_less_than_half_a_gigabyte() -> None:
+    measure = """
+import numpy as np
+from airhilt.assistant.asr.ctc import Ctc
+audio = np.random.default_rng(0).standard_normal(600 * 16_000, np.float32) * np.float32(0.05)
+Ctc().recognise(audio, ("AAL123", "DAL456"))
+print(next(line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")))
+"""
+    measured = subprocess.run(
+        [sys.executable, "-c", measure], capture_output=True, text=True, check=True
+    )
+    assert int(measured.stdout) * 1_024 < 500e6

@@ -1,0 +1,131 @@
+"""faster-whisper on a folder of CTranslate2's, here one that has learned a single sentence."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import shutil
+import socket
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.signal import butter, sosfilt
+
+from airhilt.assistant.asr.whisper import MODEL_FILES, Whisper
+from airhilt.errors import SpeechError
+from airhilt.voices.espeak import Espeak
+from paths import DATA
+
+MODEL = DATA / "tiny_whisper"
+INSTALLED = importlib.util.find_spec("faster_whisper") is not None
+
+
+def call() -> np.ndarray:
+    voice = Espeak()
+    return voice.synthesise(
+        "American one two three, runway zero one left, cleared to land.", voice.voice_of("TOWER")
+    )
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(MODEL, tmp_path / "model"))
+
+
+@pytest.mark.parametrize("name", MODEL_FILES)
+def test_an_incomplete_folder_is_refused_by_the_file_that_it_lacks(name: str, folder: Path) -> None:
+    (folder / name).unlink()
+    with pytest.raises(SpeechError, match=rf"model: without {name}; expected") as refused:
+        Whisper(str(folder))
+    assert "--copy_files" in str(refused.value)
+
+
+def test_all_that_is_missing_is_named_at_once(tmp_path: Path) -> None:
+    with pytest.raises(SpeechError) as refused:
+        Whisper(str(tmp_path))
+    for name in (*MODEL_FILES, "vocabulary.json or vocabulary.txt"):
+        assert name in str(refused.value)
+
+
+@pytest.mark.parametrize("model", ["/no/such/folder", "./model", __file__])
+def test_a_path_that_is_no_folder_is_not_looked_for_on_the_network(model: str) -> None:
+    with pytest.raises(SpeechError, match="no folder; expected a folder with config"):
+        Whisper(model)
+
+
+def test_without_the_package_the_error_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "faster_whisper", None)
+    monkeypatch.setitem(sys.modules, "faster_whisper.vad", None)
+    with pytest.raises(SpeechError, match=r"pip install airhilt\[whisper\]"):
+        Whisper(str(MODEL))
+
+
+@pytest.mark.whisper
+@pytest.mark.skipif(not INSTALLED, reason="no faster-whisper: pip install airhilt[whisper]")
+class TestWithFasterWhisper:
+    def test_a_call_gives_words_in_the_form_of_transcripts(self) -> None:
+        engine = Whisper(str(MODEL))
+        recognised = engine.recognise(call(), ["AAL123", "SPEEDBIRD"])
+        assert engine.name == "whisper:tiny_whisper"
+        assert recognised.text == "tower runway zero one left cleared to land"
+        assert [word for word, _ in recognised.words] == recognised.text.split()
+        assert all(0.0 <= confidence <= 1.0 for _, confidence in recognised.words)
+        assert 0.1 < recognised.confidence < 1.0
+
+    def test_the_same_call_gives_the_same_words(self) -> None:
+        engine = Whisper(str(MODEL))
+        assert engine.recognise(call(), []) == engine.recognise(call(), [])
+
+    def test_a_call_longer_than_a_window_is_heard_to_its_end(self) -> None:
+        audio = np.tile(call(), 6)
+        assert len(audio) > 2 * 10 * 16_000
+        heard = Whisper(str(MODEL)).recognise(audio, ["AAL123"])
+        assert heard.text.count("cleared to land") >= 2
+
+    @pytest.mark.parametrize("level", [0.0, 0.01, 0.1, 0.5])
+    def test_noise_alone_gives_nothing(self, level: float) -> None:
+        band = butter(6, [300, 3_400], "band", fs=16_000, output="sos")
+        noise = sosfilt(band, np.random.default_rng(1).normal(0.0, level, 10 * 16_000))
+        assert Whisper(str(MODEL)).recognise(noise.astype(np.float32), ["AAL123"]).text == ""
+
+    @pytest.mark.parametrize("seconds", [0.0, 0.001, 0.2])
+    def test_hardly_any_audio_gives_nothing(self, seconds: float) -> None:
+        audio = np.full(round(16_000 * seconds), 0.1, np.float32)
+        assert Whisper(str(MODEL)).recognise(audio, []).text == ""
+
+    def test_samples_that_are_no_numbers_are_refused(self) -> None:
+        audio = call()
+        audio[9] = np.nan
+        with pytest.raises(SpeechError, match="not finite"):
+            Whisper(str(MODEL)).recognise(audio, [])
+
+    def test_a_folder_needs_no_network(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        def refuse(*_: Any, **__: Any) -> None:
+            raise AssertionError("the network was asked")
+
+        monkeypatch.setattr(socket, "getaddrinfo", refuse)
+        monkeypatch.setattr(socket.socket, "connect", refuse)
+        assert Whisper(str(MODEL)).recognise(call(), []).text
+
+    def test_a_roster_of_hundreds_is_no_burden(self) -> None:
+        roster = [f"AAL{number}" for number in range(300)]
+        assert Whisper(str(MODEL)).recognise(call(), roster).text
+
+    @pytest.mark.parametrize("name", ["model.bin", "tokenizer.json"])
+    def test_a_damaged_file_is_an_error_about_that_model(self, name: str, folder: Path) -> None:
+        (folder / name).write_bytes(b"damaged")
+        with pytest.raises(SpeechError, match=f"{folder}: does not load"):
+            Whisper(str(folder))
+
+    def test_features_of_another_model_are_refused(self, folder: Path) -> None:
+        path = folder / "preprocessor_config.json"
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"feature_size": 128}))
+        with pytest.raises(SpeechError, match="takes 80 mel bands, and not the 128"):
+            Whisper(str(folder))
+
+    def test_a_name_that_no_model_has_is_refused(self) -> None:
+        with pytest.raises(SpeechError, match="huge-and-perfect: does not load: ValueError"):
+            Whisper("huge-and-perfect")

@@ -1,0 +1,315 @@
+"""Aircraft without a transponder: seen, they are told of in time; what is known is not told."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.assistant.decision.approach import approach_of
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.assistant.decision.line_of_sight import Eye
+from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.messages import Climb, Severity, Turn
+from airhilt.units import DEGREE, SECOND_NS
+from encounters import Encounter, Flight
+from projected import AIRLINER, CESSNA, FLOCK, Camera, still
+
+SEEDS = range(2)
+MEET_S = 34.0
+KT = 233.0
+
+
+def meeting(
+    seed=1, track=270.0, kt=106.0, altitude_ft=4000.0, offset_nm=0.0, size=CESSNA, label="airplane",
+    equipped=False, own_equipped=True, own_ft=4000.0, meet_s=MEET_S, **how,
+):  # fmt: skip
+    """Return an airliner with a camera on its nose, and somebody whom it meets after a while."""
+    own = Flight(
+        "AAL123", "a1b2c3", 90.0, KT * meet_s / 3600.0, own_ft, KT, seed=seed,
+        equipped=own_equipped,
+    )  # fmt: skip
+    other = Flight(
+        "N172SP", "a0c172", track, kt * meet_s / 3600.0, altitude_ft, kt, offset_nm=offset_nm,
+        seed=seed, equipped=equipped,
+    )  # fmt: skip
+    encounter = Encounter([own, other], meet_s + 40.0)
+    encounter.cameras = [own.nose(other.body(label, size), seed=seed, **how)]
+    return encounter
+
+
+def unnumbered(found):
+    """Return detections as a detector gives them that follows nothing."""
+    plain = tuple(each.model_copy(update={"track_id": None}) for each in found.detections)
+    return found.model_copy(update={"detections": plain})
+
+
+def first(encounter, severity):
+    """Return how long before the encounter that severity was told first."""
+    return next(MEET_S - t for t, a in encounter.told if a.severity == severity and a.active)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("error_px", [0.4, 1.0])
+def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(seed, error_px):
+    encounter = meeting(seed, error_px=error_px).fly()
+    assert 12.0 < first(encounter, "WARNING") < 22.0
+    warning = encounter.to("AAL123")[-2]
+    assert warning.recipients == ("AAL123", "ATC")
+    assert warning.kind == "loss_of_separation"
+    assert warning.traffic == ("AAL123",)
+    assert warning.evidence.sources == ("vision",)
+    assert isinstance(warning.recommendation, Climb)
+    assert warning.message.startswith("AAL123 traffic ahead, no transponder, closing, ")
+    left_s = warning.evidence.time_to_closest_approach_s
+    assert left_s == pytest.approx(first(encounter, "WARNING"), rel=0.5)
+
+
+def test_it_is_one_alert_that_only_rises_and_ends_once_the_two_are_past():
+    encounter = meeting().fly()
+    assert len({advisory.id for _, advisory in encounter.told}) == 1
+    ranks = [advisory.severity.rank for advisory in encounter.to("ATC")[:-1]]
+    assert ranks == sorted(ranks)
+    assert not encounter.to("ATC")[-1].active
+    assert encounter.told[-1][0] > MEET_S
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_who_is_overtaken_is_seen_longer_before(seed):
+    assert first(meeting(seed, track=90.0).fly(), "WARNING") > 15.0
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed):
+    wide = {"fov_deg": 54.0, "width_px": 1920, "height_px": 1080}
+    assert meeting(seed, track=180.0).fly().told == []
+    encounter = meeting(seed, track=180.0, **wide).fly()
+    assert first(encounter, "WARNING") > 8.0
+    assert "traffic ahead to the left" in encounter.to("AAL123")[-2].message
+
+
+@pytest.mark.parametrize(
+    "how",
+    [{"altitude_ft": 3000.0}, {"altitude_ft": 5000.0}, {"offset_nm": 0.5}, {"offset_nm": -0.5}],
+    ids=["1000 ft below", "1000 ft above", "half a mile to one side", "and to the other"],
+)
+def test_who_passes_by_is_no_warning(how):
+    for seed in SEEDS:
+        encounter = meeting(seed, **how).fly()
+        assert "WARNING" not in encounter.severities("ATC")
+
+
+@pytest.mark.parametrize(("altitude_ft", "sense"), [(3800.0, "climb"), (4200.0, "descend")])
+def test_the_way_out_is_away_from_it(altitude_ft, sense):
+    for seed in SEEDS:
+        encounter = meeting(seed, altitude_ft=altitude_ft).fly()
+        told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
+        assert told
+        assert {each.sense for each in told} == {sense}
+
+
+def test_nobody_is_sent_down_near_the_ground():
+    encounter = meeting(altitude_ft=2000.0, own_ft=1900.0).fly()
+    told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
+    assert told
+    assert all(isinstance(each, Turn) and each.degrees > 0 for each in told)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_who_squitters_is_the_matter_of_the_watch_for_separation(seed):
+    """It is on a collision course, and seen all the way."""
+    encounter = meeting(seed, equipped=True, size=AIRLINER, meet_s=60.0).fly()
+    assert {advisory.evidence.sources for _, advisory in encounter.told} == {("adsb",)}
+
+
+def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intruder():
+    encounter = meeting(equipped=True, own_equipped=False, size=AIRLINER).fly()
+    warning = encounter.to("AAL123")[-2]
+    assert warning.severity is Severity.WARNING
+    assert warning.traffic == ("AAL123", "N172SP")
+    assert warning.message.startswith("AAL123 traffic N172SP ahead, closing, turn right")
+
+
+def test_a_new_track_of_the_same_aircraft_is_the_same_alert():
+    encounter = meeting()
+    (nose,) = encounter.cameras
+    detect = nose.detections
+
+    def renumbered(t_ns):
+        found = detect(t_ns)
+        later = t_ns > 24 * SECOND_NS
+        return found.model_copy(
+            update={
+                "detections": tuple(
+                    each.model_copy(update={"track_id": 7 if later else 3})
+                    for each in found.detections
+                )
+            }
+        )
+
+    nose.detections = renumbered
+    assert len({advisory.id for _, advisory in encounter.fly().told}) == 1
+
+
+def test_a_detector_that_follows_nothing_will_do():
+    encounter = meeting()
+    (nose,) = encounter.cameras
+    detect = nose.detections
+
+    nose.detections = lambda t_ns: unnumbered(detect(t_ns))
+    assert first(encounter.fly(), "WARNING") > 12.0
+
+
+def test_what_flickers_here_and_there_is_nobody():
+    def somewhere(t_s):
+        east, north, up = np.random.default_rng(round(100 * t_s)).uniform(-400.0, 400.0, 3)
+        (own_east, own_north, height), _ = own.place(t_s)
+        return (own_east + 2500.0 + east, own_north + north, height + 0.4 * up), 0.0
+
+    encounter = meeting()
+    own = encounter.flights[0]
+    ghost = replace(still("airplane", (0.0, 0.0, 0.0), CESSNA), at=somewhere)
+    encounter.cameras = [own.nose(ghost, recall=0.3)]
+    (nose,) = encounter.cameras
+    detect = nose.detections
+    nose.detections = lambda t_ns: unnumbered(detect(t_ns))
+    assert encounter.fly().told == []
+
+
+def test_a_flock_ahead_is_birds_and_the_way_out_is_up():
+    encounter = meeting(kt=20.0, label="bird", size=FLOCK).fly()
+    warning = encounter.to("AAL123")[-2]
+    assert warning.message.startswith("AAL123 birds ahead, closing, climb")
+
+
+def test_what_may_stand_on_the_ground_is_not_in_the_air():
+    """A parked aircraft right before one that descends towards it."""
+    own = Flight("AAL123", "a1b2c3", 90.0, 2.2, 0.0, 140.0, waver_ft=0.0)
+
+    def descends(t_s):
+        (east, north, _), track = own.place(t_s)
+        return (east, north, 220.0 - 3.7 * t_s), (track, -2.0 * DEGREE, 0.0)
+
+    parked = still("airplane", (0.0, 0.0, 0.0), CESSNA)
+    nose = replace(own.nose(parked), look=descends)
+    encounter = Encounter([own], 45.0, cameras=[nose])
+    assert encounter.fly().told == []
+
+
+def test_time_goes_on_after_the_last_picture():
+    """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
+    visual_tracks = VisualTracks()
+    watch = IntruderWatch(IntruderConfig(), "decision", visual_tracks, lambda _: None)
+    camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
+    for step in range(41):
+        visual_tracks.take_detections(camera.detections(step * SECOND_NS // 8))
+    told = [
+        [advisory.severity for advisory in watch.judge(t_ns, t_ns)]
+        for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))
+    ]
+    assert told == [[], 2 * [Severity.CAUTION], [], 2 * [Severity.WARNING]]
+
+
+# --- time to contact ------------------------------------------------------------------------
+
+FRAME = LocalFrame((38.9 * DEGREE, -77.0 * DEGREE))
+
+
+def closing_camera(
+    closing_m_s, miss_m, left_s, seconds, error_px=0.0, roll=0.0, seed=1, sizes=(3.0, 11.0, 3.0)
+):
+    """Return a camera, and something that passes it so long after some seconds."""
+
+    def at(t_s):
+        return (miss_m, closing_m_s * (left_s + seconds - t_s), 1000.0), 0.0
+
+    def look(t_s):
+        return (0.0, 0.0, 1000.0), (0.0, 0.02 * math.sin(t_s), roll * math.sin(t_s))
+
+    other = replace(still("airplane", (0.0, 0.0, 0.0), sizes), at=at)
+    return Camera(
+        "c", FRAME, look, [other], "AAL123", fov_deg=25.0, width_px=1280, error_px=error_px,
+        seed=seed, smallest_px=0.0,
+    )  # fmt: skip
+
+
+def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
+    """Return what such a camera sees."""
+    camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)
+    found = [camera.detections(round(k * SECOND_NS / 8)) for k in range(round(8 * seconds) + 1)]
+    return [Observation.of(f.t_frame_ns, Eye(f.view), f.detections[0].box, 0.9) for f in found]
+
+
+@settings(max_examples=30)
+@given(
+    closing=st.floats(60.0, 250.0), left_s=st.floats(4.0, 20.0), roll=st.floats(-0.3, 0.3),
+    miss=st.floats(-20.0, 20.0),
+)  # fmt: skip
+def test_without_errors_the_time_to_contact_is_right_however_the_camera_rolls(
+    closing, left_s, roll, miss
+):
+    approach = approach_of(glimpses_of(closing, miss, left_s, 3.0, 0.0, roll))
+    # A wing that is rolled is as high as it is wide: its diagonal is not quite the same.
+    assert approach.time_s == pytest.approx(left_s, rel=0.25 if roll else 0.05)
+    assert approach.least_miss() <= abs(miss) / 11.0 + 3.0
+
+
+@pytest.mark.parametrize("error_px", [0.5, 1.0, 2.0])
+def test_the_error_that_it_tells_is_about_the_one_that_it_makes(error_px):
+    shifts = []
+    for seed in range(30):
+        approach = approach_of(glimpses_of(170.0, 0.0, 12.0, 3.0, error_px, 0.0, seed))
+        shifts.append((approach.closing - 1.0 / 12.0) / approach.closing_error)
+    rms = math.sqrt(sum(shift**2 for shift in shifts) / len(shifts))
+    assert 0.3 < rms < 2.0
+
+
+def test_a_passage_to_the_side_is_told_in_sizes():
+    approach = approach_of(glimpses_of(170.0, 300.0, 10.0, 4.0, 0.0, 0.0))
+    assert approach.least_miss() == pytest.approx(300.0 / 11.0, rel=0.4)
+
+
+def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
+    seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.0, 0.0)
+    assert approach_of(seen[:4]) is None
+    cut = [Observation.of(each.t_ns, each.eye, (0.0, *each.box[1:]), 0.9) for each in seen]
+    assert approach_of(cut) is None
+
+
+@pytest.mark.parametrize("phase", range(5))
+def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
+    """They are thinner than a pixel: now only the fuselage shows, now all of it."""
+    seen = glimpses_of(130.0, 0.0, 12.0, 5.0, 0.0, 0.0)
+    narrow = [
+        observation._replace(size_rad=(0.4 * observation.size_rad[0], observation.size_rad[1]))
+        if math.sin(math.tau * (number / 8.0 / 1.6 + phase / 5.0)) < 0.0 else observation
+        for number, observation in enumerate(seen)
+    ]  # fmt: skip
+    approach = approach_of(narrow)
+    assert approach.is_growing
+    assert approach.time_s == pytest.approx(12.0, rel=0.35)
+
+
+def test_banking_does_not_hide_that_something_nears():
+    """A wing that is as wide in the first picture as in the last has grown: it lies slantwise."""
+    seen = glimpses_of(130.0, 0.0, 5.0, 1.5, roll=45.0 * DEGREE, sizes=(3.0, 11.0, 0.5))
+    assert seen[-1].size_rad[0] < 1.1 * seen[0].size_rad[0]
+    approach = approach_of(seen)
+    assert approach.is_growing
+    assert approach.time_s == pytest.approx(5.0, rel=0.35)
+
+
+@pytest.mark.parametrize("wild", [(0, 2), (2, 3), (12, 20), (22, 24)])
+def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild):
+    """They are of something beside it, that the detector takes for it."""
+    seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.4, 0.0)
+    for number in wild:
+        t_ns, eye, (left, top, right, bottom), *_ = seen[number]
+        beside = (left + 20.0, top + 8.0, right + 20.0, bottom + 8.0)
+        seen[number] = Observation.of(t_ns, eye, beside, 0.9)
+    approach = approach_of(seen)
+    assert math.hypot(*approach.turning_rad_s) < 0.01 * DEGREE
+    assert approach.least_miss() < 0.5

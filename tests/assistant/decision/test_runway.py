@@ -1,0 +1,573 @@
+"""Conflicts on runways: told in time, to those concerned, and never in normal traffic."""
+
+import itertools
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airfield import (
+    BRIEFING,
+    NORTH,
+    NORTHWEST,
+    SOUTH,
+    SOUTHEAST,
+    Airfield,
+    Mover,
+    drives,
+    goes_around,
+    lands,
+    lines_up_and_goes,
+    stands,
+    takes_off,
+)
+from airhilt.assistant.decision import DecisionConfig, DecisionWorker
+from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, opposite, way_through
+from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
+from airhilt.messages import Severity, Transcript
+from airhilt.phraseology import parse_call
+from airhilt.units import SECOND_NS
+
+SEEDS = range(3)
+CALLS = ("AAL123", "DAL456", "OPS1", "ATC")
+
+
+def arrival(at_s, axis=NORTH, callsign="AAL123", seed=1, **how):
+    return Mover(callsign, axis, lands(at_s, **how), seed=seed)
+
+
+def departure(rolls_at_s, axis=NORTH, callsign="DAL456", seed=1, **how):
+    return Mover(callsign, axis, takes_off(rolls_at_s, **how), seed=seed)
+
+
+def vehicle(spot, seed=1, **how):
+    return Mover("OPS1", NORTH, spot, 90.0, "C2", seed, **how)
+
+
+# --- normal traffic -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("seconds", "movers"),
+    {
+        "a landing": (150, lambda s: [arrival(90, seed=s)]),
+        "a landing after another has left": (
+            200, lambda s: [arrival(30, seed=s), arrival(107, callsign="DAL456", seed=s)],
+        ),
+        "a departure before an arrival at 5 NM": (
+            180, lambda s: [
+                arrival(132, seed=s),
+                Mover("DAL456", NORTH, lines_up_and_goes(5, 45), 90.0, seed=s),
+            ],
+        ),
+        "one lines up behind the landing and goes when it has left": (
+            200, lambda s: [
+                arrival(40, seed=s),
+                Mover("DAL456", NORTH, lines_up_and_goes(45, 125), 90.0, seed=s),
+            ],
+        ),
+        "an aircraft and a vehicle hold short": (
+            130, lambda s: [
+                arrival(90, seed=s),
+                Mover("DAL456", NORTH, stands(40, -100), 90.0, seed=s),
+                vehicle(stands(800, -82), seed=s),
+            ],
+        ),
+        "a vehicle drives to the hold line and stops": (
+            130, lambda s: [arrival(90, seed=s), vehicle(drives(40, to_m=-82), seed=s)],
+        ),
+        "a vehicle on the parallel taxiway": (
+            130, lambda s: [
+                arrival(60, seed=s),
+                replace(vehicle(lambda t: (100 + 8 * t, -125.0, None), seed=s), heading_deg=0.0),
+            ],
+        ),
+        "a vehicle crosses long before": (
+            150, lambda s: [arrival(120, seed=s), vehicle(drives(5), seed=s)],
+        ),
+        "a vehicle crosses behind the landing": (
+            150, lambda s: [arrival(60, seed=s), vehicle(drives(70), seed=s)],
+        ),
+        "a departure on the crossing runway, long gone": (
+            150, lambda s: [arrival(110, seed=s), departure(25, SOUTHEAST, seed=s)],
+        ),
+        "a departure lined up on the crossing runway": (
+            150, lambda s: [arrival(90, seed=s), departure(999, SOUTHEAST, seed=s)],
+        ),
+        "two landings on crossing runways, a minute apart": (
+            200, lambda s: [
+                arrival(60, seed=s), arrival(125, NORTHWEST, callsign="DAL456", seed=s),
+            ],
+        ),
+        "a go-around": (
+            150, lambda s: [
+                Mover("AAL123", NORTH, goes_around(100, 4000.0), seed=s),
+                vehicle(stands(800, -82), seed=s),
+            ],
+        ),
+    }.values(),
+    ids=itertools.count(),
+)  # fmt: skip
+def test_normal_traffic_is_quiet(seconds, movers, seed):
+    assert Airfield(movers(seed)).run(seconds).told == []
+
+
+# --- a runway is occupied: step (b) ---------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_35_s(seed):
+    field = Airfield([arrival(100, seed=seed), vehicle(stands(800), seed=seed)]).run(130)
+    caution_s, _ = field.first("CAUTION")
+    warning_s, warning = field.first("WARNING")
+    assert 100 - caution_s == pytest.approx(60.0, abs=4.0)
+    assert 100 - warning_s == pytest.approx(35.0, abs=4.0)
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert field.advice("OPS1") == []
+    assert warning.recipients == ("AAL123", "OPS1", "ATC")
+    assert warning.traffic == ("AAL123", "OPS1")
+    assert warning.evidence.runway == "01"
+    assert warning.evidence.time_to_go_s == pytest.approx(100 - warning_s, abs=2.0)
+    assert warning.evidence.sources == ("adsb",)
+
+
+def test_an_advisory_is_in_plain_words_for_each_who_gets_it():
+    field = Airfield([arrival(100), vehicle(stands(800))]).run(80)
+    last = {callsign: field.to(callsign)[-1].message for callsign in ("AAL123", "OPS1", "ATC")}
+    assert last["AAL123"].startswith("AAL123 go around, OPS1 is on runway 01, ")
+    assert last["OPS1"].startswith("OPS1 AAL123 on final for runway 01, ")
+    assert last["ATC"].startswith("AAL123, OPS1 is on runway 01, ")
+    assert last["ATC"].endswith("; AAL123 go around")
+
+
+def test_it_is_one_alert_whose_severity_only_rises_and_that_ends():
+    field = Airfield([arrival(100), vehicle(stands(800))]).run(150)
+    for callsign in ("AAL123", "OPS1", "ATC"):
+        told = field.to(callsign)
+        assert [advisory.severity for advisory in told] == ["CAUTION", "WARNING", "INFO"]
+        assert [advisory.active for advisory in told] == [True, True, False]
+        assert [advisory.revision for advisory in told] == [0, 1, 2]
+        assert len({advisory.id for advisory in told}) == 1
+
+
+def test_it_ends_soon_after_the_arrival_has_gone_around():
+    movers = [Mover("AAL123", NORTH, goes_around(100, 1800.0)), vehicle(stands(800))]
+    field = Airfield(movers).run(130)
+    over_s, over = field.told[-1]
+    assert (over.active, over.severity, over.recommendation) == (False, "INFO", None)
+    assert over_s == pytest.approx(100 - 1800 / 70 + 5.0, abs=4.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_it_ends_soon_after_the_runway_is_left(seed):
+    movers = [arrival(120, seed=seed), vehicle(drives(65, from_m=0.0, to_m=120.0), seed=seed)]
+    field = Airfield(movers).run(110)
+    assert field.worst is Severity.CAUTION
+    over_s, over = field.told[-1]
+    assert not over.active
+    assert over_s == pytest.approx(65 + 76 / 8 + 5.0, abs=8.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_vehicle_that_drives_on_to_the_runway_is_told_to_hold_and_then_the_arrival_to_go_around(
+    seed,
+):
+    field = Airfield([arrival(90, seed=seed), vehicle(drives(38, to_m=0.0), seed=seed)]).run(110)
+    first_s, first = field.first("CAUTION")
+    crosses_hold_line_s = 38 + (250 - 76) / 8
+    reaches_pavement_s = 38 + (250 - 23) / 8
+    assert crosses_hold_line_s - 4.0 < first_s < reaches_pavement_s
+    assert "is about to enter runway 01" in first.message
+    assert field.advice("OPS1")[0] == ("hold_position", "01")
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert first_s < field.first("WARNING")[0] < reaches_pavement_s + 3.0
+
+
+def test_the_better_the_position_the_earlier_an_entry_is_foreseen():
+    def told_s(nacp):
+        movers = [arrival(90), vehicle(drives(38, to_m=0.0), nacp=nacp)]
+        return Airfield(movers).run(100).first("CAUTION")[0]
+
+    assert told_s(11) < told_s(10) < told_s(9)
+    assert told_s(11) < 38 + (250 - 76) / 8 + 1.0
+
+
+def test_who_was_told_to_hold_short_is_given_the_benefit_of_the_doubt_for_a_moment():
+    def told_s(*calls):
+        movers = [arrival(90), vehicle(drives(38, to_m=0.0))]
+        return Airfield(movers, list(calls)).run(100).first("CAUTION")[0]
+
+    held = told_s((20.0, "Ops one, hold short of runway zero one."))
+    assert 0.5 <= held - told_s() <= 2.0
+
+
+def test_crossing_in_time_needs_a_clearance():
+    def movers():
+        return [arrival(100), vehicle(drives(45))]
+
+    cleared = [
+        (40.0, "Ops one, cross runway zero one."),
+        (43.0, "Cross runway zero one, ops one."),
+    ]
+    assert Airfield(movers()).run(110).worst is Severity.WARNING
+    assert Airfield(movers(), cleared).run(110).told == []
+
+
+def test_who_crosses_with_a_clearance_but_stops_on_the_runway_is_in_the_way():
+    movers = [arrival(100), vehicle(drives(45, to_m=0.0))]
+    cleared = [(40.0, "Ops one, cross runway zero one.")]
+    assert Airfield(movers, cleared).run(110).worst is Severity.WARNING
+
+
+def test_a_vehicle_without_a_transponder_of_which_nobody_speaks_is_not_known():
+    movers = [arrival(90), vehicle(stands(800), equipped=False)]
+    assert Airfield(movers).run(110).told == []
+
+
+def test_a_vehicle_without_a_transponder_that_was_sent_on_to_the_runway_is_a_caution():
+    movers = [arrival(90), vehicle(stands(800), equipped=False)]
+    calls = [(20.0, "Ops one, proceed onto runway zero one for inspection.")]
+    field = Airfield(movers, calls).run(110)
+    assert field.worst is Severity.CAUTION
+    _, told = field.first("CAUTION")
+    assert told.recipients == ("AAL123", "OPS1", "ATC")
+    assert told.evidence.sources == ("adsb", "radio")
+    assert field.advice("AAL123") == []
+
+
+def test_and_nothing_once_it_was_told_to_hold_short():
+    movers = [arrival(90), vehicle(stands(800, -82), equipped=False)]
+    calls = [
+        (10.0, "Ops one, proceed onto runway zero one for inspection."),
+        (20.0, "Ops one, hold short of runway zero one."),
+    ]
+    assert Airfield(movers, calls).run(110).told == []
+
+
+def test_an_aircraft_that_has_not_gone_when_the_arrival_is_near_holds_and_the_arrival_goes_around():
+    field = Airfield([arrival(90), departure(999)]).run(80)
+    assert field.advice("DAL456") == [("cancel_takeoff", "01")] * 2
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+def test_a_landing_that_stops_on_the_runway_is_in_the_way_of_the_next():
+    movers = [
+        arrival(30, callsign="DAL456", stops_at_m=1500.0),
+        arrival(140),
+    ]
+    field = Airfield(movers).run(130)
+    assert field.worst is Severity.WARNING
+    assert ("go_around", "01") in field.advice("AAL123")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_takeoff_towards_somebody_on_the_runway_is_cancelled_at_once(seed):
+    field = Airfield([departure(40, seed=seed), vehicle(stands(1500), seed=seed)]).run(60)
+    warning_s, _ = field.first("WARNING")
+    assert 40 < warning_s < 48
+    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
+
+
+def test_who_stands_behind_a_departure_is_not_in_its_way():
+    assert Airfield([departure(40, along_m=600.0), vehicle(stands(300))]).run(90).told == []
+
+
+def test_an_outage_does_not_clear_a_runway():
+    field = Airfield([arrival(100), vehicle(stands(800))])
+    report = field._report
+
+    def silent(station, mover, t_ns, step):
+        return [] if 142 <= step <= 158 else report(station, mover, t_ns, step)
+
+    field._report = silent
+    field.run(95)
+    assert [advisory.active for advisory in field.to("ATC")] == [True, True]
+
+
+# --- two use runways that meet --------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_takeoff_against_an_arrival_from_the_other_end_is_a_warning_to_both(seed):
+    field = Airfield([arrival(110, SOUTH, seed=seed), departure(45, seed=seed)]).run(75)
+    warning_s, warning = field.first("WARNING")
+    assert 45 < warning_s < 52
+    assert "DAL456 opposite on runway 01/19" in warning.message
+    assert field.advice("AAL123") == [("go_around", "19")]
+    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
+
+
+def test_two_arrivals_from_opposite_ends_are_a_warning_to_both():
+    field = Airfield([arrival(80, SOUTH), arrival(85, callsign="DAL456")]).run(78)
+    assert field.advice("AAL123") == [("go_around", "19")]
+    assert field.advice("DAL456") == [("go_around", "01")]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_takeoff_that_meets_an_arrival_where_the_runways_cross_is_a_warning_to_both(seed):
+    movers = [arrival(100, seed=seed), departure(85, SOUTHEAST, seed=seed)]
+    field = Airfield(movers).run(112)
+    warning_s, _ = field.first("WARNING")
+    assert 85 < warning_s < 95
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert field.advice("DAL456")[0] == ("cancel_takeoff", "15")
+    assert len({advisory.id for _, advisory in field.told}) == 1
+
+
+# --- wildlife -------------------------------------------------------------------------------
+
+
+def test_wildlife_reported_on_the_runway_is_a_warning_to_go_around():
+    calls = [(60.0, "Tower, Ops one, wildlife report, deer on runway zero one near delta.")]
+    field = Airfield([arrival(90)], calls).run(80)
+    warning_s, warning = field.first("WARNING")
+    assert warning_s == pytest.approx(61.0, abs=0.6)
+    assert warning.recipients == ("AAL123", "ATC")
+    assert warning.traffic == ("AAL123", "wildlife")
+    assert warning.evidence.sources == ("adsb", "radio")
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+@pytest.mark.parametrize(
+    "calls",
+    [
+        [],
+        [(60.0, "Tower, Ops one, wildlife report, deer on runway one five.")],
+        [
+            (20.0, "Tower, Ops one, deer on runway zero one."),
+            (26.0, "Tower, Ops one, the deer has left runway zero one."),
+        ],
+    ],
+)
+def test_wildlife_elsewhere_or_gone_or_unseen_is_nothing(calls):
+    assert Airfield([arrival(90)], calls).run(110).told == []
+
+
+def test_an_animal_on_the_runway_is_on_that_of_who_says_so():
+    calls = [(60.0, "Animal on the runway, American one two three.")]
+    movers = [arrival(90), arrival(90, NORTHWEST, callsign="DAL456")]
+    movers[1].spot = goes_around(150, 9000.0)
+    field = Airfield(movers, calls).run(75)
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+# --- what was said: steps (a) and (c) -------------------------------------------------------
+
+CLEARED = (20.0, "American one two three, runway zero one, cleared to land.")
+WRONG = (26.0, "Cleared to land runway one niner, American one two three.")
+RIGHT = (26.0, "Cleared to land runway zero one, American one two three.")
+
+
+def test_a_wrong_readback_with_somebody_on_the_runway_is_a_caution_at_once():
+    field = Airfield([arrival(160, SOUTH), departure(999)], [CLEARED, WRONG]).run(40)
+    told_s, told = field.first("CAUTION", "readback_mismatch")
+    assert told_s == 26.0
+    assert told.recipients == ("AAL123", "ATC")
+    assert told.traffic == ("AAL123", "DAL456")
+    assert told.evidence.sources == ("radio", "adsb")
+    for words in ("read back cleared to land runway 19", "cleared to land runway 01", "DAL456"):
+        assert words in told.message
+    assert field.advice("AAL123") == []
+
+
+def test_on_short_final_it_is_a_reason_to_go_around():
+    calls = [(CLEARED[0] + 20, CLEARED[1]), (WRONG[0] + 20, WRONG[1])]
+    field = Airfield([arrival(95, SOUTH), departure(999)], calls).run(47)
+    mismatch = [a for a in field.to("AAL123") if a.kind == "readback_mismatch"]
+    assert [a.recommendation.action for a in mismatch] == ["go_around"]
+
+
+def test_a_right_readback_is_nothing():
+    assert Airfield([arrival(160), departure(999)], [CLEARED, RIGHT]).run(60).told == []
+
+
+def test_a_wrong_readback_on_an_empty_field_is_nothing():
+    assert Airfield([arrival(160, SOUTH)], [CLEARED, WRONG]).run(60).told == []
+
+
+def test_it_becomes_a_caution_when_somebody_is_cleared_on_to_the_runway_later():
+    calls = [CLEARED, WRONG, (50.0, "Delta 456, runway zero one, line up and wait.")]
+    movers = [arrival(200, SOUTH), Mover("DAL456", NORTH, stands(40, -100), 90.0)]
+    field = Airfield(movers, calls).run(70)
+    assert field.first("CAUTION", "readback_mismatch")[0] == 50.0
+
+
+def test_a_readback_that_is_put_right_is_nothing_any_more():
+    calls = [
+        CLEARED,
+        WRONG,
+        (30.0, "American 123, negative, runway zero one, cleared to land."),
+        (35.0, "Cleared to land runway zero one, American 123."),
+        (50.0, "Delta 456, runway zero one, line up and wait."),
+    ]
+    movers = [arrival(200, SOUTH), Mover("DAL456", NORTH, stands(40, -100), 90.0)]
+    assert Airfield(movers, calls).run(70).told == []
+
+
+def test_reading_back_a_takeoff_clearance_that_nobody_gave_is_a_caution():
+    calls = [
+        (40.0, "Delta 456, runway one five, continue holding, traffic landing runway zero one."),
+        (46.0, "Runway one five, cleared for takeoff, Delta 456."),
+    ]
+    field = Airfield([arrival(110), departure(999, SOUTHEAST)], calls).run(48)
+    _, told = field.first("CAUTION", "readback_mismatch")
+    assert told.recipients == ("DAL456", "ATC")
+    assert field.advice("DAL456") == [("cancel_takeoff", "15")]
+
+
+def test_an_instruction_that_somebody_else_reads_back_is_a_caution_to_both():
+    calls = [(50.0, "American one two three, go around."), (53.0, "Going around, Delta 456.")]
+    movers = [arrival(98), arrival(190, callsign="DAL456"), vehicle(stands(800))]
+    field = Airfield(movers, calls).run(55)
+    _, told = field.first("CAUTION", "readback_mismatch")
+    assert told.recipients == ("DAL456", "AAL123", "ATC")
+    mismatch = [a for a in field.to("AAL123") if a.kind == "readback_mismatch"]
+    assert [a.recommendation.action for a in mismatch] == ["go_around"]
+
+
+def test_clearances_for_both_ends_of_a_runway_are_a_caution():
+    calls = [
+        (20.0, "American 123, runway one niner, cleared to land."),
+        (25.0, "Cleared to land runway one niner, American 123."),
+        (40.0, "Delta 456, runway zero one, cleared for takeoff."),
+    ]
+    movers = [arrival(200, SOUTH), Mover("DAL456", NORTH, stands(40, -100), 90.0)]
+    told_s, told = Airfield(movers, calls).run(50).first("CAUTION")
+    assert told_s == 40.0
+    assert set(told.recipients) == {"AAL123", "DAL456", "ATC"}
+
+
+def test_a_clearance_that_has_been_used_conflicts_with_nothing():
+    calls = [
+        (10.0, "Delta 456, runway one niner, cleared for takeoff."),
+        (80.0, "American 123, runway zero one, cleared to land."),
+    ]
+    movers = [arrival(250), departure(20, SOUTH)]
+    field = Airfield(movers, calls).run(100)
+    assert not any(advisory.kind == "runway_conflict" for _, advisory in field.told)
+
+
+# --- beside the runways ---------------------------------------------------------------------
+
+
+def test_two_in_the_zone_of_the_tower_do_not_lose_separation():
+    movers = [arrival(80), arrival(110, NORTHWEST, callsign="DAL456")]
+    assert Airfield(movers).run(75).told == []
+
+
+def test_who_is_on_the_ground_does_not_lose_separation():
+    movers = [arrival(140), vehicle(stands(800, -90)), departure(40, SOUTHEAST)]
+    field = Airfield(movers).run(70)
+    assert not any(advisory.kind == "loss_of_separation" for _, advisory in field.told)
+
+
+def test_without_an_airport_runways_are_of_no_concern():
+    field = Airfield([arrival(100), vehicle(stands(800))])
+    field._step = lambda t_ns, inputs, step=field._step: step(
+        t_ns, [item for item in inputs if item.key != "briefing"]
+    )
+    assert field.run(110).told == []
+
+
+def test_what_is_told_depends_on_nothing_but_what_was_heard():
+    once, again = (
+        Airfield([arrival(90), vehicle(drives(38, to_m=0.0))]).run(110).told for _ in range(2)
+    )
+    assert once == again
+
+
+def test_the_times_to_go_are_a_matter_of_configuration():
+    config = DecisionConfig(runways=RunwayConfig(warning_s=PAPER_TIME_TO_GO_S))
+    field = Airfield([arrival(100), vehicle(stands(800))], worker=DecisionWorker(config))
+    assert 100 - field.run(110).first("WARNING")[0] == pytest.approx(8.0, abs=3.0)
+
+
+@given(st.integers(1, 36), st.sampled_from(["", "L", "C", "R"]))
+def test_the_other_end_of_the_other_end_is_this_end(number, side):
+    ident = f"{number:02d}{side}"
+    assert opposite(opposite(ident)) == ident
+    assert abs(int(opposite(ident)[:2]) - number) == 18
+
+
+def test_the_charted_runways_are_paired_and_cross_where_they_cross():
+    aerodrome = Aerodrome(BRIEFING.airport)
+    assert [strip.name for strip in aerodrome.strips] == ["01/19", "15/33"]
+    first, second = aerodrome.strips
+    assert aerodrome.strip_of("19") is first
+    assert aerodrome.strip_of("27") is None
+    point = aerodrome.crossing(second, first)
+    for direction in (*first.directions, *second.directions):
+        assert abs(direction.across_m(point)) < 0.5
+        assert 0.0 < direction.along_m(point) < direction.length_m
+
+
+def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves():
+    strip = Aerodrome(BRIEFING.airport).strips[0]
+    direction = strip.directions[0]
+    side = Vector(direction.ahead.north, -direction.ahead.east)
+
+    def beside(across_m):
+        middle = [t + 800.0 * a for t, a in zip(direction.threshold, direction.ahead, strict=True)]
+        return Vector(*(m + across_m * s for m, s in zip(middle, side, strict=True)))
+
+    to_left = direction.course_rad - 1.5707963
+    core = strip.core(11)
+    assert way_through(core, beside(200.0), to_left) == pytest.approx((127.0, 273.0), abs=1.0)
+    assert way_through(core, beside(50.0), to_left) == pytest.approx((0.0, 123.0), abs=1.0)
+    assert way_through(core, beside(-200.0), to_left) is None
+
+
+def heard(text, begun_s, end_s, clearances):
+    transcript = Transcript(
+        id="1", frequency_khz=119100, t_tx_ns=begun_s * SECOND_NS, t_end_ns=end_s * SECOND_NS,
+        text=text, confidence=1.0, engine="text",
+    )  # fmt: skip
+    clearances.take(parse_call(text, CALLS), transcript)
+
+
+def in_force(clearances, at_s):
+    return [(each.callsign, each.action, each.runway) for each in clearances.in_force(at_s * 10**9)]
+
+
+def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdrawn():
+    clearances = Clearances()
+    heard("Ops one, cross runway zero one.", 0, 3, clearances)
+    heard("Cross, ops one.", 4, 6, clearances)
+    assert in_force(clearances, 10) == [("OPS1", "cross", "01")]
+    assert in_force(clearances, 600) == []
+    heard("Ops one, hold position.", 10, 12, clearances)
+    assert in_force(clearances, 13) == []
+    assert clearances.is_holding("OPS1", ("01", "19"))
+    heard("Ops one, cross runway one five.", 20, 23, clearances)
+    assert not clearances.is_holding("OPS1", ("01", "19"))
+    assert list(clearances.discrepancies(24 * SECOND_NS)) == []
+
+
+def test_a_readback_long_after_its_instruction_belongs_to_something_else():
+    clearances = Clearances()
+    heard(CLEARED[1], 0, 5, clearances)
+    heard(WRONG[1], 50, 55, clearances)
+    assert list(clearances.discrepancies(56 * SECOND_NS)) == []
+
+
+def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while():
+    clearances = Clearances()
+    heard(CLEARED[1], 0, 5, clearances)
+    heard(WRONG[1], 7, 10, clearances)
+    assert len(list(clearances.discrepancies(11 * SECOND_NS))) == 1
+    assert list(clearances.discrepancies(200 * SECOND_NS)) == []
+
+
+@given(st.lists(st.sampled_from([None, *Severity]), min_size=1, max_size=40))
+def test_a_severity_that_is_told_only_rises(levels):
+    escalation, told = Escalation(), []
+    for second, level in enumerate(levels):
+        if level is None:
+            escalation.is_over(second * 10**9, 1e9)
+        elif escalation.rises(level, second * 10**9, 1.0):
+            told.append(escalation.severity.rank)
+    assert told == sorted(set(told))

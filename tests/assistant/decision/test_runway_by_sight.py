@@ -1,0 +1,343 @@
+"""What cameras show on a runway, or in the air before it, is in the way like anything else."""
+
+from dataclasses import replace
+
+import pytest
+
+from airfield import (
+    BRIEFING,
+    FIELD,
+    NORTH,
+    SOUTH,
+    Airfield,
+    Mover,
+    drives,
+    lands,
+    stands,
+    takes_off,
+)
+from airhilt.assistant.decision.ladder import fused_severity
+from airhilt.messages import Severity
+from airhilt.units import DEGREE
+from projected import AIRLINER, DEER, FLOCK, TRUCK, Body, Camera, standing, still
+
+SEEDS = range(3)
+LANDS_S = 70.0
+
+
+def at(along_m, across_m, height_m=0.0):
+    return (*NORTH.local(along_m, across_m), height_m)
+
+
+def camera(name, place, right_deg, bodies, pitch_deg=-2.0, **how):
+    """Return a camera that stands, and looks so far to the right of the runway's direction."""
+    look = standing(at(*place), NORTH.course_deg + right_deg, pitch_deg)
+    return Camera(name, FIELD, look, bodies, **({"rate_hz": 4.0, "smallest_px": 5.0} | how))
+
+
+def beside_threshold(*bodies, **how):
+    """Return a camera beside the threshold that looks along the runway."""
+    return camera("threshold", (0.0, 95.0, 8.0), -8.0, bodies, width_px=1280, height_px=720, **how)
+
+
+def on_tower(*bodies, **how):
+    """Return a camera that looks across the runway from far away."""
+    sharp = {"width_px": 1920, "height_px": 1080, "fov_deg": 70.0} | how
+    return camera("tower", (900.0, -500.0, 57.0), 90.0, bodies, -6.0, **sharp)
+
+
+def arrival(**how):
+    return Mover("AAL123", NORTH, lands(LANDS_S), **how)
+
+
+def silent(spot, callsign="OPS1", category="C2"):
+    return Mover(callsign, NORTH, spot, 90.0, category, equipped=False)
+
+
+def look_at(*movers, cameras, seconds=LANDS_S - 5.0, calls=()):
+    return Airfield(list(movers), list(calls), cameras=list(cameras)).run(seconds)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("look", [beside_threshold, on_tower])
+def test_a_silent_truck_on_the_runway_sends_the_arrival_around(look, seed):
+    truck = silent(stands(800))
+    field = look_at(
+        arrival(seed=seed), truck, cameras=[look(truck.body("truck", TRUCK), seed=seed)]
+    )
+    caution_s, _ = field.first("CAUTION")
+    warning_s, warning = field.first("WARNING")
+    assert LANDS_S - caution_s == pytest.approx(60.0, abs=5.0)
+    assert LANDS_S - warning_s == pytest.approx(35.0, abs=3.0)
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert warning.recipients == ("AAL123", "ATC")
+    assert warning.evidence.sources == ("vision", "adsb")
+    assert "unidentified truck on runway 01" in warning.message
+    assert len({advisory.id for _, advisory in field.told}) == 1
+
+
+@pytest.mark.parametrize("across_m", [-130.0, -90.0, 110.0])
+@pytest.mark.parametrize("look", [beside_threshold, on_tower])
+def test_one_beside_the_runway_does_not(look, across_m):
+    truck = silent(stands(500, across_m))
+    field = look_at(arrival(), truck, cameras=[look(truck.body("truck", TRUCK))])
+    assert field.worst.rank <= Severity.ADVISORY.rank
+    assert {advisory.recipient for _, advisory in field.told} <= {"ATC"}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_what_squitters_is_no_second_obstacle_however_it_is_seen(seed):
+    """An arrival lands and turns off, a vehicle holds short: both are seen, and known."""
+    aircraft = Mover("DAL456", NORTH, lands(12.0), seed=seed)
+    vehicle = Mover("OPS1", NORTH, stands(800, -90), 90.0, "C2", seed)
+    bodies = [aircraft.body("airplane", AIRLINER), vehicle.body("truck", TRUCK)]
+    cameras = [beside_threshold(*bodies), on_tower(*bodies)]
+    movers = (Mover("AAL123", NORTH, lands(88.0), seed=seed), aircraft, vehicle)
+    assert look_at(*movers, cameras=cameras, seconds=85.0).told == []
+
+
+def test_a_flicker_is_not_there():
+    truck = silent(stands(800))
+    flicker = on_tower(truck.body("truck", TRUCK), confidence=0.4, recall=0.1)
+    assert look_at(arrival(), truck, cameras=[flicker]).worst.rank <= Severity.ADVISORY.rank
+
+
+def test_what_one_camera_shows_with_little_confidence_must_persist():
+    truck = silent(drives(25.0, from_m=-120.0, to_m=0.0))
+    body = truck.body("truck", TRUCK)
+
+    def warned_s(*cameras):
+        field = look_at(arrival(), truck, cameras=cameras)
+        assert field.worst is Severity.WARNING
+        return next(t_s for t_s, a in field.told if "vision" in a.evidence.sources[:1])
+
+    faint = warned_s(on_tower(body, confidence=0.3))
+    assert warned_s(on_tower(body, confidence=0.9)) <= faint
+
+
+def test_what_never_moves_is_as_sure_as_one_look():
+    """A sign that is taken for a truck is taken for one in every picture."""
+    sign = still("truck", at(800.0, 30.0), TRUCK)
+    field = look_at(arrival(), cameras=[on_tower(sign, confidence=0.5)])
+    assert field.worst is Severity.ADVISORY
+    assert {advisory.recipient for _, advisory in field.told} == {"ATC"}
+    truck = silent(drives(12.0, from_m=-120.0, to_m=0.0))
+    moved = on_tower(truck.body("truck", TRUCK), confidence=0.5)
+    assert look_at(arrival(), truck, cameras=[moved]).worst is Severity.WARNING
+
+
+def test_two_cameras_that_agree_need_not_wait():
+    """It comes into view on the runway, as out of mist."""
+    truck = silent(lambda t_s: (800.0, 0.0 if t_s > 0.0 else -5000.0, None))
+
+    def told_s(*cameras):
+        def appears(one):
+            one.bodies = [
+                replace(body, at=lambda t_s, at=body.at: at(t_s if t_s > 40.0 else -1e5))
+                for body in one.bodies
+            ]
+            return one
+
+        field = look_at(arrival(), truck, cameras=[appears(one) for one in cameras])
+        return next(t_s for t_s, a in field.told if "vision" in a.evidence.sources[:1])
+
+    body = truck.body("truck", TRUCK)
+    alone = told_s(on_tower(body, confidence=0.8))
+    together = told_s(on_tower(body, confidence=0.5), beside_threshold(body, confidence=0.5))
+    assert together < alone
+    assert alone >= 41.0
+
+
+def test_the_vehicle_that_was_sent_there_is_named_and_told():
+    truck = silent(stands(800))
+    calls = [(3.0, "Ops one, proceed onto runway zero one for inspection.")]
+    field = look_at(arrival(), truck, cameras=[on_tower(truck.body("truck", TRUCK))], calls=calls)
+    _, warning = field.first("WARNING")
+    assert warning.recipients == ("AAL123", "OPS1", "ATC")
+    assert warning.evidence.sources == ("vision", "adsb", "radio")
+    assert "OPS1 is on runway 01, seen by camera" in warning.message
+    assert field.to("OPS1")[-1].message.startswith("OPS1 AAL123 on final for runway 01")
+    assert len({advisory.id for _, advisory in field.told}) == 1
+
+
+def test_a_silent_vehicle_that_crosses_with_a_clearance_long_before_is_harmless():
+    truck = silent(drives(12.0, along_m=800.0))
+    calls = [(8.0, "Ops one, cross runway zero one."), (10.0, "Cross runway zero one, ops one.")]
+    field = look_at(
+        Mover("AAL123", NORTH, lands(95.0)), truck,
+        cameras=[on_tower(truck.body("truck", TRUCK))], calls=calls, seconds=60.0,
+    )  # fmt: skip
+    seen = [a for _, a in field.told if a.severity is Severity.WARNING]
+    assert seen == []
+
+
+def test_a_deer_is_seen_by_a_camera_that_is_near_enough():
+    deer = still("deer", at(760.0, 0.0), DEER)
+    look = {"width_px": 1280, "height_px": 720, "smallest_px": 8.0}
+    near = camera("side", (600.0, 110.0, 8.0), -35.0, [deer], **look)
+    far = camera("far", (0.0, 110.0, 8.0), -8.0, [deer], **look)
+    field = look_at(arrival(), cameras=[near])
+    _, warning = field.first("WARNING")
+    assert "deer on runway 01" in warning.message
+    assert warning.traffic == ("AAL123", "wildlife")
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert look_at(arrival(), cameras=[far]).told == []
+
+
+def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway():
+    own, truck = arrival(), silent(stands(800))
+
+    def look(t_s):
+        place, heading = own.body("airplane", AIRLINER).at(t_s)
+        return place, (heading, 0.0, 2.0 * DEGREE)
+
+    nose = Camera(
+        "nose", FIELD, look, [truck.body("truck", TRUCK)], "AAL123", 25.0, 1280, 720, 4.0,
+        smallest_px=6.0,
+    )  # fmt: skip
+    field = look_at(own, truck, cameras=[nose])
+    warning_s, _ = field.first("WARNING")
+    assert 15.0 < LANDS_S - warning_s < 36.0
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+def test_a_takeoff_towards_something_seen_is_cancelled():
+    truck = silent(stands(1500))
+    departure = Mover("DAL456", NORTH, takes_off(10.0))
+    field = look_at(
+        departure,
+        truck,
+        cameras=[on_tower(truck.body("truck", TRUCK), fov_deg=100.0)],
+        seconds=25.0,
+    )
+    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
+
+
+def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time():
+    truck = silent(stands(800))
+    off = on_tower(truck.body("truck", TRUCK), off_after_s=40.0)
+    field = look_at(arrival(), truck, cameras=[off])
+    over_s = next(t_s for t_s, advisory in field.told if not advisory.active)
+    assert 48.0 < over_s < 58.0
+
+
+def test_an_aircraft_on_the_ground_has_nothing_to_avoid_in_the_air():
+    """It stands lined up, and somebody without transponder comes towards it."""
+    other = Mover("N172SP", SOUTH, lands(LANDS_S), equipped=False)
+    own = Mover("DAL456", NORTH, stands(40.0), 0.0)
+    look = standing(at(40.0, 0.0, 4.0), NORTH.course_deg, 2.0)
+    nose = Camera("nose", FIELD, look, [other.body("airplane", AIRLINER)], "DAL456", 25.0)
+    assert look_at(own, other, cameras=[nose], seconds=LANDS_S).told == []
+
+
+# --- birds in the air -----------------------------------------------------------------------
+
+
+def flock(across, height):
+    """Return a flock 900 m before the threshold, as functions of time."""
+    return Body(
+        "bird",
+        *FLOCK,
+        lambda t_s: (at(-900.0, across(t_s), height(t_s)), NORTH.course_deg * DEGREE),
+    )
+
+
+def approach_cameras(bird):
+    """Return two cameras beside the threshold that look at the final approach."""
+    how = {"rate_hz": 8.0, "fov_deg": 40.0}
+    return [
+        camera("west", (-30.0, -110.0, 4.0), 180.0, [bird], 5.0, **how),
+        camera("east", (-30.0, 110.0, 4.0), 180.0, [bird], 5.0, **how),
+    ]
+
+
+def rises(t_s, at_s=45.0):
+    return min(max(t_s - at_s, 0.0) * 3.0, 70.0)
+
+
+def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around():
+    bird = flock(lambda t_s: -280.0 + 15.0 * max(t_s - 45.0, 0.0), rises)
+    field = look_at(arrival(), cameras=approach_cameras(bird))
+    warning_s, warning = field.first("WARNING")
+    assert 45.0 < warning_s < 51.0
+    assert "birds on final for runway 01" in warning.message
+    assert warning.traffic == ("AAL123", "wildlife")
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+def test_a_flock_that_is_taken_for_an_aircraft_is_in_the_way_all_the_same():
+    bird = flock(lambda t_s: -280.0 + 15.0 * max(t_s - 45.0, 0.0), rises)
+    field = look_at(arrival(), cameras=approach_cameras(replace(bird, label="airplane")))
+    _, warning = field.first("WARNING")
+    assert "unidentified aircraft on final for runway 01" in warning.message
+    assert field.advice("AAL123") == [("go_around", "01")]
+
+
+@pytest.mark.parametrize("equipped", [True, False])
+def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped):
+    before = Mover("DAL456", NORTH, lands(LANDS_S - 20.0), equipped=equipped)
+    body = before.body("airplane", AIRLINER)
+    field = look_at(arrival(), before, cameras=approach_cameras(body), seconds=44.0)
+    assert Severity.WARNING not in {advisory.severity for _, advisory in field.told}
+
+
+@pytest.mark.parametrize(
+    "bird",
+    [
+        flock(lambda _: -280.0, lambda _: 0.0),
+        flock(lambda t_s: -400.0 - 15.0 * max(t_s - 45.0, 0.0), rises),
+        flock(lambda _: 0.0, lambda _: 400.0),
+    ],
+    ids=["sits beside the approach", "flies away from it", "passes high above it"],
+)
+def test_one_that_does_not_is_left_alone(bird):
+    assert look_at(arrival(), cameras=approach_cameras(bird)).told == []
+
+
+def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway():
+    """By the runway's elevation the arrival would be 127 m higher than it is."""
+    airport = BRIEFING.airport
+    lower = [each.model_copy(update={"elevation_ft": -400.0}) for each in airport.runways]
+    field = Airfield([arrival()], cameras=approach_cameras(flock(lambda _: 0.0, lambda _: 230.0)))
+    field.briefing = BRIEFING.model_copy(
+        update={"airport": airport.model_copy(update={"runways": tuple(lower)})}
+    )
+    assert field.run(LANDS_S - 5.0).told == []
+
+
+def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_caution():
+    bird = flock(lambda _: 0.0, lambda _: 55.0)
+    west, _ = approach_cameras(bird)
+    field = look_at(arrival(), cameras=[west])
+    assert field.worst is Severity.CAUTION
+    assert field.advice("AAL123") == []
+
+
+# --- hints that are not enough alone --------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("vision", "activity", "communication", "severity"),
+    [
+        (1.0, 1.0, 1.0, Severity.CAUTION),
+        (0.8, 1.0, 0.0, Severity.CAUTION),
+        (0.5, 1.0, 1.0, Severity.CAUTION),
+        (0.79, 1.0, 0.0, Severity.ADVISORY),
+        (0.3, 1.0, 0.0, Severity.ADVISORY),
+        (0.0, 1.0, 1.0, Severity.ADVISORY),
+        (0.29, 1.0, 0.0, None),
+        (0.9, 0.0, 0.0, None),
+    ],
+)
+def test_hints_are_weighed_as_in_the_paper(vision, activity, communication, severity):
+    assert fused_severity(vision, activity, communication) is severity
+
+
+def test_a_faint_sighting_is_for_the_controller_alone_until_somebody_reports_the_same():
+    deer = still("deer", at(760.0, 0.0), DEER)
+    look = {"width_px": 1280, "height_px": 720, "confidence": 0.4}
+    faint = camera("side", (600.0, 110.0, 8.0), -35.0, [deer], **look)
+    field = look_at(arrival(), cameras=[faint])
+    assert field.worst is Severity.ADVISORY
+    assert {advisory.recipient for _, advisory in field.told} == {"ATC"}
+    assert "deer on runway 01" in field.told[0][1].message

@@ -1,0 +1,288 @@
+"""Looking again only where a picture has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.assistant.vision.changes import MARGIN_PX, changed_blocks, windows_about
+from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.assistant.vision.gating import Gate
+from airhilt.assistant.vision.tiling import Tile, tiles_of
+from airhilt.imaging.boxes import area, moved, shared_area
+from airhilt.messages import Box
+from pictures import COLOURS, Blob, BlobDetector, background, with_blobs
+
+BIG = 1920, 1080
+
+
+def test_an_identical_picture_has_the_same_in_it_without_a_look() -> None:
+    detector = BlobDetector()
+    gate = Gate(detector)
+    picture = with_blobs(background(), [("truck", (100, 100, 130, 120))])
+    first, *others = [gate.look("tower", picture.copy()) for _ in range(100)]
+    assert len(first) == 1
+    assert all(found == first for found in others)
+    assert detector.asked == [(360, 640)]
+
+
+def test_in_a_big_picture_only_tiles_with_a_change_are_looked_at() -> None:
+    detector = BlobDetector()
+    gate = Gate(detector)
+    scene = with_blobs(background(*BIG), [("airplane", (1400, 60, 1460, 80))])
+    tiles = len(tiles_of(scene))
+    gate.look("tower", scene)
+    assert len(detector.asked) == tiles
+    # In the corner of the first tile, where no other tile is.
+    moved = with_blobs(scene, [("truck", (100, 200, 124, 212))])
+    found = gate.look("tower", moved)
+    assert len(detector.asked) == tiles + 1
+    assert found == Gate(BlobDetector()).look("tower", moved)
+    assert {one.label for one in found} == {"airplane", "truck"}
+
+
+BLOBS = st.lists(
+    st.builds(
+        lambda label, left, top, width, height: (
+            label,
+            (left, top, min(left + width, 1400), min(top + height, 200)),
+        ),
+        st.sampled_from(sorted(COLOURS)),
+        st.integers(0, 1399),
+        st.integers(0, 199),
+        st.integers(1, 60),
+        st.integers(1, 60),
+    ),
+    max_size=4,
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(scenes=st.lists(BLOBS, min_size=2, max_size=4), still=BLOBS)
+def test_it_finds_what_a_look_at_everything_finds(
+    scenes: list[list[Blob]], still: list[Blob]
+) -> None:
+    gate = Gate(BlobDetector())
+    for blobs in scenes:
+        picture = with_blobs(background(1400, 200), [*still, *blobs])
+        assert gate.look("tower", picture) == Gate(BlobDetector()).look("tower", picture)
+
+
+def test_what_vanishes_is_not_found_any_more() -> None:
+    gate, scene = Gate(BlobDetector()), background()
+    assert gate.look("tower", with_blobs(scene, [("bird", (300, 100, 306, 104))]))
+    assert not gate.look("tower", scene)
+
+
+def test_a_faint_change_counts_once_it_has_added_up() -> None:
+    detector = BlobDetector()
+    gate, scene = Gate(detector), background()
+    for step in range(4):
+        gate.look("tower", scene + np.uint8(step))
+    assert len(detector.asked) == 2
+
+
+def test_a_faint_change_counts_too_where_windows_elsewhere_were_looked_at() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), background()
+    gate.look("tower", scene)
+    for step in (1, 2):
+        scene[300, 600] += 1
+        gate.look("tower", with_blobs(scene, [("truck", (10, 10, 10 + step, 20))]))
+    assert len(detector.asked) == 1 + 1 + 2
+
+
+def test_cameras_do_not_know_of_each_other() -> None:
+    detector = BlobDetector()
+    gate = Gate(detector)
+    empty, full = background(), with_blobs(background(), [("truck", (50, 50, 80, 70))])
+    for _ in range(3):
+        assert not gate.look("tower", empty)
+        assert gate.look("runway", full)
+    assert len(detector.asked) == 2
+
+
+def test_a_picture_that_was_missed_is_looked_at_again() -> None:
+    class Late(BlobDetector):
+        def detect(self, picture: Picture) -> list[Found]:
+            found = list(super().detect(picture))
+            if len(self.asked) == 1:
+                raise PictureMissed("detector late: no answer")
+            return found
+
+    gate, truck = Gate(Late()), with_blobs(background(), [("truck", (50, 50, 80, 70))])
+    with pytest.raises(PictureMissed):
+        gate.look("tower", truck)
+    assert gate.look("tower", truck)
+
+
+def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
+    gate = Gate(BlobDetector())
+    picture = with_blobs(background(), [("truck", (50, 50, 80, 70))])
+    assert gate.look("tower", picture)
+    picture[:] = background()
+    assert not gate.look("tower", picture)
+
+
+@pytest.mark.parametrize(("level", "expected"), [(8, False), (10, False), (7, True), (11, True)])
+def test_one_pixel_in_an_odd_corner_is_a_change_from_two_levels_on(
+    level: int, expected: bool
+) -> None:
+    before = np.full((361, 645, 3), 9, np.uint8)
+    after = before.copy()
+    after[360, 644, 2] = level
+    changed = changed_blocks(before, after)
+    assert changed[-1, -1] == expected
+    assert changed.sum() == int(expected)
+
+
+# --- windows, of detectors that see parts ---------------------------------------------------
+
+
+class PartBlobDetector(BlobDetector):
+    """Sees parts of pictures too."""
+
+    def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+        found = self.detect(part.of(picture))
+        return [one._replace(box=moved(one.box, part.left, part.top)) for one in found]
+
+
+def places(found: Sequence[Found]) -> set[tuple[str, Box]]:
+    return {(one.label, one.box) for one in found}
+
+
+def test_only_a_window_about_a_small_change_is_looked_at() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), with_blobs(background(), [("truck", (20, 20, 50, 40))])
+    gate.look("tower", scene)
+    found = gate.look("tower", with_blobs(scene, [("airplane", (400, 200, 430, 210))]))
+    assert {one.label for one in found} == {"airplane", "truck"}
+    rows, columns = detector.asked[-1]
+    assert 10 + 2 * MARGIN_PX <= rows < 180
+    assert 30 + 2 * MARGIN_PX <= columns < 220
+
+
+def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), with_blobs(background(), [("airplane", (100, 100, 300, 120))])
+    gate.look("tower", scene)
+    lit = scene.copy()
+    lit[90, 110] = 255
+    assert places(gate.look("tower", lit)) == {("airplane", (100.0, 100.0, 300.0, 120.0))}
+    assert detector.asked[-1][1] >= 200
+
+
+@pytest.mark.parametrize(("wide", "is_whole"), [(180, False), (400, True)])
+def test_all_is_looked_at_where_windows_would_hold_most_of_it(wide: int, is_whole: bool) -> None:
+    detector = PartBlobDetector()
+    gate, scene = Gate(detector), background()
+    gate.look("tower", scene)
+    gate.look("tower", with_blobs(scene, [("truck", (100, 5, 100 + wide, 355))]))
+    assert (detector.asked[-1] == (360, 640)) == is_whole
+
+
+def test_at_the_edges_of_a_picture_windows_are_no_smaller() -> None:
+    for row, column in product((0, 22), (0, 39)):
+        blocks = np.zeros((23, 40), dtype=bool)
+        blocks[row, column] = True
+        window = windows_about(blocks, [], 360, 640)[0]
+        # The last row of blocks is half in the picture.
+        assert min(window.height, window.width) >= 80
+        assert window.holds((16.0 * column + 8.0, min(16.0 * row + 8.0, 359.0)))
+
+
+def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
+    class FarReaching(PartBlobDetector):
+        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+            _, top, right, bottom = part.box
+            inner = right - 30.0, top, right + 20.0, bottom
+            outer = right - 20.0, top, right + 30.0, bottom
+            return [Found("bird", 0.4, inner), Found("truck", 0.9, outer)]
+
+    gate, scene = Gate(FarReaching()), background()
+    gate.look("tower", scene)
+    found = gate.look("tower", with_blobs(scene, [("bird", (300, 100, 306, 104))]))
+    assert [one.label for one in found] == ["bird"]
+
+
+def test_the_surest_of_all_windows_and_of_what_was_there_come_first() -> None:
+    gate, scene = Gate(PartBlobDetector()), background()
+    still = with_blobs(scene, [("truck", (300, 40, 330, 60))])
+    gate.look("tower", still)
+    ends = [("bird", (60, 60, 66, 64)), ("airplane", (560, 300, 566, 304))]
+    found = gate.look("tower", with_blobs(still, ends))
+    assert len(found) == 3
+    assert [one.confidence for one in found] == sorted(
+        (one.confidence for one in found), reverse=True
+    )
+
+
+def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
+    class Wide(PartBlobDetector):
+        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+            column = part.left + part.width / 2.0
+            return [Found("truck", column / 1000.0, (column - 250.0, 100.0, column + 250.0, 200.0))]
+
+    gate, scene = Gate(Wide()), background()
+    gate.look("tower", scene)
+    both = [("bird", (260, 150, 262, 152)), ("bird", (388, 150, 390, 152))]
+    blocks = changed_blocks(scene, with_blobs(scene, both))
+    assert len(windows_about(blocks, [], 360, 640)) == 2
+    found = gate.look("tower", with_blobs(scene, both))
+    assert [one.confidence > 0.325 for one in found] == [True]
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1400, 200), (645, 361)])
+@settings(max_examples=30, deadline=None)
+@given(scenes=st.lists(BLOBS, min_size=2, max_size=5), still=BLOBS)
+def test_windows_find_what_a_look_at_everything_finds(
+    size: tuple[int, int], scenes: list[list[Blob]], still: list[Blob]
+) -> None:
+    gate = Gate(PartBlobDetector())
+    for blobs in scenes:
+        picture = with_blobs(background(*size), [*still, *blobs])
+        found = places(gate.look("tower", picture))
+        assert found == places(Gate(BlobDetector()).look("tower", picture))
+
+
+def test_a_body_that_stood_unseen_between_two_windows_is_not_told_in_halves() -> None:
+    """Windows that touch are one."""
+    blocks = np.zeros((23, 40), dtype=bool)
+    blocks[10, 4] = blocks[10, 4 + 2 * MARGIN_PX // 16 + 1] = True
+    assert len(windows_about(blocks, [], 360, 640)) == 1
+
+
+@given(
+    changed=st.sets(st.tuples(st.integers(0, 22), st.integers(0, 39)), max_size=12),
+    boxes=st.lists(
+        st.builds(
+            lambda left, top, wide, high: (left, top, min(left + wide, 640.0), top + high),
+            st.floats(0.0, 600.0), st.floats(0.0, 300.0), st.floats(1.0, 200.0),
+            st.floats(1.0, 60.0),
+        ),
+        max_size=4,
+    ),
+)  # fmt: skip
+def test_windows_hold_changes_and_cut_nothing_that_was_there(
+    changed: set[tuple[int, int]], boxes: list[Box]
+) -> None:
+    blocks = np.zeros((23, 40), dtype=bool)
+    for row, column in changed:
+        blocks[row, column] = True
+    windows = windows_about(blocks, boxes, 360, 640)
+    held = np.zeros((360, 640), dtype=int)
+    for window in windows:
+        window.of(held)[...] += 1
+    assert held.max(initial=0) <= 1
+    assert all(
+        held[16 * row : 16 * row + 16, 16 * column : 16 * column + 16].all()
+        for row, column in changed
+    )
+    for box in boxes:
+        shared = [shared_area(box, window.box) for window in windows]
+        assert max(shared, default=0.0) in (0.0, pytest.approx(area(box)))

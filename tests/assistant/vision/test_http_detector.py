@@ -1,0 +1,184 @@
+"""A detector behind an address, well and unwell."""
+
+from __future__ import annotations
+
+import json
+import re
+from http.server import BaseHTTPRequestHandler
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+
+from airhilt.assistant.vision.detector import Found, PictureMissed
+from airhilt.assistant.vision.http import HttpDetector, encode_png
+from airhilt.errors import VisionError
+from pictures import background, with_blobs
+from services import (
+    Slow,
+    Slowness,
+    answering,
+    breaking_off,
+    endless,
+    nobody,
+    redirecting,
+    service,
+)
+
+PICTURE = with_blobs(background(65, 33), [("airplane", (10, 10, 30, 20))])
+TRUCK = {"label": "truck", "confidence": 0.5, "box": [1, 2, 30, 20]}
+
+
+def ask(url: str, timeout_s: float = 5.0) -> list[Found]:
+    return list(HttpDetector(url, timeout_s).detect(PICTURE))
+
+
+def ask_one_that_says(answer: Any) -> list[Found]:
+    data = answer if isinstance(answer, bytes) else json.dumps(answer).encode()
+    with service(answering(data)) as url:
+        return ask(url)
+
+
+def test_it_is_given_a_png_and_gives_findings() -> None:
+    given: list[tuple[str, bytes]] = []
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        given.append((handler.headers["Content-Type"], body))
+        answering(json.dumps({"detections": [TRUCK], "model": "mine"}).encode())(handler, body)
+
+    with service(answer) as url:
+        assert ask(url) == [Found("truck", 0.5, (1.0, 2.0, 30.0, 20.0))]
+    assert given == [("image/png", encode_png(PICTURE))]
+
+
+def test_the_png_is_the_picture() -> None:
+    image = pytest.importorskip("PIL.Image")
+    import io
+
+    for columns, rows in ((65, 33), (1, 1), (640, 360)):
+        picture = background(columns, rows, seed=3)
+        decoded = np.asarray(image.open(io.BytesIO(encode_png(picture))))
+        np.testing.assert_array_equal(decoded, picture)
+
+
+def test_nothing_found_is_an_answer() -> None:
+    assert ask_one_that_says({"detections": []}) == []
+
+
+def test_boxes_are_cut_to_the_picture() -> None:
+    (found,) = ask_one_that_says({"detections": [TRUCK | {"box": [-3, -1e9, 70, 20]}]})
+    assert found.box == (0.0, 0.0, 65.0, 20.0)
+
+
+@pytest.mark.parametrize("box", [[5, 5, 5, 9], [100, 2, 120, 20], [-9, 2, 0, 20]])
+def test_what_has_nothing_in_the_picture_is_dropped(box: list[float]) -> None:
+    (found,) = ask_one_that_says({"detections": [TRUCK | {"box": box}, TRUCK]})
+    assert found.box == (1.0, 2.0, 30.0, 20.0)
+
+
+class TestServiceThat:
+    def test_is_down(self) -> None:
+        url = nobody()
+        with pytest.raises(VisionError, match=f"detector http: {url} is not there: .*refused"):
+            ask(url)
+
+    def test_has_no_address(self) -> None:
+        for url in ("tower", "file:///etc/passwd", "http://", "http://a:b/"):
+            with pytest.raises(VisionError, match="is no address"):
+                HttpDetector(url)
+
+    @pytest.mark.parametrize("how", get_args(Slowness))
+    def test_is_slow(self, how: Slowness) -> None:
+        slow = Slow(how, b'{"detections": []}')
+        with service(slow) as url:
+            with pytest.raises(VisionError, match=r"has not answered for 0\.3 s"):
+                ask(url, 0.3)
+            slow.released.set()
+
+    def test_answers_without_an_end(self) -> None:
+        with (
+            service(endless) as url,
+            pytest.raises(VisionError, match="answers with more than 1000000 bytes"),
+        ):
+            ask(url)
+
+    def test_breaks_off(self) -> None:
+        with service(breaking_off) as url, pytest.raises(VisionError, match="broke off"):
+            ask(url)
+
+    def test_sends_elsewhere(self) -> None:
+        with (
+            service(redirecting("http://127.0.0.1:9/")) as url,
+            pytest.raises(VisionError, match="HTTP status 303"),
+        ):
+            ask(url)
+
+    def test_fails(self) -> None:
+        with (
+            service(answering(b"no memory", status=500)) as url,
+            pytest.raises(VisionError, match="HTTP status 500: 'no memory'"),
+        ):
+            ask(url)
+
+    @pytest.mark.parametrize(
+        ("answer", "problem"),
+        [
+            (b"<html>", "Invalid JSON"),
+            (b"\xff\xfe", "Invalid JSON"),
+            (b"", "Invalid JSON"),
+            ([], "object"),
+            ({}, "detections: Field required"),
+            ({"detections": [TRUCK | {"label": "dog"}]}, "detections/0/label"),
+            ({"detections": [TRUCK | {"confidence": 1.5}]}, "detections/0/confidence"),
+            ({"detections": [TRUCK | {"confidence": float("nan")}]}, "detections/0/confidence"),
+            ({"detections": [TRUCK | {"box": [1, 2, 3]}]}, "detections/0/box"),
+            ({"detections": [TRUCK | {"box": [1, 2, float("inf"), 4]}]}, "detections/0/box"),
+            ({"detections": [TRUCK | {"box": [1, 2, "x", 4]}]}, "detections/0/box"),
+            ({"detections": [TRUCK] * 1001}, "at most 1000"),
+        ],
+        ids=str,
+    )
+    def test_answers_something_else(self, answer: Any, problem: str) -> None:
+        with pytest.raises(VisionError, match=f"{problem}.*expected JSON such as"):
+            ask_one_that_says(answer)
+
+    @pytest.mark.parametrize("box", [[30, 2, 1, 20], [1, 20, 30, 2]])
+    def test_answers_a_box_that_ends_before_it_begins(self, box: list[float]) -> None:
+        with pytest.raises(VisionError, match=r"box .*in a picture of 65 by 33 pixels"):
+            ask_one_that_says({"detections": [TRUCK | {"box": box}]})
+
+
+class TestRequestWithoutAnAnswer:
+    """The service fails or answers as often as it is told to."""
+
+    def look(self, statuses: str) -> list[str]:
+        """Return what becomes of pictures; ``-`` is a request that fails."""
+        left = list(statuses)
+
+        def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+            failed = left.pop(0) == "-"
+            answering(b'{"detections": []}', status=500 if failed else 200)(handler, body)
+
+        told = []
+        with service(answer) as url:
+            detector = HttpDetector(url)
+            for _ in statuses:
+                try:
+                    detector.detect(PICTURE)
+                    told.append("seen")
+                except PictureMissed:
+                    told.append("missed")
+                except VisionError as error:
+                    told.append(f"lost: {error}")
+        return told
+
+    def test_costs_the_picture(self) -> None:
+        assert self.look("+--+") == ["seen", "missed", "missed", "seen"]
+
+    def test_the_third_in_a_row_ends_it(self) -> None:
+        first, second, third = self.look("---")
+        assert first == second == "missed"
+        assert re.fullmatch(r"lost: detector http: .*HTTP status 500.*\(3 times in a row\)", third)
+
+    def test_an_answer_in_between_begins_the_row_anew(self) -> None:
+        assert self.look("--+--+") == ["missed", "missed", "seen"] * 2

@@ -1,0 +1,170 @@
+"""ultralytics YOLO, here a small model that has learned nothing."""
+
+from __future__ import annotations
+
+import importlib.util
+import socket
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from airhilt.assistant.vision.engines import vision_engine
+from airhilt.assistant.vision.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
+from airhilt.errors import VisionError
+from pictures import background
+
+INSTALLED = importlib.util.find_spec("ultralytics") is not None
+pytestmark = [
+    pytest.mark.yolo,
+    pytest.mark.skipif(not INSTALLED, reason="no ultralytics: pip install airhilt[yolo]"),
+    pytest.mark.filterwarnings("ignore"),
+]
+NAMES = {4: "airplane", 2: "car", 5: "bus", 7: "truck", 14: "bird", 16: "dog", 17: "horse"}
+"""Some of COCO's."""
+PICTURE = background(640, 360)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _offline(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """No settings of the user, no network, and operators for torchvision where it has none."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("YOLO_CONFIG_DIR", str(tmp_path_factory.mktemp("ultralytics")))
+        for name in ("YOLO_OFFLINE", "YOLO_VERBOSE"):
+            patch.setenv(name, "true" if name == "YOLO_OFFLINE" else "false")
+        patch.setattr(socket.socket, "connect", _no_network)
+        _mend_torchvision()
+        yield
+
+
+def _no_network(*_: object) -> None:
+    raise AssertionError("something asked the network")
+
+
+def _mend_torchvision() -> None:
+    """Give a torchvision that was built for another torch the one operator that is needed."""
+    import torch
+
+    try:
+        import torchvision.ops
+
+        torchvision.ops.nms(torch.zeros(0, 4), torch.zeros(0), 0.5)
+    except (ImportError, RuntimeError):
+        from ultralytics.utils.nms import TorchNMS
+
+        _OPERATORS.append(library := torch.library.Library("torchvision", "DEF"))
+        for name in ("nms", "qnms"):
+            library.define(f"{name}(Tensor dets, Tensor scores, float iou_threshold) -> Tensor")
+        library.impl("nms", TorchNMS.nms, "CPU")
+        import torchvision.extension
+
+        torchvision.extension._has_ops = lambda: True
+
+
+_OPERATORS: list[object] = []
+"""Kept, because they go when their library does."""
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with YOLOv10 of COCO's classes, as .pt and as .onnx, and one of other classes.
+
+    Its layers are scaled to noise, and its last one finds airplanes and dogs here and there.
+    """
+    import torch
+    from ultralytics import YOLO
+
+    folder = tmp_path_factory.mktemp("models")
+    torch.manual_seed(1)
+    model = YOLO("yolov10n.yaml")
+    model.model.names = {index: NAMES.get(index, f"class{index}") for index in range(80)}
+    for layer in model.model.modules():
+        if isinstance(layer, torch.nn.BatchNorm2d):
+            layer.momentum = 1.0
+    with torch.no_grad():
+        model.model.train()(torch.rand(4, 3, 128, 128))
+    model.model.eval()
+    head = model.model.model[-1]
+    for branch in (*head.cv3, *head.one2one_cv3):
+        torch.nn.init.normal_(branch[-1].weight, std=0.01)
+        branch[-1].bias.data[[4, 16]] = -2.0
+    model.save(folder / "yolov10n.pt")
+    YOLO(folder / "yolov10n.pt").export(format="onnx", imgsz=320, simplify=False)
+    (folder / "yolov10n.onnx").rename(folder / "fixed.onnx")
+    YOLO(folder / "yolov10n.pt").export(format="onnx", dynamic=True, simplify=False)
+    model.model.names = {index: f"class{index}" for index in range(80)}
+    model.save(folder / "others.pt")
+    return folder
+
+
+@pytest.mark.parametrize("file", ["yolov10n.pt", "yolov10n.onnx", "fixed.onnx"])
+class TestModel:
+    def test_finds_things_with_names_that_are_known(self, models: Path, file: str) -> None:
+        detector, threshold = vision_engine(f"yolo:{models / file}")
+        found = detector.detect(PICTURE)
+        assert found
+        assert {one.label for one in found} <= set(LABELS.values())
+        assert all(LEAST_CONFIDENCE <= one.confidence <= 1.0 for one in found)
+        assert [one.confidence for one in found] == sorted(
+            (one.confidence for one in found), reverse=True
+        )
+        for left, top, right, bottom in (one.box for one in found):
+            assert 0.0 <= left < right <= 640.0
+            assert 0.0 <= top < bottom <= 360.0
+        assert LEAST_CONFIDENCE < threshold < 1.0
+        assert detector.name == f"yolo:{Path(file).stem}"
+
+    def test_finds_the_same_in_the_same(self, models: Path, file: str) -> None:
+        first, second = (YoloDetector(models / file).detect(PICTURE) for _ in range(2))
+        assert list(first) == list(second)
+
+    @pytest.mark.parametrize(("columns", "rows"), [(160, 320), (333, 97)])
+    def test_takes_pictures_of_any_size(
+        self, models: Path, file: str, columns: int, rows: int
+    ) -> None:
+        for one in YoloDetector(models / file).detect(background(columns, rows)):
+            assert one.box[2] <= columns
+            assert one.box[3] <= rows
+
+
+def test_the_two_forms_of_a_model_find_the_same(models: Path) -> None:
+    torch_found = YoloDetector(models / "yolov10n.pt").detect(background(640, 384))
+    onnx_found = YoloDetector(models / "yolov10n.onnx").detect(background(640, 384))
+    assert len(torch_found) == len(onnx_found)
+    for one, other in zip(torch_found, onnx_found, strict=True):
+        assert one.confidence == pytest.approx(other.confidence, abs=1e-4)
+
+
+def test_red_and_blue_are_not_mistaken_for_each_other(models: Path) -> None:
+    """The model sees the picture as ultralytics shows it one that it reads from a file."""
+    image = pytest.importorskip("PIL.Image")
+    picture = background(320, 320)
+    picture[100:200, 100:200] = (255, 0, 40)
+    path = models / "picture.png"
+    image.fromarray(picture).save(path)
+    detector = YoloDetector(models / "yolov10n.pt")
+    found = detector.detect(picture)
+    boxes = detector._model.predict(
+        path, imgsz=320, conf=LEAST_CONFIDENCE, max_det=300, classes=list(detector._labels),
+        verbose=False,
+    )[0].boxes  # fmt: skip
+    assert found
+    assert [one.confidence for one in found] == pytest.approx(boxes.conf.tolist(), abs=1e-6)
+
+
+def test_a_model_of_other_things_is_refused(models: Path) -> None:
+    with pytest.raises(VisionError, match=r"others\.pt: it knows 80 classes \(class0.*airplane"):
+        YoloDetector(models / "others.pt")
+
+
+def test_a_file_that_is_no_model_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "broken.pt"
+    path.write_bytes(b"not a model")
+    with pytest.raises(VisionError, match=r"broken\.pt: does not load"):
+        YoloDetector(path)
+
+
+def test_nothing_is_printed(models: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    YoloDetector(models / "yolov10n.pt").detect(np.zeros((64, 64, 3), np.uint8))
+    assert capfd.readouterr().out == ""

@@ -1,0 +1,386 @@
+"""Workers in other processes: real processes, real Zenoh."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import textwrap
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+import pytest
+
+from airhilt import run
+from airhilt.bus import Bus, free_endpoint
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot
+from airhilt.errors import AirhiltError, BusError, RunStopped, WorkerError
+from airhilt.record import RunFolder, read_log
+from airhilt.scenario import Scenario
+from paths import EXAMPLES
+from processes import ActsAt, process
+
+
+@contextmanager
+def decision_worker(endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
+    with process("-m", "airhilt", "worker", "decision", "--connect", endpoint) as started:
+        yield started
+
+
+def test_a_worker_in_another_process_gives_the_same_log(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    inside = run(encounter, out=tmp_path / "inside", latency="fixed").folder
+    endpoint = free_endpoint()
+    with decision_worker(endpoint) as worker:
+        outside = run(
+            encounter, out=tmp_path / "outside", latency="fixed", assistant="reference",
+            listen=endpoint, attach=("decision",),
+        ).folder  # fmt: skip
+        assert worker.wait(timeout=10.0) == 0
+    assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
+    assert RunFolder(outside).info().workers[0].where == "attached"
+    assert replay(outside).identical
+
+
+def test_an_attached_worker_knows_the_separation_of_the_scenario(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    narrow = encounter.separation.model_copy(update={"horizontal_nm": 3.0})
+    scenario = encounter.model_copy(update={"separation": narrow})
+    inside = run(scenario, out=tmp_path / "inside", latency="fixed").folder
+    endpoint = free_endpoint()
+    with decision_worker(endpoint):
+        outside = run(
+            scenario, out=tmp_path / "outside", latency="fixed", listen=endpoint,
+            attach=("decision",),
+        ).folder  # fmt: skip
+    assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
+
+
+def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path: Path) -> None:
+    """In an outage the decision worker carries conflicts on, called by its own alarm."""
+    adsb = encounter.adsb.model_copy(update={"outages_s": ((8.0, 20.0),)})
+    deaf = tuple(
+        actor.model_copy(update={"pilot": actor.pilot.model_copy(update={"compliance": 0.0})})
+        for actor in encounter.actors
+    )
+    scenario = encounter.model_copy(update={"adsb": adsb, "actors": deaf})
+    endpoint = free_endpoint()
+    with decision_worker(endpoint):
+        folder = run(
+            scenario, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("decision",)
+        ).folder
+    steps = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
+    woken = [s for s in steps if s["worker"] == "decision" and 9e9 < s["t_start_ns"] < 20e9]
+    assert len(woken) >= 8
+    told_s = [x.t_ns / 1e9 for x in read_log(folder / "log.mcap") if x.key == "advisory/ATC"]
+    assert max(told_s) > 20.0, "something is said after the outage, by a later step"
+    assert replay(folder).identical
+
+
+@pytest.mark.parametrize("strict", [False, True])
+def test_a_program_without_grants_that_dies_is_noticed_too(
+    encounter: Scenario, tmp_path: Path, strict: bool
+) -> None:
+    class Kills(Observer):
+        def snapshot(self, snapshot: Snapshot) -> None:
+            if snapshot.t_s >= 2.0 and program.poll() is None:
+                program.kill()
+                program.wait()
+                time.sleep(0.3)
+
+    short = encounter.model_copy(update={"duration_s": 4.0})
+    endpoint = free_endpoint()
+    options = {"listen": endpoint, "attach": ("plain",), "strict": strict, "observer": Kills()}
+    with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
+        if strict:
+            with pytest.raises(RunStopped, match="plain"):
+                run(short, out=tmp_path / "run", **options)
+            return
+        result = run(short, out=tmp_path / "run", **options)
+    assert result.summary.modalities["decision"] == "lost"
+    assert replay(result.folder).identical
+
+
+def test_external_without_anybody_is_no_assistant(encounter: Scenario, tmp_path: Path) -> None:
+    summary = run(encounter, out=tmp_path / "run", assistant="external").summary
+    assert summary.modalities["decision"] == "off"
+
+
+@pytest.mark.parametrize("latency", ["measured", "fixed"])
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_worker_that_dies_or_freezes_is_noticed_and_the_run_goes_on(
+    encounter: Scenario, tmp_path: Path, latency: str, number: signal.Signals
+) -> None:
+    endpoint = free_endpoint()
+    with decision_worker(endpoint) as worker:
+        result = run(
+            encounter, out=tmp_path / "run", latency=latency, listen=endpoint,
+            attach=("decision",), step_timeout_s=1.0, observer=ActsAt(10.0, worker, number),
+        )  # fmt: skip
+    assert result.summary.outcome == "finished"
+    assert result.summary.modalities["decision"] == "lost"
+    assert result.summary.duration_s == pytest.approx(30.0)
+    lost = [
+        json.loads(logged.data)
+        for logged in read_log(result.folder / "log.mcap")
+        if logged.key == "status/decision"
+    ][-1]
+    assert lost["state"] == "lost"
+    assert "decision" in lost["cause"]
+    assert 10e9 <= lost["t_ns"] < 12e9
+    assert replay(result.folder).identical
+
+
+def test_strict_stops_with_the_cause(encounter: Scenario, tmp_path: Path) -> None:
+    endpoint = free_endpoint()
+    with (
+        decision_worker(endpoint) as worker,
+        pytest.raises(RunStopped, match=r"--strict asks: worker 'decision'"),
+    ):
+        run(
+            encounter, out=tmp_path / "run", listen=endpoint, attach=("decision",), strict=True,
+            observer=ActsAt(10.0, worker, signal.SIGKILL),
+        )  # fmt: skip
+    info = RunFolder(tmp_path / "run").info()
+    assert info.phase == "stopped"
+    assert "decision" in info.cause
+
+
+def test_the_example_on_the_sdk_works(encounter: Scenario, tmp_path: Path) -> None:
+    endpoint = free_endpoint()
+    with process(EXAMPLES / "sdk_worker.py", endpoint) as worker:
+        result = run(encounter, out=tmp_path / "run", listen=endpoint, attach=("simple",))
+        assert worker.wait(timeout=10.0) == 0
+    assert result.summary.assistant == "external"
+    assert [told.id for told in result.summary.advisories] == ["a1b2c3-a4d5e6"]
+    assert replay(result.folder).identical
+
+
+def test_the_example_in_plain_zenoh_makes_the_run_real_time_and_counts(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    short = encounter.model_copy(update={"duration_s": 4.0})
+    endpoint = free_endpoint()
+    with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint):
+        result = run(short, out=tmp_path / "run", listen=endpoint, attach=("plain",))
+    assert RunFolder(result.folder).info().options.pace == "realtime"
+    assert RunFolder(result.folder).info().unregistered_programs
+    assert [told.id for told in result.summary.advisories] == ["plain-1"]
+    assert replay(result.folder).identical
+
+
+class Retrying:
+    """Starts a program once a run listens: plain programs do not wait for it."""
+
+    def __init__(self, program: Path, endpoint: str) -> None:
+        wait = textwrap.dedent(
+            f"""
+            import runpy, socket, sys, time
+            host, port = {endpoint.removeprefix("tcp/")!r}.split(":")
+            while True:
+                try:
+                    socket.create_connection((host, int(port))).close()
+                    break
+                except OSError:
+                    time.sleep(0.05)
+            sys.argv = ["program", {endpoint!r}]
+            runpy.run_path({str(program)!r}, run_name="__main__")
+            """
+        )
+        self._process = process("-c", wait)
+
+    def __enter__(self) -> subprocess.Popen[bytes]:
+        return self._process.__enter__()
+
+    def __exit__(self, *error: object) -> None:
+        self._process.__exit__(None, None, None)
+
+
+BAD_WORKER = """
+import json, sys, zenoh
+from airhilt.bus.session import configuration
+import time
+endpoint, answer = sys.argv[1:]
+while True:
+    try:
+        session = zenoh.open(configuration("client", "connect", endpoint))
+        break
+    except zenoh.ZError:
+        time.sleep(0.05)
+run = next(iter(session.get("airhilt/*/clock"))).ok
+key = str(run.key_expr).removesuffix("clock") + "worker/bad"
+description = {"name": "bad", "modality": "decision", "inputs": [{"key": "adsb/*"}]}
+def describe(query):
+    with query:
+        query.reply(key + "/describe", json.dumps(description))
+def step(query):
+    with query:
+        grant = json.loads(query.attachment.to_bytes())
+        reply = {"seq": grant["seq"], "compute_s": 0.0, "outputs": []}
+        payload = b""
+        if answer == "garbage":
+            query.reply(key + "/step", b"garbage", attachment=b"garbage")
+            return
+        if answer == "past":
+            payload = b"{}"
+            reply["outputs"] = [{"key": "advisory/ATC", "size": 2, "t_out_ns": 0}]
+        if answer == "truth":
+            payload = b"{}"
+            reply["outputs"] = [{"key": "truth/conflict", "size": 2}]
+        if answer == "no advisory":
+            payload = b"{}"
+            reply["outputs"] = [{"key": "advisory/ATC", "size": 2}]
+        if answer == "future":
+            payload = json.dumps({
+                "id": "bad-1", "revision": 0, "recipient": "ATC", "recipients": ["ATC"],
+                "kind": "loss_of_separation", "severity": "CAUTION", "traffic": [],
+                "message": "", "evidence": {"sources": []}, "t_ready_ns": 10**18,
+            }).encode()
+            reply["outputs"] = [{"key": "advisory/ATC", "size": len(payload)}]
+        if answer == "wild":
+            payload = b"{}"
+            reply["outputs"] = [{"key": "advisory/a#b", "size": 2}]
+        if answer == "sizes":
+            reply["outputs"] = [{"key": "advisory/ATC", "size": 99}]
+        if answer == "seq":
+            reply["seq"] += 1
+        query.reply(key + "/step", payload, attachment=json.dumps(reply))
+a = session.declare_queryable(key + "/describe", describe)
+b = session.declare_queryable(key + "/step", step)
+token = session.liveliness().declare_token(key)
+time.sleep(60)
+"""
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("garbage", "Invalid JSON"),
+        ("past", "before its step began"),
+        ("truth", "published on 'truth/conflict'"),
+        ("no advisory", "no Advisory"),
+        ("future", "expected a time that has come"),
+        ("wild", "no Advisory"),
+        ("sizes", "sizes"),
+        ("seq", "expected the seq of the grant"),
+    ],
+)
+def test_a_worker_that_breaks_the_contract_ends_the_run_with_its_name(
+    encounter: Scenario, tmp_path: Path, answer: str, said: str
+) -> None:
+    endpoint = free_endpoint()
+    with process("-c", BAD_WORKER, endpoint, answer), pytest.raises(WorkerError) as caught:
+        run(encounter, out=tmp_path / "run", listen=endpoint, attach=("bad",))
+    assert "'bad'" in str(caught.value)
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+    folder = RunFolder(tmp_path / "run")
+    assert folder.info().phase == "stopped"
+    assert (folder.summary() or {})["outcome"].startswith("stopped: worker 'bad'")
+
+
+def test_two_runs_side_by_side_do_not_meet() -> None:
+    with closing(Bus("one")) as first, closing(Bus("two")) as second:
+        assert first.endpoint != second.endpoint
+        assert first.endpoint.startswith("tcp/127.0.0.1:")
+        with pytest.raises(BusError, match="--listen"):
+            Bus("three", first.endpoint)
+
+
+@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
+def test_a_run_listens_on_loopback_only(encounter: Scenario, tmp_path: Path) -> None:
+    seen: set[str] = set()
+
+    class Looks(Observer):
+        def snapshot(self, snapshot: Snapshot) -> None:
+            seen.update(listening_addresses())
+
+    run(encounter, out=tmp_path / "run", latency="fixed", observer=Looks())
+    assert seen == {"127.0.0.1"}
+
+
+def listening_addresses() -> set[str]:
+    """Return the IPv4 and IPv6 addresses on which this process listens."""
+    inodes = set()
+    for link in Path("/proc/self/fd").iterdir():
+        target = str(link.readlink()) if link.is_symlink() else ""
+        if target.startswith("socket:["):
+            inodes.add(target[8:-1])
+    found = set()
+    for table in ("tcp", "tcp6"):
+        for line in Path("/proc/net", table).read_text().splitlines()[1:]:
+            fields = line.split()
+            if fields[3] == "0A" and fields[9] in inodes:
+                raw = bytes.fromhex(fields[1].split(":")[0])
+                found.add(".".join(map(str, reversed(raw))) if len(raw) == 4 else raw.hex())
+    return found
+
+
+def test_a_command_from_outside_moves_an_aircraft(encounter: Scenario, tmp_path: Path) -> None:
+    import zenoh
+
+    from airhilt.bus.session import configuration
+
+    class Commands(Observer):
+        def __init__(self) -> None:
+            self.session: zenoh.Session | None = None
+
+        def snapshot(self, snapshot: Snapshot) -> None:
+            if self.session is None:
+                config = configuration("client", "connect", endpoint)
+                self.session = zenoh.open(config)
+                command = {"command": {"action": "altitude", "altitude_ft": 33000.0}}
+                for name, payload in (("AAL123", json.dumps(command)), ("DAL456", "climb!")):
+                    self.session.put(f"airhilt/encounter-0/command/{name}", payload)
+                time.sleep(0.3)
+
+    endpoint = free_endpoint()
+    commands = Commands()
+    short = encounter.model_copy(update={"duration_s": 3.0})
+    try:
+        result = run(
+            short, out=tmp_path / "run", listen=endpoint, assistant="none", observer=commands
+        )
+    finally:
+        if commands.session is not None:
+            commands.session.close()  # type: ignore[no-untyped-call]
+    logged = list(read_log(result.folder / "log.mcap"))
+    targets = [
+        json.loads(x.data)["target_altitude_m"]
+        for x in logged
+        if x.key.endswith("AAL123") and x.key.startswith("truth/state")
+    ]
+    assert targets[-1] == pytest.approx(33000 * 0.3048)
+    events = [json.loads(x.data) for x in logged if x.key == "truth/event"]
+    assert [event["kind"] for event in events][:2] == ["unregistered", "refused"]
+
+
+def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> None:
+    from airhilt.messages import InputSpec, WorkerDescription
+    from airhilt.sim import Director, Virtual, parse_latency
+    from airhilt.workers import LocalWorker, Step
+    from airhilt.workers.pool import Participant, WorkerPool
+
+    class Peeks:
+        description = WorkerDescription(
+            name="peeks", modality="decision", inputs=(InputSpec(key="truth/*"),)
+        )
+
+        def step(self, t_ns: int, inputs: object) -> Step:
+            return Step()
+
+    with pytest.raises(AirhiltError, match="truth never reaches a worker"):
+        WorkerPool(
+            Director(Virtual()),
+            [Participant(Peeks.description, LocalWorker(Peeks()), attached=False)],
+            parse_latency("fixed"),
+            0,
+            publish=lambda key, message, worker: None,
+            done=lambda record: None,
+            lost=lambda worker, cause: None,
+        )

@@ -1,0 +1,199 @@
+"""Runs with cameras: pictures reach the detector, and a run goes on without them."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from airhilt import load
+from airhilt.cosim import cameras as vision
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Snapshot, run
+from airhilt.errors import AirhiltError, RendererError, RunStopped
+from airhilt.messages import CameraFrame, Detections, Status
+from airhilt.options import Options
+from airhilt.record import Logged, read_log
+from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import RendererName
+from airhilt.units import SECOND_NS
+
+pytest.importorskip("moderngl")
+SEEN = Options(renderer="moderngl", speech=False, latency="fixed")
+
+
+@pytest.fixture
+def short() -> Scenario:
+    """Two seconds of two aircraft that fly at each other 4 km apart."""
+    document = json.loads(load("s02a_headon").model_dump_json())
+    for actor in document["actors"]:
+        actor["initial"]["position"]["distance_nm"] = 1.08
+    for camera in document["cameras"]:
+        camera["rate_hz"] = 8.0
+    return Scenario.model_validate(document | {"name": "short", "duration_s": 2.0})
+
+
+def log_of(scenario: Scenario, out: Path, **options: object) -> list[Logged]:
+    run(scenario, dataclasses.replace(SEEN, out=out, **options))
+    return list(read_log(out / "log.mcap"))
+
+
+def messages(log: list[Logged], prefix: str) -> list[Logged]:
+    return [logged for logged in log if logged.key.startswith(prefix)]
+
+
+def states_of_vision(log: list[Logged]) -> list[tuple[str, str]]:
+    states = [Status.model_validate_json(each.data) for each in messages(log, "status/vision")]
+    return [(status.state, status.cause) for status in states]
+
+
+class Notices(Observer):
+    """Keeps what a user is told."""
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def notice(self, text: str) -> None:
+        self.told.append(text)
+
+
+def test_each_picture_is_looked_at_and_told_as_late_as_the_detector_is(
+    short: Scenario, tmp_path: Path
+) -> None:
+    log = log_of(short, tmp_path / "run", latency="fixed:0.05")
+    frames = [CameraFrame.model_validate_json(each.data) for each in messages(log, "camera/")
+              if each.key.endswith("/frame")]  # fmt: skip
+    seen = [Detections.model_validate_json(each.data) for each in messages(log, "vision/")]
+    assert len(frames) == 2 * 17
+    assert {each.t_ns - each.t_frame_ns for each in seen} >= {SECOND_NS // 20}
+    assert {(each.camera, each.seq) for each in seen} <= {(f.camera, f.seq) for f in frames}
+    assert len(seen) > 25
+    assert states_of_vision(log) == [("on", "")]
+
+
+def test_pictures_wait_for_nobody_and_old_ones_are_dropped_and_counted(
+    short: Scenario, tmp_path: Path
+) -> None:
+    options = dataclasses.replace(SEEN, latency="fixed:0.3", out=tmp_path / "run")
+    summary = run(short, options).summary
+    dropped = [n for key, n in summary.inputs_dropped.items() if "camera/nose" in key]
+    assert sum(dropped) > 10
+
+
+def test_a_run_with_cameras_is_the_same_every_time(short: Scenario, tmp_path: Path) -> None:
+    first = log_of(short, tmp_path / "first")
+    assert log_of(short, tmp_path / "second") == first
+
+
+def test_a_measured_run_with_cameras_is_replayed_to_the_byte(
+    short: Scenario, tmp_path: Path
+) -> None:
+    log_of(short, tmp_path / "run", latency="measured")
+    assert replay(tmp_path / "run").identical
+
+
+def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
+    short: Scenario, tmp_path: Path
+) -> None:
+    """A replay draws all pictures again, and each header vouches for its pixels."""
+    pytest.importorskip("open3d")
+    glance = short.model_copy(update={"duration_s": 0.5})
+    log = log_of(glance, tmp_path / "run", renderer="open3d", latency="measured")
+    assert len(messages(log, "camera/nose")) == 2 * (1 + 5)
+    assert replay(tmp_path / "run").identical
+
+
+def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened = []
+    open_scene_renderer = vision._open_renderer_process
+
+    def opening(scenario: Scenario, renderer: RendererName) -> object:
+        opened.append(open_scene_renderer(scenario, renderer))
+        return opened[-1]
+
+    class Killer(Observer):
+        def snapshot(self, snapshot: Snapshot) -> None:
+            if snapshot.t_s == 1.0:
+                os.kill(opened[0].process_id, signal.SIGKILL)
+                opened[0]._process.wait()
+
+    monkeypatch.setattr(vision, "_open_renderer_process", opening)
+    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), Killer())
+    monkeypatch.undo()
+    assert result.summary.outcome == "finished"
+    log = list(read_log(tmp_path / "run" / "log.mcap"))
+    (_, _), (state, cause) = states_of_vision(log)
+    assert state == "lost"
+    assert "signal 9" in cause
+    assert replay(tmp_path / "run").identical
+
+
+def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    notices = Notices()
+    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), notices)
+    log = list(read_log(tmp_path / "run" / "log.mcap"))
+    assert states_of_vision(log) == [("not evaluated", "no renderer here")]
+    assert result.summary.outcome == "finished"
+    assert any("no renderer here" in text for text in notices.told)
+    assert replay(tmp_path / "run").identical
+
+
+def test_without_pillow_vision_is_not_evaluated_and_the_run_goes_on(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    notices = Notices()
+    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), notices)
+    ((state, cause),) = states_of_vision(list(read_log(tmp_path / "run" / "log.mcap")))
+    assert (state, result.summary.outcome) == ("not evaluated", "finished")
+    assert "pip install 'airhilt[vision]'" in cause
+    assert "\n" not in cause
+    assert any(cause in text for text in notices.told)
+
+
+def missing(*_: object) -> None:
+    raise RendererError("no renderer here")
+
+
+def test_without_a_renderer_a_strict_run_does_not_begin(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    options = dataclasses.replace(SEEN, strict=True, out=tmp_path / "run")
+    with pytest.raises(RunStopped, match="--no-cameras"):
+        run(short, options)
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("changes", [{"assistant": "none"}, {"cameras": False}])
+def test_no_picture_is_drawn_that_nobody_looks_at(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict[str, object]
+) -> None:
+    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    log = log_of(short, tmp_path / "run", **changes)
+    assert states_of_vision(log) == [("off", "")]
+
+
+def test_a_camera_below_the_ground_is_refused_before_the_run(
+    short: Scenario, tmp_path: Path
+) -> None:
+    document = json.loads(short.model_dump_json())
+    document["cameras"][0]["mount"] = {
+        "type": "fixed",
+        "position": {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 1.0},
+        "height_ft": -20.0,
+        "azimuth_deg": 0.0,
+    }
+    with pytest.raises(AirhiltError, match="nose-AAL123"):
+        log_of(Scenario.model_validate(document), tmp_path / "run")
+    assert not (tmp_path / "run").exists()

@@ -1,0 +1,180 @@
+"""What the report of a run shows of its cameras."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import shutil
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.record import LogWriter, RunFolder, read_log
+from airhilt.report import camera_section as gallery
+from airhilt.report.camera_section import MOST_SPANS, Spans
+from airhilt.report.report import write_report
+from airhilt.units import SECOND_NS
+from camera_run import camera_run
+from sightings import vision
+
+pytest.importorskip("PIL")
+
+HOSTILE = "</script><img src=x onerror=alert(1)>"
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    with pytest.MonkeyPatch.context() as patch:
+        return camera_run(tmp_path_factory.mktemp("cameras") / "run", patch).folder
+
+
+@pytest.fixture
+def folder(finished: Path, tmp_path: Path) -> Path:
+    """A copy of it to damage."""
+    return shutil.copytree(finished, tmp_path / "run")
+
+
+def data(page: Path) -> dict[str, Any]:
+    (script,) = re.findall(
+        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
+    )
+    found: dict[str, Any] = json.loads(script)
+    return found
+
+
+def shown(folder: Path) -> dict[str, Any]:
+    cameras: dict[str, Any] = data(write_report(folder))["cameras"]
+    return cameras
+
+
+def test_the_pictures_that_matter_come_first_and_those_of_the_start_last(folder: Path) -> None:
+    occasions = [picture["occasion"] for picture in shown(folder)["pictures"]]
+    assert occasions == [
+        "first_detection", "first_warning", "closest_approach", "start", "start"
+    ]  # fmt: skip
+
+
+def test_pictures_lie_in_the_page_as_they_were_written(folder: Path) -> None:
+    picture = shown(folder)["pictures"][0]
+    kind, _, encoded = picture["src"].partition(",")
+    assert kind == "data:image/png;base64"
+    (file,) = (folder / "pictures").glob("first_detection-*")
+    assert base64.b64decode(encoded) == file.read_bytes()
+    assert (picture["width"], picture["height"]) == (640, 360)
+
+
+def test_a_picture_says_who_was_found_in_it_how_far_off_and_how_late(folder: Path) -> None:
+    picture = shown(folder)["pictures"][0]
+    (detection,) = picture["detections"]
+    (truth,) = picture["truth"]
+    assert (detection["label"], detection["confidence"]) == ("airplane", 0.8)
+    assert detection["actor"] == truth["actor"]
+    assert truth["found"] is True
+    assert detection["range_m"] == truth["range_m"] == pytest.approx(4_140, abs=50)
+    assert detection["box"] == pytest.approx(truth["box"], abs=3.0)
+    assert picture["latency_s"] == pytest.approx(0.05)
+
+
+def test_each_camera_has_a_lane_of_what_was_in_view_and_found(folder: Path) -> None:
+    lanes = shown(folder)["lanes"]
+    assert [(lane["camera"], lane["carrier"]) for lane in lanes] == [
+        ("nose-AAL123", "AAL123"), ("nose-DAL456", "DAL456")
+    ]  # fmt: skip
+    for lane in lanes:
+        (in_view,) = lane["in_view"]
+        assert in_view[0] == 0.0
+        assert 5.0 < in_view[1] < 9.0
+        assert lane["found"][0][0] <= lane["confirmed"][0][0] <= in_view[1]
+        assert lane["false"] == []
+        assert (lane["width_px"], lane["rate_hz"], lane["video"]) == (640, 4.0, None)
+
+
+def test_a_video_is_linked_to(folder: Path, tmp_path: Path) -> None:
+    (folder / "video").mkdir()
+    (folder / "video" / "nose-AAL123.mp4").touch()
+    assert shown(folder)["lanes"][0]["video"] == "video/nose-AAL123.mp4"
+    elsewhere = data(write_report(folder, tmp_path / "page.html"))["cameras"]
+    assert elsewhere["lanes"][0]["video"] == "run/video/nose-AAL123.mp4"
+
+
+def test_pictures_that_have_no_room_are_links_and_the_page_says_so(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "MOST_CHARACTERS", 3_000)
+    page = data(write_report(folder))
+    links = [one["href"] for one in page["cameras"]["pictures"] if "href" in one]
+    assert links
+    assert all((folder / link).is_file() for link in links)
+    assert any(f"no room in this file for {len(links)} pictures" in note for note in page["notes"])
+
+
+def test_what_is_no_picture_of_the_run_is_not_shown(folder: Path) -> None:
+    pictures = folder / "pictures"
+    (pictures / "notes.png").write_bytes(b"mine")
+    (pictures / "first_warning-nobody-1.png").write_bytes(b"of no camera")
+    next(pictures.glob("first_detection-*")).unlink()
+    occasions = [picture["occasion"] for picture in shown(folder)["pictures"]]
+    assert occasions == ["first_warning", "closest_approach", "start", "start"]
+
+
+def test_a_run_without_cameras_shows_none(folder: Path) -> None:
+    with closing(LogWriter(folder / "log.mcap")):
+        pass
+    shutil.rmtree(folder / "pictures")
+    assert shown(folder) == {"state": "off", "cause": "", "lanes": [], "pictures": []}
+
+
+def rewrite(folder: Path, *statuses: Any) -> None:
+    """Put states of vision in the place of those of the log."""
+    kept = [one for one in read_log(folder / "log.mcap") if one.key != "status/vision"]
+    with closing(LogWriter(folder / "log.mcap")) as log:
+        for one in kept:
+            log.write(one.key, one.publisher, type(statuses[0]), one.t_ns, one.data)
+        for status in statuses:
+            log.write(
+                "status/vision", "run", type(status), status.t_ns, status.model_dump_json().encode()
+            )
+
+
+def test_why_vision_was_not_evaluated_is_told_as_data(folder: Path) -> None:
+    rewrite(folder, vision("not evaluated", HOSTILE))
+    page = write_report(folder)
+    assert "onerror=alert(1)>" not in page.read_text()
+    cameras = data(page)["cameras"]
+    assert (cameras["state"], cameras["cause"]) == ("not evaluated", HOSTILE)
+
+
+def test_a_long_cause_is_cut(folder: Path) -> None:
+    rewrite(folder, vision("lost", "x" * 5_000))
+    assert len(shown(folder)["cause"]) == 400
+
+
+def test_a_killed_run_shows_what_its_log_has(folder: Path) -> None:
+    RunFolder(folder).summary_path.unlink()
+    whole = (folder / "log.mcap").read_bytes()
+    (folder / "log.mcap").write_bytes(whole[: len(whole) // 2])
+    lanes = shown(folder)["lanes"]
+    assert lanes[0]["in_view"]
+    assert len(shown(folder)["pictures"]) >= 3
+
+
+# --- spans --------------------------------------------------------------------------------------
+
+
+def test_short_pauses_are_bridged_and_long_ones_are_not() -> None:
+    spans = Spans()
+    for t_ns in (0, SECOND_NS // 4, SECOND_NS // 2, 2 * SECOND_NS, 3 * SECOND_NS):
+        spans.add(t_ns)
+    assert spans.as_json() == [(0.0, 0.5), (2.0, 2.0), (3.0, 3.0)]
+
+
+def test_many_spans_are_joined_until_there_is_room() -> None:
+    spans = Spans()
+    for second in range(5_000):
+        spans.add(second * SECOND_NS)
+    found = spans.as_json()
+    assert len(found) <= MOST_SPANS
+    assert (found[0][0], found[-1][1]) == (0.0, 4_999.0)

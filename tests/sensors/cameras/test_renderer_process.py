@@ -1,0 +1,355 @@
+"""Pictures come from a process of their own, and its end is an error with a name."""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import math
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from airhilt import load
+from airhilt.errors import CameraError, RendererError
+from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import renderer_process as remote
+from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
+from airhilt.sensors.cameras.renderers import raycasting, require_renderer
+from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
+from airhilt.sensors.cameras.scene_renderer import Frame
+from airhilt.sensors.cameras.snapshot import TICK_S, still, write_png
+from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.world.actors import build_actors
+from airhilt.world.site import ScenarioSite
+
+pytest.importorskip("moderngl")
+
+CAMERA = {
+    "name": "field",
+    "mount": {
+        "type": "fixed",
+        "position": {"type": "runway", "runway": "01", "along_m": 300, "offset_m": 80},
+        "height_ft": 20,
+        "azimuth_deg": 180,
+    },
+    "width_px": 160,
+    "height_px": 90,
+}
+
+
+def washington(**camera: object) -> Scenario:
+    document = load("s01b_nominal").model_dump(mode="json")
+    document["cameras"] = [CAMERA | camera]
+    return Scenario.model_validate(document)
+
+
+def bodies_of(scenario: Scenario) -> list[BodyState]:
+    site = ScenarioSite.of(scenario)
+    cast = build_actors(scenario, site, 0, TICK_S)
+    frame = frame_of(site)
+    return [state_of(actor, frame, site.ground_m, 0.0) for actor in cast.values()]
+
+
+@pytest.fixture(scope="module")
+def bodies() -> list[BodyState]:
+    return bodies_of(washington())
+
+
+@pytest.fixture(scope="module")
+def studio() -> Iterator[RendererProcess]:
+    with RendererProcess(washington(), renderer="moderngl") as opened:
+        yield opened
+
+
+def test_a_picture_comes_with_its_truth(studio: RendererProcess, bodies: list[BodyState]) -> None:
+    frame = studio.shoot(["field"], bodies, 7)[0]
+    assert frame.t_ns == 7
+    assert frame.colour.shape == (90, 160, 3)
+    assert frame.colour.std() > 5.0
+    assert [sighting.actor for sighting in frame.sightings] == ["AAL123"]
+    assert frame.sightings[0].range_m == pytest.approx(4.0 * 1852.0, rel=0.1)
+    assert np.isinf(frame.distance_m[0]).all()
+
+
+def test_a_pose_that_is_not_finite_is_refused_and_the_next_is_drawn(
+    studio: RendererProcess, bodies: list[BodyState]
+) -> None:
+    lost = [bodies[0]._replace(up_m=math.nan), *bodies[1:]]
+    with pytest.raises(CameraError, match="finite"):
+        studio.shoot(["field"], lost, 0)
+    assert studio.shoot(["field"], bodies, 0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"mount": CAMERA["mount"] | {"height_ft": -3}}, "above the ground"),
+        (
+            {
+                "mount": {
+                    "type": "fixed",
+                    "position": {"type": "geodetic", "lat_deg": 38.853, "lon_deg": -77.0427},
+                    "height_ft": 20,
+                    "azimuth_deg": 0,
+                }
+            },
+            "inside 'Terminal 2'",
+        ),
+    ],
+)
+def test_a_camera_that_stands_in_something_is_refused(
+    changes: dict[str, object], said: str
+) -> None:
+    with pytest.raises(CameraError, match=said):
+        RendererProcess(washington(**changes), renderer="moderngl")
+
+
+def test_a_camera_that_nobody_has_declared_is_refused_with_the_nearest() -> None:
+    with pytest.raises(CameraError, match="did you mean 'runway_01'"):
+        RendererProcess(washington(), ["runway_011"], "moderngl")
+
+
+def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    frame = still(washington(), "field", 1.0, renderer="moderngl")
+    write_png(frame, tmp_path / "still.png", boxes=True)
+    assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
+    """As the run's own picture of that time does, which a tick is too coarse for."""
+    scenario = washington()
+    early, late = (still(scenario, "field", at_s, renderer="moderngl") for at_s in (4.0, 4.04))
+    site = ScenarioSite.of(scenario)
+    cast = build_actors(scenario, site, 0, TICK_S)
+    for _ in range(80):
+        for actor in cast.values():
+            actor.body.advance()
+    speed = cast["AAL123"].body.state.ground_speed_m_s
+    nearer_m = early.sightings[0].range_m - late.sightings[0].range_m
+    assert nearer_m == pytest.approx(0.04 * speed, rel=0.05)
+    assert late.t_ns == 4_040_000_000
+
+
+def blank() -> Frame:
+    """Return a picture of nothing."""
+    view = View(Intrinsics(32, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
+    plane = np.zeros((16, 32), dtype=np.uint8)
+    colour = np.zeros((16, 32, 3), dtype=np.uint8)
+    return Frame("field", 0, view, colour, plane.astype(np.float32), plane, ())
+
+
+def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    (tmp_path / "file").touch()
+    with pytest.raises(CameraError, match=r"a\.png: cannot be written: Not a dir.* another --out"):
+        write_png(blank(), tmp_path / "file" / "a.png")
+
+
+def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("PIL")
+    write_png(blank(), tmp_path / "a.png")
+    before = (tmp_path / "a.png").read_bytes()
+    monkeypatch.setattr(Path, "write_bytes", full_disk)
+    with pytest.raises(CameraError, match=r"a\.png: .*No space left.*make room") as caught:
+        write_png(blank(), tmp_path / "a.png", boxes=True)
+    assert "\n" not in str(caught.value)
+    assert (tmp_path / "a.png").read_bytes() == before
+
+
+def test_without_pillow_a_still_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(CameraError, match=r"pip install 'airhilt\[vision\]'"):
+        write_png(blank(), tmp_path / "a.png")
+
+
+def test_a_renderer_without_room_for_its_files_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tempfile, "TemporaryFile", full_disk)
+    with pytest.raises(RendererError, match=r"No space left.*TMPDIR"):
+        RendererProcess(washington(), ["runway_01"], "moderngl")
+
+
+def full_disk(*_: object, **__: object) -> None:
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_a_renderer_without_its_libraries_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
+    for attempt in (
+        lambda: probe("moderngl"),
+        lambda: RendererProcess(washington(), None, "moderngl"),
+    ):
+        with pytest.raises(RendererError, match=r"apt install .*libegl1") as caught:
+            attempt()
+        assert "\n" not in str(caught.value)
+
+
+def test_open3d_without_its_libraries_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail() -> None:
+        raise ImportError("libGL.so.1: cannot open shared object file")
+
+    monkeypatch.setattr(raycasting, "_bindings", fail)
+    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL.*--renderer moderngl"):
+        require_renderer("open3d")
+    monkeypatch.setitem(sys.modules, "moderngl", None)
+    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL") as caught:
+        require_renderer("open3d")
+    assert "moderngl" not in str(caught.value), "which is not there either"
+
+
+def test_a_renderer_that_can_draw_is_found() -> None:
+    probe("moderngl")
+
+
+def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "json.py").write_text("raise SystemExit('a file of the user')")
+    monkeypatch.chdir(tmp_path)
+    probe("moderngl")
+    with RendererProcess(washington(), renderer="moderngl") as opened:
+        assert opened.actors
+
+
+def test_the_renderer_is_that_of_the_package_that_starts_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a checkout that is not installed, too."""
+    package = tmp_path / "airhilt" / "sensors" / "cameras"
+    package.mkdir(parents=True)
+    for folder in (package, package.parent, package.parent.parent):
+        (folder / "__init__.py").touch()
+    (package / "renderer_process.py").write_text("raise SystemExit('the one of this path')")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", ["", *sys.path])
+    with pytest.raises(RendererError, match="the one of this path"):
+        probe("moderngl")
+
+
+def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(remote, "STARTING_S", 0.0)
+    with pytest.raises(RendererError, match="has not answered for 1 s"):
+        RendererProcess(washington(), renderer="moderngl")
+
+
+def test_a_renderer_that_hangs_as_it_draws_is_given_up_and_says_what_to_do(
+    bodies: list[BodyState],
+) -> None:
+    with RendererProcess(washington(), renderer="moderngl", patience_s=1.0) as opened:
+        os.kill(opened.process_id, signal.SIGSTOP)
+        with pytest.raises(RendererError, match=r"not answered for 2 s.* 160 x 90 .*smaller"):
+            opened.shoot(["field"], bodies, 0)
+
+
+def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fixed camera's first picture has 3 x 3 samples in each pixel, or more."""
+    waited = []
+    reads = "import os, sys; os.fdopen(int(sys.argv[1])).read()"
+    monkeypatch.setattr(remote, "COMMAND", (sys.executable, "-c", reads))
+    monkeypatch.setattr(remote, "SLOWEST_SAMPLES_PER_S", 1600.0)
+
+    def note(_: RendererProcess, patience_s: float) -> bytes:
+        waited.append(patience_s)
+        return b'{"error": "RendererError", "text": "noted"}'
+
+    monkeypatch.setattr(RendererProcess, "_line", note)
+    for supersampling in (1, 4):
+        with pytest.raises(RendererError, match="noted"):
+            RendererProcess(washington(), None, "moderngl", supersampling)
+    assert waited == [remote.STARTING_S + 9.0 * 9.0, remote.STARTING_S + 16.0 * 9.0]
+
+
+def test_a_studio_may_be_the_last_of_thousands_of_open_files(
+    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    try:
+        high = fcntl.fcntl(studio._answers, fcntl.F_DUPFD_CLOEXEC, 1500)
+    except OSError:
+        pytest.skip("this system allows no more files")
+    with os.fdopen(high, "rb", buffering=0) as answers, monkeypatch.context() as patch:
+        patch.setattr(studio, "_answers", answers)
+        assert studio.shoot(["field"], bodies, 0)
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs files in memory")
+def test_pixels_lie_in_memory_and_not_on_a_disk(studio: RendererProcess) -> None:
+    place = Path(f"/proc/self/fd/{studio._file.fileno()}").readlink()
+    assert "memfd:" in str(place)
+
+
+def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
+    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(remote, "MOST_SAID_BYTES", 50)
+    for _ in range(2):
+        os.write(studio._said.fileno(), b"a driver's warning\n" * 3)
+        studio.shoot(["field"], bodies, 0)
+        assert os.fstat(studio._said.fileno()).st_size == 0
+
+
+@pytest.mark.slow
+def test_memory_stays_flat_over_10000_pictures(
+    studio: RendererProcess, bodies: list[BodyState]
+) -> None:
+    held = []
+    for number in range(10_001):
+        shift = number % 50
+        studio.shoot(["field"], [one._replace(east_m=one.east_m + shift) for one in bodies], 0)
+        if number in (500, 10_000):
+            held.append(held_mb(studio.process_id))
+    assert held[1] < 1.02 * held[0]
+    assert held[1] < 1000.0
+
+
+def held_mb(process_id: int) -> float:
+    """Return the memory that a process holds, where the system tells it."""
+    status = Path(f"/proc/{process_id}/status")
+    if not status.exists():
+        pytest.skip("this system has no /proc")
+    lines = dict(line.split(":", 1) for line in status.read_text().splitlines())
+    return float(lines["VmRSS"].split()[0]) / 1024.0
+
+
+def test_nothing_is_drawn_again_when_nothing_changes(studio: RendererProcess) -> None:
+    first, again = (studio.shoot(["field"], [], t_ns)[0] for t_ns in (0, 1))
+    assert again.unchanged
+    assert again.t_ns == 1
+    assert again.colour is first.colour
+
+
+def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
+    mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
+    with RendererProcess(washington(mount=mount), renderer="moderngl") as opened:
+        mask = opened.own_aircraft["field"]
+    assert mask.shape == (90, 160)
+    assert 0.02 < mask.mean() < 0.8
+
+
+# The last: it leaves nothing to draw with.
+def test_the_death_of_the_process_is_an_error_with_a_name(
+    studio: RendererProcess, bodies: list[BodyState]
+) -> None:
+    os.kill(studio.process_id, signal.SIGKILL)
+    studio._process.wait()
+    with pytest.raises(RendererError, match=r"moderngl has ended \(signal 9\)"):
+        studio.shoot(["field"], bodies, 0)
+    studio.close()  # The question that nobody took is no error of its own.

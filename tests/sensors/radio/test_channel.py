@@ -1,0 +1,260 @@
+"""The VHF channel does to speech what it says."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.audio.wav import from_pcm
+from airhilt.errors import SpeechError
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.audio_radio import AudioRadio
+from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
+from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.voices.espeak import Espeak
+
+
+@cache
+def speech(seconds: float = 2.0, seed: int = 7) -> Audio:
+    """Return something like syllables: a buzz that comes and goes, with pauses between words."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(round(seconds * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    buzz = sum(np.sin(2 * np.pi * 120 * k * t + k) / k for k in range(1, 40))
+    syllables = np.clip(np.sin(2 * np.pi * 3.0 * t), 0.0, 1.0)
+    words = np.repeat(rng.random(int(seconds * 2) + 1) > 0.25, SAMPLE_RATE_HZ // 2)[: len(t)]
+    said = (0.2 * buzz * syllables * words).astype(np.float32)
+    said.flags.writeable = False
+    return said
+
+
+def decibels(ratio: float) -> float:
+    return 10.0 * float(np.log10(ratio))
+
+
+def power(samples: Audio) -> float:
+    return float(np.mean(np.square(samples, dtype=np.float64)))
+
+
+def measured_snr_db(profile: str, snr_db: float, seed: int) -> float:
+    """Return the ratio over active speech of what a receiver detects."""
+    said = speech(1.5, seed % 3)
+    parts = VhfChannel(PROFILES[profile]).parts(said, snr_db, np.random.default_rng(seed))
+    talking = active(said)
+    return decibels(power(parts.signal[talking]) / power(parts.noise[talking]))
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("snr_db", [-3.0, 0.0, 5.0, 10.0, 20.0, 30.0])
+def test_the_noise_over_active_speech_is_what_was_asked_for(profile: str, snr_db: float) -> None:
+    assert measured_snr_db(profile, snr_db, 1) == pytest.approx(snr_db, abs=0.5)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.sampled_from(list(PROFILES)), st.floats(-5.0, 40.0), st.integers(0, 99))
+def test_it_is_so_at_any_ratio_and_with_any_seed(profile: str, snr_db: float, seed: int) -> None:
+    assert measured_snr_db(profile, snr_db, seed) == pytest.approx(snr_db, abs=0.5)
+
+
+def test_the_same_seed_gives_the_same_samples_and_another_seed_others() -> None:
+    channel: Channel = VhfChannel(PROFILES["vhf"])
+    said = speech()
+    once, again, other = (
+        channel.transmit(said, 5.0, np.random.default_rng(seed), (), "cockpit")
+        for seed in (1, 1, 2)
+    )
+    assert once.tobytes() == again.tobytes()
+    assert once.tobytes() != other.tobytes()
+
+
+@pytest.mark.parametrize(("profile", "high_hz"), [("vhf", 3_400.0), ("vhf_833", 2_500.0)])
+def test_nothing_beyond_the_audio_band_comes_through(profile: str, high_hz: float) -> None:
+    parts = VhfChannel(PROFILES[profile]).parts(speech(4.0), 0.0, np.random.default_rng(0))
+    spectrum = np.abs(np.fft.rfft(parts.signal + parts.noise)) ** 2
+    hz = np.fft.rfftfreq(len(parts.signal), 1 / SAMPLE_RATE_HZ)
+    inside = spectrum[(hz > 400) & (hz < high_hz - 200)].mean()
+    assert decibels(spectrum[hz > 1.5 * high_hz].mean() / inside) < -15
+    assert decibels(spectrum[hz < 150].mean() / inside) < -15
+
+
+# --- what is heard ------------------------------------------------------------------------------
+
+
+def detected(
+    profile: str, said: Audio, snr_db: float | None = None, background: BackgroundNoise = "none"
+) -> Audio:
+    """Return what `transmit` gives out, without gain control and tail, and its limiter undone."""
+    plain = replace(PROFILES[profile], gain_control=0.0, squelch_tail_s=0.0)
+    heard = VhfChannel(plain).transmit(said, snr_db, np.random.default_rng(3), (), background)
+    return np.asarray(np.arctanh(2.0 * heard) / 2.0, np.float32)
+
+
+@pytest.mark.parametrize("profile", [name for name in PROFILES if name != "monitor"])
+@pytest.mark.parametrize("snr_db", [0.0, 10.0, 20.0])
+def test_the_noise_that_is_heard_is_what_was_asked_for(profile: str, snr_db: float) -> None:
+    clean = detected(profile, speech())
+    noise = detected(profile, speech(), snr_db) - clean
+    talking = active(speech())
+    ratio_db = decibels(power(clean[talking]) / power(noise[talking]))
+    assert ratio_db == pytest.approx(snr_db, abs=0.1)
+
+
+def swing_db(profile: str) -> float:
+    """Return by how much the level of a steady buzz changes within ten seconds."""
+    t = np.arange(10 * SAMPLE_RATE_HZ) / SAMPLE_RATE_HZ
+    heard = detected(profile, (0.1 * np.sin(2 * np.pi * 700 * t)).astype(np.float32))
+    levels = [power(second) for second in np.split(heard[SAMPLE_RATE_HZ // 2 :], 19)]
+    return decibels(max(levels) / min(levels))
+
+
+def test_speech_fades_where_it_is_to_and_nowhere_else() -> None:
+    assert swing_db("fading") > 4.0
+    assert swing_db("vhf") < 0.1
+
+
+def test_a_cockpit_is_heard_in_the_pauses_a_tower_less_and_a_quiet_place_not_at_all() -> None:
+    talking = active(speech())
+    pauses = ~talking
+    pauses[np.flatnonzero(talking)[-1] :] = False
+    pauses &= np.convolve(talking, np.ones(1_600), "same") < 0.5
+
+    def below_speech_db(profile: str, background: BackgroundNoise) -> float:
+        heard = detected(profile, speech(), None, background)
+        return decibels(power(heard[pauses]) / power(heard[talking]))
+
+    # The band and the limiter take 3 to 6 dB off this buzz, and then it is levelled again.
+    assert below_speech_db("vhf", "cockpit") == pytest.approx(-28.0 + 4.5, abs=2.0)
+    assert below_speech_db("vhf", "tower") == pytest.approx(-40.0 + 4.5, abs=2.0)
+    assert below_speech_db("noisy_cockpit", "cockpit") == pytest.approx(-15.0 + 4.5, abs=2.0)
+    assert below_speech_db("vhf", "none") < -50.0
+
+
+def test_a_monitor_hears_the_radio_and_over_it_the_voice_itself() -> None:
+    radio, monitor = (
+        VhfChannel(PROFILES[name]).transmit(speech(), 10.0, np.random.default_rng(0))
+        for name in ("vhf", "monitor")
+    )
+    directly = (monitor - 0.7 * radio)[: len(speech())]
+    voice = speech() * np.float32(0.1 / np.sqrt(power(speech()[active(speech())])))
+    assert directly == pytest.approx(0.3 * voice, abs=1e-3)
+
+
+# --- two at once --------------------------------------------------------------------------------
+
+
+def beside(seconds: float, begin: int = 0, whistle_hz: float = 800.0) -> Other:
+    """Return a carrier without words."""
+    return Other(np.zeros(round(seconds * SAMPLE_RATE_HZ), np.float32), begin, whistle_hz)
+
+
+def test_who_talks_at_the_same_time_is_heard_from_where_he_begins() -> None:
+    channel = VhfChannel(PROFILES["vhf"])
+    theirs = Other(speech(1.0, seed=2), SAMPLE_RATE_HZ, 800.0)
+    parts = channel.parts(speech(seed=1), None, np.random.default_rng(0), [theirs])
+    assert not parts.interference[:SAMPLE_RATE_HZ].any()
+    covered = slice(SAMPLE_RATE_HZ, 2 * SAMPLE_RATE_HZ)
+    assert decibels(power(parts.interference[covered]) / 0.1**2) > 6.0
+
+
+@pytest.mark.parametrize("whistle_hz", [400.0, 800.0, 1_200.0])
+def test_two_carriers_beat_far_louder_than_speech_at_the_frequency_between_them(
+    whistle_hz: float,
+) -> None:
+    channel = VhfChannel(PROFILES["vhf"])
+    parts = channel.parts(
+        speech(), None, np.random.default_rng(0), [beside(2.0, whistle_hz=whistle_hz)]
+    )
+    assert 6.0 < decibels(power(parts.interference) / 0.1**2) < 10.0
+    spectrum = np.abs(np.fft.rfft(parts.interference))
+    loudest_hz = np.fft.rfftfreq(len(parts.interference), 1 / SAMPLE_RATE_HZ)[spectrum.argmax()]
+    assert loudest_hz == pytest.approx(whistle_hz, abs=1.0)
+    clear = channel.transmit(speech(), 20.0, np.random.default_rng(0))
+    under = channel.transmit(
+        speech(), 20.0, np.random.default_rng(0), [beside(2.0, whistle_hz=whistle_hz)]
+    )
+    assert decibels(power(under) / power(clear)) > 3.0
+
+
+def test_a_microphone_that_nobody_speaks_into_gives_the_noise_of_its_cockpit() -> None:
+    channel = VhfChannel(PROFILES["vhf"])
+    silence = np.zeros(4 * SAMPLE_RATE_HZ, np.float32)
+    beat = channel.parts(silence, None, np.random.default_rng(0), [beside(4.0)]).interference
+    spectrum = np.abs(np.fft.rfft(beat)) ** 2
+    hz = np.fft.rfftfreq(len(beat), 1 / SAMPLE_RATE_HZ)
+    tones = np.abs((hz + 400.0) % 800.0 - 400.0) < 5.0
+    assert decibels(spectrum[~tones].sum() / spectrum[tones].sum()) > -15.0
+
+
+def test_a_carrier_may_last_long_or_for_a_sample() -> None:
+    channel = VhfChannel(PROFILES["vhf"])
+    for other in (beside(600.0, -1_000), beside(2.0, -2 * SAMPLE_RATE_HZ + 1), beside(1.0, 99_999)):
+        heard = channel.transmit(speech(), 20.0, np.random.default_rng(0), [other])
+        assert np.isfinite(heard).all()
+    alone = channel.transmit(beside(10.0).speech, 20.0, np.random.default_rng(0))
+    assert np.isfinite(alone).all()
+
+
+def test_two_that_block_each_other_whistle_alike_whichever_is_received() -> None:
+    spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), seed=5)
+
+    def whistle_hz(said: OnAir, over: OnAir) -> float:
+        heard = from_pcm(spoken.receive(said, (over,), None, "none").pcm)
+        spectrum = np.abs(np.fft.rfft(heard))
+        return float(np.fft.rfftfreq(len(heard), 1 / SAMPLE_RATE_HZ)[spectrum.argmax()])
+
+    first, second, third = (
+        OnAir(Utterance(name, 118_000, name, None, ""), 0, 2_000_000_000, None)
+        for name in ("first", "second", "third")
+    )
+    assert whistle_hz(first, second) == pytest.approx(whistle_hz(second, first), abs=1.0)
+    assert whistle_hz(first, second) != pytest.approx(whistle_hz(first, third), abs=5.0)
+
+
+def test_gain_control_evens_out_a_weak_and_a_strong_half() -> None:
+    rng = np.random.default_rng(0)
+    uneven = speech(8.0).copy()
+    uneven[: len(uneven) // 2] *= 0.2
+    channel = VhfChannel(PROFILES["vhf"])
+    before = channel.parts(uneven, None, rng).signal
+    after = channel.transmit(uneven, None, rng)[: len(uneven)]
+
+    def difference(samples: Audio) -> float:
+        half = len(samples) // 2
+        return decibels(power(samples[half:]) / power(samples[:half]))
+
+    assert difference(after) < difference(before) - 4.0
+
+
+def test_a_call_ends_with_the_squelch_tail() -> None:
+    said = speech()
+    heard = VhfChannel(PROFILES["vhf"]).transmit(said, 10.0, np.random.default_rng(0))
+    assert len(heard) == len(said) + round(0.12 * SAMPLE_RATE_HZ)
+    assert power(heard[len(said) :]) > 0.0
+
+
+def test_a_wired_line_leaves_the_voice_nearly_as_it_was() -> None:
+    said = speech()
+    heard = VhfChannel(PROFILES["line"]).transmit(said, None, np.random.default_rng(0))
+    assert np.corrcoef(said, heard)[0, 1] > 0.95
+
+
+@pytest.mark.parametrize(
+    ("bad", "says"),
+    [
+        (np.array([], np.float32), "mono samples"),
+        (np.zeros((2, 10), np.float32), "mono samples"),
+        (np.array([0.0, np.nan], np.float32), "NaN"),
+        (np.array([0.0, np.inf], np.float32), "NaN"),
+    ],
+)
+def test_what_is_no_audio_is_refused(bad: Audio, says: str) -> None:
+    with pytest.raises(SpeechError, match=says):
+        VhfChannel(PROFILES["vhf"]).transmit(bad, 10.0, np.random.default_rng(0))
+
+
+def test_a_ratio_that_is_no_number_is_refused() -> None:
+    with pytest.raises(SpeechError, match="no number"):
+        VhfChannel(PROFILES["vhf"]).transmit(speech(), float("nan"), np.random.default_rng(0))

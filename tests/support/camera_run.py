@@ -1,0 +1,49 @@
+"""A short run that cameras look at, quickly and without a renderer."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt import load
+from airhilt.cosim import cameras as vision
+from airhilt.cosim import participants as team
+from airhilt.cosim import simulation as cosim
+from airhilt.options import Options
+from airhilt.scenario import Scenario
+from oracle import BlankSceneRenderer, Oracle
+
+
+def passing() -> Scenario:
+    """Ten seconds of two aircraft that fly at each other and past each other, 100 m apart."""
+    document = json.loads(load("s02a_headon").model_dump_json())
+    for actor in document["actors"]:
+        actor["initial"]["position"]["distance_nm"] = 0.8
+    document["actors"][0]["initial"]["altitude_ft"] += 330
+    for camera in document["cameras"]:
+        camera["rate_hz"] = 4.0
+    return Scenario.model_validate(document | {"name": "passing", "duration_s": 10.0})
+
+
+def camera_run(
+    out: Path, patch: pytest.MonkeyPatch, scenario: Scenario | None = None, **options: Any
+) -> cosim.Result:
+    """Run it with an oracle that looks; what it finds is true, with errors."""
+    oracle = Oracle(None, 0, 8.0)
+    reference = team.reference_workers
+
+    def open_scene_renderer(realised: Scenario, renderer: str) -> BlankSceneRenderer:
+        oracle._studio = BlankSceneRenderer(realised)
+        return oracle._studio
+
+    def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> list[Any]:
+        others = reference(assistant, radio, taken, engines._replace(detector=None))
+        return [*others, oracle] if assistant != "none" else others
+
+    patch.setattr(vision, "_open_renderer_process", open_scene_renderer)
+    patch.setattr(team, "reference_workers", workers)
+    given = Options(**{"latency": "fixed", "speech": False, "out": out} | options)
+    return cosim.run(scenario or passing(), given)

@@ -1,0 +1,361 @@
+"""What a detector learns from, and how it is judged: the tools measure what they say."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.embedded import Calibration
+from airhilt.sensors.cameras.dataset.coco import run_lengths
+from airhilt.sensors.cameras.scene.bodies import BodyState
+from paths import TOOLS
+
+BOX = (40.0, 30.0, 60.0, 40.0)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _tools() -> Iterator[None]:
+    sys.path.insert(0, str(TOOLS))
+    yield
+    sys.path.remove(str(TOOLS))
+
+
+@pytest.fixture(scope="module")
+def data() -> ModuleType:
+    import detector_data
+
+    return detector_data
+
+
+@pytest.fixture(scope="module")
+def places() -> ModuleType:
+    import detector_places
+
+    return detector_places
+
+
+@pytest.fixture(scope="module")
+def judging() -> ModuleType:
+    import eval_detector
+
+    return eval_detector
+
+
+@pytest.fixture(scope="module")
+def calibrating() -> ModuleType:
+    import calibrate_detector
+
+    return calibrate_detector
+
+
+def body(data: ModuleType, box=BOX, label: int = 0, contrast: float = 80.0):
+    return data.Body(label, box, 900.0, 1.0, 0.8, contrast)
+
+
+def found(box, label: str = "airplane", confidence: float = 0.9) -> Found:
+    return Found(label, confidence, box)
+
+
+class TestContrast:
+    def test_it_is_what_half_of_the_body_differs_more_than_from_what_is_around(self, data) -> None:
+        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
+        mask = np.zeros((60, 100), dtype=bool)
+        mask[30:40, 40:60] = True
+        picture[30:40, 40:54] = 130
+        picture[30:40, 54:60] = 255
+        assert data.contrast(picture, BOX, mask) == 30.0
+
+    def test_lamps_alone_make_no_contrast(self, data) -> None:
+        picture = np.full((60, 100, 3), 8, dtype=np.uint8)
+        mask = np.zeros((60, 100), dtype=bool)
+        mask[30:40, 40:60] = True
+        picture[34:36, 41:45] = 255
+        assert data.contrast(picture, BOX, mask) == 0.0
+
+    def test_of_pixels_beside_the_body_nothing_is_taken(self, data) -> None:
+        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
+        mask = np.zeros((60, 100), dtype=bool)
+        mask[30:35, 40:60] = True
+        picture[35:40, 40:60] = 255
+        assert data.contrast(picture, BOX, mask) == 0.0
+
+    def test_a_body_that_fills_the_picture_is_seen(self, data) -> None:
+        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
+        mask = np.ones((60, 100), dtype=bool)
+        assert data.contrast(picture, (0.0, 0.0, 100.0, 60.0), mask) == 255.0
+
+    def test_what_can_hardly_be_made_out_does_not_count(self, data) -> None:
+        assert body(data).counts
+        assert not body(data, contrast=12.0).counts
+        assert not body(data, box=(40.0, 30.0, 44.0, 32.0)).counts
+
+
+class TestMask:
+    @given(cells=st.lists(st.lists(st.booleans(), min_size=3, max_size=3), min_size=1, max_size=5))
+    def test_it_is_what_was_written(self, data, cells: list[list[bool]]) -> None:
+        mask = np.array(cells)
+        assert np.array_equal(data.mask_of(run_lengths(mask)), mask)
+
+
+class TestMatching:
+    def test_each_body_is_found_once(self, data, judging) -> None:
+        seen, used = judging.matched([body(data)], [found(BOX), found(BOX)], judging.strictly)
+        assert (seen, used) == ({0}, {0})
+
+    def test_another_class_finds_nothing(self, data, judging) -> None:
+        assert judging.matched([body(data)], [found(BOX, "truck")], judging.strictly) == (
+            set(),
+            set(),
+        )
+
+    def test_half_of_a_body_is_not_enough_unless_asked_loosely(self, data, judging) -> None:
+        half = found((40.0, 30.0, 49.0, 40.0))
+        assert judging.matched([body(data)], [half], judging.strictly) == (set(), set())
+        assert judging.matched([body(data)], [half], judging.loosely) == ({0}, {0})
+
+    def test_what_lies_on_a_faint_body_is_not_false(self, data, judging) -> None:
+        assert judging.on_faint([body(data, contrast=3.0)], found(BOX))
+        assert not judging.on_faint([body(data)], found(BOX))
+
+
+class TestPlaces:
+    def shot(self, data, *bodies):
+        about = {"width": 100, "height": 60}
+        return data.Shot(Path("none.jpg"), about, bodies)
+
+    def labels(self, places, shot, *boxes) -> list[int]:
+        return [label for _, _, label, _ in places.places_in(shot, [found(box) for box in boxes])]
+
+    def test_a_place_on_a_body_has_its_class_and_its_box(self, data, places) -> None:
+        shot = self.shot(data, body(data, label=1))
+        near = (38.0, 29.0, 57.0, 41.0)
+        assert list(places.places_in(shot, [found(near)])) == [(near, 0.9, 2, BOX)]
+
+    def test_a_place_beside_all_bodies_is_nothing(self, data, places) -> None:
+        assert self.labels(places, self.shot(data, body(data)), (0.0, 0.0, 20.0, 10.0)) == [0]
+
+    def test_a_place_with_a_part_of_a_body_teaches_nothing(self, data, places) -> None:
+        part = (40.0, 30.0, 47.0, 36.0)
+        assert self.labels(places, self.shot(data, body(data)), part) == []
+
+    def test_a_place_on_a_faint_body_teaches_nothing(self, data, places) -> None:
+        assert self.labels(places, self.shot(data, body(data, contrast=3.0)), BOX) == []
+
+    def test_of_two_bodies_the_likelier_is_meant(self, data, places) -> None:
+        behind = body(data, box=(44.0, 30.0, 66.0, 40.0), label=2)
+        assert self.labels(places, self.shot(data, behind, body(data)), BOX) == [1]
+
+    def test_what_hardly_looks_like_anything_is_left_out(self, data, places) -> None:
+        faint = [found(BOX, confidence=0.01)]
+        assert list(places.places_in(self.shot(data), faint)) == []
+
+
+class FirstNetwork:
+    """Sees something at one place in every picture."""
+
+    asked = 0
+
+    def __init__(self, path: Path) -> None:
+        pass
+
+    def proposed(self, picture: np.ndarray) -> list[Found]:
+        FirstNetwork.asked += 1
+        assert picture.any()
+        return [found(BOX)]
+
+
+def folder_of(path: Path, *levels: int, seed: int = 0) -> Path:
+    """Return a folder of grey pictures with nobody in them."""
+    path.mkdir(parents=True, exist_ok=True)
+    images = []
+    for number, level in enumerate(levels):
+        Image.fromarray(np.full((60, 100, 3), level, dtype=np.uint8)).save(path / f"{number}.png")
+        images.append({"id": number, "file_name": f"{number}.png", "width": 100, "height": 60})
+    document = {"info": {"seed": seed}, "categories": [], "images": images, "annotations": []}
+    (path / "annotations.json").write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+class TestKeptPictures:
+    @pytest.fixture
+    def asking(self, places, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        """Return what asks a first network about folders, and keeps what it says."""
+        monkeypatch.setattr(places, "EmbeddedDetector", FirstNetwork)
+        monkeypatch.setattr(FirstNetwork, "asked", 0)
+        network, scratch = tmp_path / "detector.onnx", tmp_path / "scratch"
+        network.write_bytes(b"one")
+        scratch.mkdir()
+        return lambda folder: places.places_of(folder, network, scratch)
+
+    def test_pictures_are_those_of_the_folder_and_asked_about_once(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        for _ in range(2):
+            known = asking(folder)
+            assert known.pictures[:, 0, 0, 0].tolist() == [50, 90]
+            assert known.picture.tolist() == [0, 1]
+        assert FirstNetwork.asked == 2
+
+    def test_decoding_that_is_broken_off_is_begun_anew(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        second = (folder / "1.png").read_bytes()
+        (folder / "1.png").unlink()
+        with pytest.raises(FileNotFoundError):
+            asking(folder)
+        (folder / "1.png").write_bytes(second)
+        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
+
+    def test_so_it_is_where_answers_are_kept_and_pictures_are_lost(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        asking(folder)
+        (kept,) = (tmp_path / "scratch").glob("*.u8")
+        kept.rename(kept.with_suffix(".partial"))
+        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
+
+    def test_answers_that_are_written_in_part_are_asked_for_anew(
+        self, asking, places, tmp_path, monkeypatch
+    ) -> None:
+        def full(file, **_: object) -> None:
+            file.write(b"PK")
+            raise OSError("no space left on device")
+
+        folder = folder_of(tmp_path / "train", 50)
+        with monkeypatch.context() as broken:
+            broken.setattr(places.np, "savez", full)
+            with pytest.raises(OSError, match="no space"):
+                asking(folder)
+        assert len(asking(folder)) == 1
+
+    def test_other_data_of_the_same_size_is_not_taken_for_it(self, asking, tmp_path) -> None:
+        asking(folder_of(tmp_path / "train", 50, 90, seed=1))
+        again = asking(folder_of(tmp_path / "train", 60, 70, seed=2))
+        assert again.pictures[:, 0, 0, 0].tolist() == [60, 70]
+
+    def test_another_network_is_asked_about_the_same_pictures(self, asking, tmp_path) -> None:
+        folder = folder_of(tmp_path / "train", 50, 90)
+        asking(folder)
+        (tmp_path / "detector.onnx").write_bytes(b"another")
+        asking(folder)
+        assert FirstNetwork.asked == 4
+        assert len(list((tmp_path / "scratch").glob("*.u8"))) == 1
+
+    def test_folders_of_one_name_keep_their_own(self, asking, tmp_path) -> None:
+        one = asking(folder_of(tmp_path / "a" / "train", 50, seed=1))
+        other = asking(folder_of(tmp_path / "b" / "train", 90, seed=2))
+        assert (one.pictures[0, 0, 0, 0], other.pictures[0, 0, 0, 0]) == (50, 90)
+
+
+class TestLessons:
+    def folder(self, places, boxes, labels, truth):
+        picture = np.zeros((1, 60, 100, 3), dtype=np.uint8)
+        picture[0, :, 50:] = 200
+        return places.Places(
+            picture,
+            np.zeros(len(boxes), dtype=np.int64),
+            np.array(boxes, dtype=np.float32),
+            np.full(len(boxes), 0.5, dtype=np.float32),
+            np.array(labels),
+            np.array(truth, dtype=np.float32),
+        )
+
+    def test_a_batch_has_bodies_and_nothing_in_the_parts_that_it_says(self, places) -> None:
+        import detector_lessons as lessons
+
+        other = (10.0, 10.0, 20.0, 20.0)
+        drawn = lessons.Lessons([self.folder(places, [BOX, other], [1, 0], [BOX, other])], 4)
+        numbers, views, known, labels, _ = drawn.batch(0)
+        assert len(labels) == lessons.BATCH
+        assert (labels > 0).mean() == pytest.approx(lessons.OF_BODIES, abs=0.01)
+        assert ((numbers >= 0) == (labels == 0)).all()
+        assert np.isfinite(known).all()
+        again = lessons.Lessons([self.folder(places, [BOX, other], [1, 0], [BOX, other])], 4)
+        assert np.array_equal(again.batch(0)[1], views)
+
+    def test_mirrored_views_have_mirrored_moves(self, places) -> None:
+        """The body is always where the picture gets bright."""
+        import detector_lessons as lessons
+
+        body_box = (50.0, 20.0, 70.0, 40.0)
+        places_of_it = [(40.0, 20.0, 60.0, 40.0), (10.0, 10.0, 20.0, 20.0)]
+        folder = self.folder(places, places_of_it, [1, 0], [body_box, places_of_it[1]])
+        _, views, _, labels, moves = lessons.Lessons([folder], 4).batch(1)
+        columns = views[labels > 0, 0].astype(float).mean(axis=(1, 3))
+        is_brighter_right = columns[:, 16:].mean(axis=1) > columns[:, :16].mean(axis=1)
+        assert ((moves[labels > 0, 0] > 0.0) == is_brighter_right).all()
+        assert 0.2 < is_brighter_right.mean() < 0.8
+
+    def test_what_fooled_the_network_comes_more_often(self, places) -> None:
+        import detector_lessons as lessons
+
+        boxes = [BOX, (0.0, 0.0, 10.0, 10.0), (20.0, 0.0, 30.0, 10.0)]
+        drawn = lessons.Lessons([self.folder(places, boxes, [1, 0, 0], boxes)], 4)
+        drawn.fooled = np.array([0.9, 0.0])
+        numbers = drawn.batch(2)[0]
+        assert (numbers == 0).sum() > 10 * (numbers == 1).sum()
+
+
+class TestCalibration:
+    def test_the_fit_finds_the_calibration_under_which_findings_came_true(
+        self, calibrating
+    ) -> None:
+        draws = np.random.default_rng(3)
+        meant = Calibration(
+            of_class={"airplane": 0.8, "bird": -1.0}, logit=1.5, size=0.6, logit_and_size=0.2
+        )
+        kinds = ("airplane", "bird")
+        made, true = [], []
+        for _ in range(20_000):
+            side = float(2.0 ** draws.uniform(3.0, 7.0))
+            score = float(draws.uniform(0.02, 0.98))
+            one = found((0.0, 0.0, side, side / 2.0), kinds[int(draws.integers(2))], score)
+            odds = meant.log_odds(one.label, score, side)
+            made.append(one)
+            true.append(bool(draws.random() < 1.0 / (1.0 + math.exp(-odds))))
+        fitted = calibrating.fitted(made, true)
+        for kind in kinds:
+            for score in (0.1, 0.5, 0.9):
+                for side in (10.0, 32.0, 100.0):
+                    assert fitted.log_odds(kind, score, side) == pytest.approx(
+                        meant.log_odds(kind, score, side), abs=0.3
+                    )
+
+    def test_the_threshold_is_the_lowest_from_which_no_camera_has_too_many(
+        self, calibrating
+    ) -> None:
+        few, many = calibrating.Count(minutes=2.0), calibrating.Count(minutes=2.0)
+        low, middle = calibrating.THRESHOLDS[3], calibrating.THRESHOLDS[8]
+        for threshold in calibrating.THRESHOLDS:
+            few.false[threshold] = 3 if threshold < low else 0
+            many.false[threshold] = 3 if threshold < middle else 2
+        assert calibrating.chosen_threshold({"fixed": few, "nose": many}) == middle
+
+
+class TestMinutesOfCameras:
+    def aircraft(self, up_m: float, shape: str) -> BodyState:
+        return BodyState("own", 0.0, 0.0, up_m, math.pi / 2.0, 0.02, 0.0, shape, True)
+
+    def test_an_aircraft_on_the_ground_rolls_ahead(self, calibrating) -> None:
+        later = calibrating.gone_on(self.aircraft(3.0, "gear"), 10.0)
+        assert (later.east_m, later.up_m) == (pytest.approx(80.0), 3.0)
+        assert (later.pitch_rad, later.roll_rad) == (0.02, 0.0)
+
+    def test_one_with_its_gear_down_descends_and_stays_above_the_ground(self, calibrating) -> None:
+        start = self.aircraft(200.0, "gear")
+        heights = [calibrating.gone_on(start, float(t)).up_m for t in range(120)]
+        assert heights == sorted(heights, reverse=True)
+        assert heights[10] == pytest.approx(200.0 - 750.0 * math.tan(math.radians(3.0)))
+        assert heights[-1] > 0.0
+
+    def test_one_in_cruise_keeps_its_height(self, calibrating) -> None:
+        later = calibrating.gone_on(self.aircraft(3000.0, "clean"), 10.0)
+        assert (later.east_m, later.up_m) == (pytest.approx(750.0), 3000.0)

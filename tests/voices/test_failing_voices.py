@@ -1,0 +1,179 @@
+"""Voices of the radio that fail in the middle of a run: it goes on without them, and says so."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from airhilt import run
+from airhilt.audio.wav import encode_wav
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import Observer, Result
+from airhilt.errors import RunStopped, SpeechError
+from airhilt.messages import SpokenTruth, Transmission
+from airhilt.record import read_log
+from airhilt.scenario import Scenario
+from airhilt.sensors.radio.learned_channel import LearnedChannel
+from paths import DATA
+from services import answering, nobody, service
+
+CHANNEL = DATA / "channels" / "echo.onnx"
+FIELD_THAT_NOBODY_KNOWS = b"\xa2\x06\x01x"
+"""Of a protocol buffer, number 100."""
+
+
+class Voices:
+    """A service that speaks so often, and then no more."""
+
+    def __init__(self, times: int) -> None:
+        self.asked: list[str] = []
+        self._times = times
+
+    def __call__(self, handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        text = json.loads(body)["text"]
+        self.asked.append(text)
+        if len(self.asked) > self._times:
+            answering(b"hoarse", 500)(handler, body)
+        else:
+            speech = np.sin(np.arange(800 * len(text)) / 9).astype(np.float32) / 2
+            answering(encode_wav(speech), kind="audio/wav")(handler, body)
+
+
+class Notices(Observer):
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+
+    def notice(self, text: str) -> None:
+        self.texts.append(text)
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_cached(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    (tmp_path / "file").write_text("in the way of a cache")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    return
+
+
+@pytest.fixture(scope="module")
+def short(encounter: Scenario) -> Scenario:
+    """The encounter up to its third call and what comes of it."""
+    return encounter.model_copy(update={"duration_s": 28.0})
+
+
+def rows(result: Result, prefix: str, model: Any) -> list[Any]:
+    return [
+        model.model_validate_json(one.data)
+        for one in read_log(result.folder / "log.mcap")
+        if one.key.startswith(prefix)
+    ]
+
+
+def lost_after(calls: int, scenario: Scenario, out: Path, **options: Any) -> Result:
+    """Run with voices that fail after so many calls; each line is spoken once beforehand."""
+    voices = Voices(len(scenario.radio.lines) + calls)
+    with service(voices) as url:
+        return run(scenario, out=out, latency="fixed", tts=url, **options)
+
+
+def test_the_run_goes_on_when_the_voices_of_the_radio_fail(short: Scenario, tmp_path: Path) -> None:
+    observer = Notices()
+    result = lost_after(1, short, tmp_path / "run", assistant="none", observer=observer)
+    assert result.summary.outcome == "finished"
+    assert result.summary.modalities["radio"] == "lost"
+    statuses = [
+        json.loads(one.data)
+        for one in read_log(result.folder / "log.mcap")
+        if one.key == "status/radio"
+    ]
+    assert statuses[-1]["state"] == "lost"
+    assert "HTTP status 500: 'hoarse'" in statuses[-1]["cause"]
+    (event,) = [
+        one
+        for one in read_log(result.folder / "log.mcap")
+        if one.key == "truth/event" and b"radio_lost" in one.data
+    ]
+    assert json.loads(event.data)["text"] == statuses[-1]["cause"]
+    assert any("hoarse" in text for text in observer.texts)
+
+
+def test_calls_after_that_take_the_time_of_their_words_and_arrive_without_them(
+    short: Scenario, tmp_path: Path
+) -> None:
+    result = lost_after(1, short, tmp_path / "run", assistant="external")
+    said = {one.id: one for one in rows(result, "truth/radio/", SpokenTruth)}
+    heard = rows(result, "radio/", Transmission)
+    first, *others = heard
+    assert others
+    assert first.samples > 0
+    assert [one.samples for one in others] == [0] * len(others)
+    for one in others[:-1]:
+        words = len(said[one.id].text.split())
+        seconds = (said[one.id].t_end_ns - said[one.id].t_tx_ns) / 1e9
+        assert seconds == pytest.approx(words * 60 / short.radio.words_per_minute)
+    transcribed = {
+        json.loads(one.data)["id"]
+        for one in read_log(result.folder / "log.mcap")
+        if one.key.startswith("asr/")
+    }
+    assert transcribed <= {first.id}
+
+
+def test_strict_stops_the_run_when_the_voices_fail(short: Scenario, tmp_path: Path) -> None:
+    with pytest.raises(RunStopped, match=r"--strict asks: voice http.*hoarse"):
+        lost_after(1, short, tmp_path / "run", assistant="none", strict=True)
+
+
+def test_voices_that_fail_before_the_run_end_the_command(short: Scenario, tmp_path: Path) -> None:
+    with pytest.raises(SpeechError, match="is not there"):
+        run(short, out=tmp_path / "run", latency="fixed", tts=nobody())
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_channel_that_fails_is_the_loss_of_the_radio_too(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise SpeechError("learned channel: worn out")
+
+    monkeypatch.setattr(LearnedChannel, "transmit", fail)
+    result = run(
+        short, out=tmp_path / "run", latency="fixed", radio_profile=str(CHANNEL), assistant="none"
+    )
+    assert result.summary.modalities["radio"] == "lost"
+    assert {one.samples for one in rows(result, "radio/", Transmission)} == {0}
+
+
+@pytest.mark.parametrize("calls", [4, 100])
+def test_a_replay_asks_no_service_again(calls: int, short: Scenario, tmp_path: Path) -> None:
+    given = [b'{"text": "Washington Center."}', b"nonsense"]
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        answering(given.pop(0) if given else b"")(handler, body)
+
+    with service(answer) as asr:
+        result = lost_after(calls, short, tmp_path / "run", asr=asr)
+    sounds = [one.samples > 0 for one in rows(result, "radio/", Transmission)]
+    assert sounds[0]
+    assert all(sounds) is (calls == 100)
+    verdict = replay(result.folder)  # Both services are down now.
+    assert verdict.identical, verdict.difference
+    assert verdict.notes == ()
+
+
+def test_a_replay_says_that_a_learned_channel_is_another_one(
+    short: Scenario, tmp_path: Path
+) -> None:
+    channel = tmp_path / "channel.onnx"
+    channel.write_bytes(CHANNEL.read_bytes())
+    result = run(
+        short, out=tmp_path / "run", latency="fixed", radio_profile=str(channel), assistant="none"
+    )
+    assert replay(result.folder).notes == ()
+    channel.write_bytes(CHANNEL.read_bytes() + FIELD_THAT_NOBODY_KNOWS)
+    assert replay(result.folder).notes == (f"{channel} is not the file of the recording any more",)

@@ -1,0 +1,164 @@
+"""Kinds are found by their name: files of the package, and entry points of other packages."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.plane import Plane
+from airhilt.world.mover import Creature, Driven
+from airhilt.world.surface import kinds
+from airhilt.world.surface.kinds import kind_names, load_kind
+from paths import DOCS
+
+GUIDE = DOCS / "actors.md"
+HERE = (math.radians(38.8521), math.radians(-77.0377))
+THERE = Plane(HERE, 0.0).to_place(60.0, 80.0)
+
+
+@pytest.fixture
+def bus_and_drone() -> tuple[str, str]:
+    """The files that the guide shows."""
+    bus, drone = re.findall(r"```python\n(.*?)```", GUIDE.read_text(), flags=re.DOTALL)
+    return bus, drone
+
+
+@pytest.fixture
+def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder whose files are as good as files of the package."""
+    monkeypatch.setattr(kinds, "__path__", [*kinds.__path__, str(tmp_path)])
+    yield tmp_path
+    for path in tmp_path.glob("*.py"):
+        sys.modules.pop(f"{kinds.__name__}.{path.stem}", None)
+
+
+@pytest.fixture
+def other_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder on the path of Python with an installed package that declares a drone."""
+    package = tmp_path / "my_package"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    installed = tmp_path / "my_package-1.0.dist-info"
+    installed.mkdir()
+    (installed / "METADATA").write_text("Metadata-Version: 2.1\nName: my-package\nVersion: 1.0\n")
+    declared = re.search(r"```toml\n(.*?)```", GUIDE.read_text(), flags=re.DOTALL)
+    assert declared is not None
+    _, line = declared[1].splitlines()
+    (installed / "entry_points.txt").write_text(f"[airhilt.kinds]\n{line.replace(chr(34), '')}\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    yield package
+    for name in [name for name in sys.modules if name.split(".")[0] == "my_package"]:
+        del sys.modules[name]
+
+
+def test_all_kinds_have_a_file_and_say_where_their_numbers_come_from() -> None:
+    folder = Path(kinds.__path__[0])
+    files = {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    assert set(kind_names()) >= files
+    for name in files:
+        kind = load_kind(name)
+        assert kind.name == name
+        assert "estimate" in kind.source
+
+
+@pytest.mark.parametrize("name", ["follow_me", "fire_truck", "tug_with_aircraft", "snow_plough"])
+def test_vehicles_can_be_driven(name: str) -> None:
+    body = load_kind(name, "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
+    assert isinstance(body, Driven)
+    with pytest.raises(ValueError, match="does not fly"):
+        load_kind(name).create(HERE, 0.0, ground_m=0.0, tick_s=0.05, height_m=10.0)
+
+
+@pytest.mark.parametrize("name", ["deer", "coyote", "goose", "flock"])
+def test_wildlife_has_a_will_of_its_own(name: str) -> None:
+    body = load_kind(name, "wildlife").create(HERE, 0.0, ground_m=0.0, tick_s=0.05, seed=1)
+    assert isinstance(body, Creature)
+
+
+def test_an_unknown_kind_is_told_with_the_nearest_that_there_is() -> None:
+    with pytest.raises(ScenarioError, match="no kind named 'firetruck'; did you mean 'fire_truck'"):
+        load_kind("firetruck")
+
+
+def test_a_deer_is_no_vehicle() -> None:
+    with pytest.raises(
+        ScenarioError, match="'deer' is a kind of wildlife; expected one of vehicle"
+    ):
+        load_kind("deer", "vehicle")
+
+
+def test_a_file_is_all_that_a_new_kind_needs(added: Path, bus_and_drone: tuple[str, str]) -> None:
+    (added / "bus.py").write_text(bus_and_drone[0])
+    assert "bus" in kind_names()
+    bus = load_kind("bus", "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
+    bus.drive([THERE])
+    for _ in range(2000):
+        bus.advance()
+    assert bus.phase == "standing"
+    assert (bus.state.latitude_rad, bus.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
+
+
+def test_another_package_brings_a_kind_with_behaviour_of_its_own(
+    other_package: Path, bus_and_drone: tuple[str, str]
+) -> None:
+    (other_package / "drone.py").write_text(bus_and_drone[1])
+    assert "drone" in kind_names()
+    drone = load_kind("drone", "vehicle").create(HERE, 0.0, ground_m=4.0, tick_s=0.05)
+    assert isinstance(drone, Driven)
+    drone.drive([THERE])
+    for _ in range(100):
+        drone.advance()
+    assert drone.phase == "driving"
+    assert drone.state.ground_speed_m_s == pytest.approx(12.0)
+    drone.stop()
+    drone.advance()
+    assert drone.state.ground_speed_m_s == 0.0
+    drone.resume()
+    for _ in range(100):
+        drone.advance()
+    assert drone.phase == "hovering"
+    assert (drone.state.latitude_rad, drone.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
+    assert drone.state.altitude_m == 54.0
+
+
+def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(other_package: Path) -> None:
+    (other_package / "drone.py").write_text("import no_such_module\n")
+    with pytest.raises(ScenarioError, match=r"my_package\.drone:KIND: ModuleNotFoundError"):
+        load_kind("drone")
+
+
+def test_what_is_no_kind_is_refused(other_package: Path) -> None:
+    (other_package / "drone.py").write_text("KIND = 42\n")
+    with pytest.raises(ScenarioError, match="no kind named 'drone': 42"):
+        load_kind("drone")
+
+
+def test_a_kind_goes_by_no_other_name_than_its_own(
+    added: Path, bus_and_drone: tuple[str, str]
+) -> None:
+    (added / "coach.py").write_text(bus_and_drone[0])
+    with pytest.raises(ScenarioError, match="no kind named 'coach'"):
+        load_kind("coach")
+
+
+def test_two_kinds_of_one_name_are_refused(
+    added: Path, other_package: Path, bus_and_drone: tuple[str, str]
+) -> None:
+    for folder in (added, other_package):
+        (folder / "drone.py").write_text(bus_and_drone[1])
+    with pytest.raises(ScenarioError, match="more than one kind named 'drone'"):
+        load_kind("drone")
+
+
+def test_the_guide_lists_all_kinds() -> None:
+    table = GUIDE.read_text().split("|---|---|")[1].split("\n\n")[0]
+    folder = Path(kinds.__path__[0])
+    assert set(re.findall(r"`(\w+)`", table)) == {
+        path.stem for path in folder.glob("*.py") if path.stem != "__init__"
+    }

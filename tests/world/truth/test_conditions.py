@@ -1,0 +1,280 @@
+"""Conditions on the true state, each when it is true and when it is not."""
+
+import math
+
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt.scenario.models import Condition
+from airhilt.units import SECOND_NS
+from airhilt.world.surface.airport import load_airport
+from airhilt.world.surface.layout import Layout
+from airhilt.world.truth.conditions import ConditionCompiler
+from airhilt.world.truth.runways import RunwayMonitor
+from straight import Performing, Rolling, Straight, Watch
+
+
+class Case:
+    """A condition on two aircraft, A and B, that meet after a minute if nobody says otherwise."""
+
+    def __init__(self, condition, *aircraft):
+        pair = aircraft or (
+            Straight(-15_000.0, east_m_s=250.0),
+            Straight(15_000.0, east_m_s=-250.0),
+        )
+        self.watch = Watch(*pair, names=("AA", "BB"))
+        self.ended_lines = set()
+        self.actors = {name: Performing(body) for name, body in self.watch.aircraft.items()}
+        compiler = ConditionCompiler(self.actors, self.watch.monitor, None, self.ended_lines)
+        self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
+
+    def __call__(self):
+        return self.test(self.watch.now_ns)
+
+    def after(self, seconds):
+        for craft in self.watch.aircraft.values():
+            craft.advance(seconds)
+        self.watch.now_ns += round(seconds * SECOND_NS)
+        return self()
+
+    def end(self, callsign="AA"):
+        self.watch.aircraft[callsign].ended = "ground_contact"
+
+
+PAIR = ["AA", "BB"]
+
+
+def test_time_is_reached_from_then_on():
+    case = Case({"type": "time", "at_s": 10.0})
+    assert [case(), case.after(9.9), case.after(0.1), case.after(50.0)] == [
+        False,
+        False,
+        True,
+        True,
+    ]
+
+
+def test_a_line_has_ended_once_it_has():
+    case = Case({"type": "line_ended", "line": "readback"})
+    assert not case()
+    case.ended_lines.add("clearance")
+    assert not case()
+    case.ended_lines.add("readback")
+    assert case()
+
+
+def test_separation_is_below_both_distances_at_once():
+    def below(**second):
+        condition = {"type": "separation_below", "actors": PAIR, "horizontal_nm": 5.0,
+                     "vertical_ft": 1000.0}  # fmt: skip
+        return Case(condition, Straight(), Straight(**second))()
+
+    assert below(east_m=9_000.0, altitude_ft=35_900.0)
+    assert not below(east_m=9_500.0)
+    assert not below(altitude_ft=36_100.0)
+
+
+@pytest.mark.parametrize(("within_s", "true_at_start"), [(41.0, False), (42.0, True)])
+def test_a_loss_is_predicted_within_a_time(within_s, true_at_start):
+    """5 NM apart at 500 m/s of closure is 18.5 s before the two meet after 60 s."""
+    case = Case({"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": within_s})
+    assert case() == true_at_start
+    assert case.after(2.0)
+
+
+def test_no_loss_is_predicted_of_two_that_have_passed_or_keep_apart():
+    condition = {"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": 1200.0}
+    apart = (Straight(-15_000.0, east_m_s=-250.0), Straight(15_000.0, east_m_s=250.0))
+    assert not Case(condition, *apart)()
+    above = (Straight(-15_000.0, east_m_s=250.0), Straight(15_000.0, altitude_ft=37_000.0))
+    assert not Case(condition, *above)()
+
+
+def test_a_closest_approach_has_passed_when_the_two_have_drawn_apart_for_a_while():
+    case = Case({"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0})
+    assert not case()
+    assert not case.after(59.0)
+    assert not case.after(2.0)
+    assert not case.after(19.0)
+    assert case.after(1.1)
+
+
+def test_drawing_apart_must_not_be_broken_off():
+    case = Case({"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0})
+    case.after(61.0)
+    case.after(15.0)
+    for craft in case.watch.aircraft.values():
+        craft.state = craft.state._replace(velocity_east_m_s=-craft.state.velocity_east_m_s)
+    assert not case.after(1.0)
+    assert not case.after(30.0)
+    assert not case.after(10.0)
+
+
+@pytest.mark.parametrize(
+    ("altitude_ft", "target_ft", "true"),
+    [(31_000, 35_000, True), (31_000, 35_040, True), (31_000, 35_060, False),
+     (35_000, 31_000, False), (35_000, None, True)],
+)  # fmt: skip
+def test_bound_for_an_altitude_is_where_an_aircraft_flies_to_and_not_where_it_is(
+    altitude_ft, target_ft, true
+):
+    condition = {"type": "bound_for_altitude", "actor": "AA", "altitude_ft": 35_000}
+    first = Straight(altitude_ft=altitude_ft, target_ft=target_ft)
+    assert Case(condition, first, Straight())() == true
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {"type": "separation_below", "actors": PAIR, "horizontal_nm": 99.0, "vertical_ft": 9e3},
+        {"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": 1200.0},
+        {"type": "bound_for_altitude", "actor": "AA", "altitude_ft": 35_000},
+    ],
+    ids=lambda condition: condition["type"],
+)
+def test_of_an_aircraft_that_has_ended_nothing_is_true(condition):
+    case = Case(condition)
+    assert case()
+    case.end()
+    assert not case()
+
+
+LATE, EARLY = {"type": "time", "at_s": 20.0}, {"type": "time", "at_s": 10.0}
+
+
+def test_all_of_them_are_true_when_the_last_is_and_any_of_them_when_the_first_is():
+    everything = Case({"type": "all_of", "conditions": [EARLY, LATE]})
+    anything = Case({"type": "any_of", "conditions": [LATE, EARLY]})
+    assert [everything(), everything.after(10.0), everything.after(10.0)] == [False, False, True]
+    assert [anything(), anything.after(10.0), anything.after(10.0)] == [False, True, True]
+
+
+def test_a_condition_that_keeps_time_keeps_it_while_another_is_not_yet_true():
+    passed = {"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0}
+    case = Case({"type": "all_of", "conditions": [{"type": "time", "at_s": 90.0}, passed]})
+    for _ in range(89):
+        assert not case.after(1.0)
+    assert case.after(1.0)
+
+
+# --- at an airport --------------------------------------------------------------------------
+
+
+class Airport(Case):
+    """A condition on an aircraft on final approach to runway 01 at KDCA, and a car on it."""
+
+    def __init__(self, condition, along_m=-3_000.0, speed=72.0, car_along_m=800.0, **aircraft):
+        layout = Layout(load_airport("KDCA"))
+        end = layout.runway("01")
+        east, north = layout.frame.to_local(end.threshold)
+        sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
+
+        def at(body, along):
+            place = layout.frame.to_place(east + along * sin, north + along * cos)
+            body.state = body.state._replace(latitude_rad=place[0], longitude_rad=place[1])
+            return body
+
+        plane = Straight(east_m_s=speed * sin, north_m_s=speed * cos,
+                         **({"altitude_ft": 500.0, "phase": "glide"} | aircraft))  # fmt: skip
+        super().__init__(condition, at(plane, along_m), at(Rolling(), car_along_m))
+        self.actors["AA"].bound_runway = "01"
+        self.actors["BB"].category = "vehicle"
+        nothing = lambda *_: None  # noqa: E731
+        self.runways = RunwayMonitor(layout, self.actors, set(), nothing, nothing)
+        compiler = ConditionCompiler(self.actors, self.watch.monitor, self.runways, set())
+        self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
+
+    def __call__(self):
+        self.runways.look(self.watch.now_ns)
+        return super().__call__()
+
+
+@pytest.mark.parametrize(("phases", "true"), [(["glide"], True), (["flare", "rollout"], False),
+                                              (["flare", "glide"], True)])  # fmt: skip
+def test_an_actor_is_in_one_of_some_phases(phases, true):
+    assert Airport({"type": "in_phase", "actor": "AA", "phases": phases})() == true
+
+
+@pytest.mark.parametrize(("runway", "true"), [("01", True), ("1", True), ("19", False)])
+def test_bound_for_a_runway_is_in_which_direction_a_crew_means_to_use_it(runway, true):
+    assert Airport({"type": "bound_for_runway", "actor": "AA", "runway": runway})() == true
+
+
+def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground():
+    def on(actor, runway, **case):
+        return Airport({"type": "on_runway", "actor": actor, "runway": runway}, **case)()
+
+    assert on("BB", "01")
+    assert on("BB", "19")
+    assert not on("BB", "33")
+    assert not on("BB", "01", car_along_m=-400.0)
+    assert not on("AA", "01", along_m=500.0)
+    assert on("AA", "01", along_m=500.0, on_ground=True, altitude_ft=0.0)
+
+
+@pytest.mark.parametrize(
+    ("runway", "within_s", "true"),
+    [("01", 41.0, False), ("01", 42.0, True), ("1", 42.0, True), ("19", 1200.0, False)],
+)
+def test_the_threshold_is_within_a_time_of_an_arrival(runway, within_s, true):
+    """3000 m away at 72 m/s."""
+    condition = {"type": "threshold_within", "actor": "AA", "runway": runway, "within_s": within_s}
+    assert Airport(condition)() == true
+
+
+def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed():
+    condition = {"type": "threshold_within", "actor": "AA", "runway": "01", "within_s": 1200.0}
+    assert not Airport(condition, along_m=10.0)()
+    assert not Airport(condition, speed=0.5)()
+    assert not Airport(condition, on_ground=True)()
+    assert not Airport({**condition, "actor": "BB"}, car_along_m=-900.0)()
+
+
+def test_a_speed_is_above_a_value_over_the_ground():
+    condition = {"type": "speed_above", "actor": "AA"}
+    assert Airport({**condition, "speed_kt": 139.0})()
+    assert not Airport({**condition, "speed_kt": 141.0})()
+
+
+def test_a_height_is_below_a_value_above_the_ground():
+    condition = {"type": "height_below", "actor": "AA"}
+    assert Airport({**condition, "height_ft": 501.0})()
+    assert not Airport({**condition, "height_ft": 499.0})()
+
+
+def test_a_distance_is_below_a_value_whatever_the_height():
+    condition = {"type": "distance_below", "actors": PAIR}
+    assert Airport({**condition, "distance_m": 3_810.0}, altitude_ft=9_000.0)()
+    assert not Airport({**condition, "distance_m": 3_790.0})()
+
+
+def test_two_have_collided_once_they_have_touched_and_ever_after():
+    for actors in (PAIR, PAIR[::-1]):
+        case = Case({"type": "collided", "actors": actors})
+        assert not case()
+        case.watch.fly(59.0)
+        assert not case()
+        case.watch.fly(2.0)
+        assert case()
+        case.end()
+        assert case()
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {"type": "in_phase", "actor": "AA", "phases": ["glide"]},
+        {"type": "bound_for_runway", "actor": "AA", "runway": "01"},
+        {"type": "on_runway", "actor": "BB", "runway": "01"},
+        {"type": "threshold_within", "actor": "AA", "runway": "01", "within_s": 60.0},
+        {"type": "speed_above", "actor": "AA", "speed_kt": 100.0},
+        {"type": "height_below", "actor": "AA", "height_ft": 600.0},
+        {"type": "distance_below", "actors": PAIR, "distance_m": 5_000.0},
+    ],
+    ids=lambda condition: condition["type"],
+)
+def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(condition):
+    case = Airport(condition)
+    assert case()
+    case.end(condition.get("actor", "AA"))
+    assert not case()

@@ -1,0 +1,287 @@
+"""What becomes true of two aircraft, and when."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.geodesy.relative_motion import Minima, VerticalProfile
+from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.site import FixedSite
+from airhilt.world.truth.conflicts import profile_of
+from straight import MINIMA, Rolling, Straight, Watch
+
+
+def head_on(seconds=60.0, speed=250.0, **second):
+    """Two that meet after some seconds."""
+    away = speed * seconds
+    return (
+        Straight(east_m=-away, east_m_s=speed),
+        Straight(**({"east_m": away, "east_m_s": -speed} | second)),
+    )
+
+
+def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision():
+    watch = Watch(*head_on(60.0)).fly(70.0)
+    assert watch.told["loss_of_separation"] == pytest.approx(
+        60.0 - MINIMA.horizontal_m / 500, abs=0.1
+    )
+    assert watch.told["nmac"] == pytest.approx(60.0 - 500 * FOOT / 500, abs=0.1)
+    assert watch.told["collision"] == pytest.approx(60.0, abs=0.15)
+
+
+def test_tcas_speaks_at_its_thresholds():
+    watch = Watch(*head_on(80.0)).fly(50.0)
+    assert watch.told["tcas_ta"] == pytest.approx(80.0 - 48.0, abs=1.5)
+    assert watch.told["tcas_ra"] == pytest.approx(80.0 - 35.0, abs=1.5)
+
+
+def test_tcas_says_nothing_of_who_carries_no_transponder():
+    watch = Watch(*head_on(80.0), transponders=frozenset({"A"})).fly(81.0)
+    assert not {"tcas_ta", "tcas_ra"} & set(watch.told)
+    assert "collision" in watch.told
+
+
+def test_near_the_ground_tcas_says_nothing():
+    low = {"altitude_ft": 400.0}
+    watch = Watch(Straight(-5_000, east_m_s=50.0, **low), Straight(5_000, east_m_s=-50.0, **low))
+    watch.fly(60.0)
+    assert "tcas_ta" not in watch.told
+    assert "loss_of_separation" in watch.told
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.floats(0.0, 1.0), st.floats(0.0, 25.0), st.floats(1_000.0, 7_000.0))
+def test_a_pass_between_two_ticks_is_not_stepped_over(phase, aside_m, closing):
+    """At 7 km/s, with a tick of a second, the two are only seen kilometres from each other."""
+    away = closing * (2.0 + phase)
+    first = Straight()
+    second = Straight(east_m=away, north_m=aside_m, east_m_s=-closing)
+    watch = Watch(first, second, tick_s=1.0).fly(6.0)
+    assert {"loss_of_separation", "nmac", "collision"} <= set(watch.told)
+    assert watch.truth.closest.horizontal_m == pytest.approx(aside_m, abs=1.0)
+    assert watch.truth.closest.t_ns == pytest.approx(
+        (2.0 + phase) * SECOND_NS, abs=0.02 * SECOND_NS
+    )
+
+
+def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage():
+    first = Straight()
+    second = Straight(1_000, east_m_s=-1_000.0, altitude_ft=35_000 + 100, rate_fpm=-6_000)
+    watch = Watch(first, second, tick_s=2.0).fly(4.0)
+    assert watch.truth.closest.vertical_m == pytest.approx(0.0, abs=1.0)
+    assert "collision" in watch.told
+
+
+@pytest.mark.parametrize(
+    ("aside_m", "above_ft", "told"),
+    [
+        (0.0, 0.0, {"loss_of_separation", "nmac", "collision"}),
+        (100.0, 0.0, {"loss_of_separation", "nmac"}),
+        (0.0, 60.0, {"loss_of_separation", "nmac"}),
+        (151.0, 99.0, {"loss_of_separation", "nmac"}),
+        (155.0, 0.0, {"loss_of_separation"}),
+        (0.0, 101.0, {"loss_of_separation"}),
+        (9_250.0, 999.0, {"loss_of_separation"}),
+        (9_270.0, 0.0, set()),
+        (0.0, 1_001.0, set()),
+    ],
+)
+def test_how_near_is_what(aside_m, above_ft, told):
+    other = {"north_m": aside_m, "altitude_ft": 35_000 + above_ft}
+    watch = Watch(*head_on(20.0, **other)).fly(40.0)
+    assert {phase for phase in watch.told if not phase.startswith("tcas")} == told
+
+
+def test_two_of_another_pair_are_watched_too():
+    watch = Watch(Straight(north_m=90_000.0), *head_on(30.0)).fly(40.0)
+    assert {"loss_of_separation", "collision"} <= set(watch.monitor.pairs[("B", "C")].first_ns)
+    assert watch.monitor.pairs[("A", "B")].first_ns == {}
+
+
+def test_an_aircraft_that_has_ended_is_in_nobodys_way():
+    watch = Watch(*head_on(60.0))
+    watch.fly(10.0)
+    watch.aircraft["B"].ended = "ground_contact"
+    watch.fly(60.0)
+    assert "loss_of_separation" not in watch.told
+    assert not watch.monitor.flying(("A", "B"))
+
+
+def test_what_is_lost_from_the_start_is_told_in_the_first_second():
+    watch = Watch(Straight(), Straight(east_m=1_000.0)).fly(0.5)
+    assert "loss_of_separation" in watch.told
+
+
+def test_two_that_draw_apart_from_the_start_were_never_closer_than_at_the_start():
+    for away in (1_000.0, 20_000.0):
+        pair = Straight(-away, east_m_s=-250.0), Straight(away, east_m_s=250.0)
+        closest = Watch(*pair).fly(3.0).truth.closest
+        assert 0 <= closest.t_ns <= 0.1 * SECOND_NS
+        assert closest.horizontal_m == pytest.approx(2 * away, abs=30.0)
+
+
+# --- least separation -----------------------------------------------------------------------
+
+
+def test_the_least_separations_are_each_taken_while_the_other_is_infringed():
+    """800 ft apart when they pass 2 NM abeam; on the same level only long after."""
+    second = {"north_m": 2 * NAUTICAL_MILE, "altitude_ft": 35_800.0}
+    watch = Watch(*head_on(30.0, **second)).fly(60.0)
+    assert watch.truth.least_horizontal_m == pytest.approx(2 * NAUTICAL_MILE, rel=1e-3)
+    assert watch.truth.least_vertical_m == pytest.approx(800 * FOOT, rel=1e-6)
+
+
+def test_a_minimum_that_never_applied_is_none():
+    above = Watch(*head_on(20.0, altitude_ft=37_000.0)).fly(40.0).truth
+    assert above.least_horizontal_m is None
+    assert above.least_vertical_m == pytest.approx(2_000 * FOOT)
+    beside = Watch(*head_on(20.0, north_m=20_000.0)).fly(40.0).truth
+    assert beside.least_horizontal_m == pytest.approx(20_000.0, rel=1e-3)
+    assert beside.least_vertical_m is None
+
+
+def test_vertical_separation_far_away_does_not_count():
+    """It descends through the other's level, but 40 km from it."""
+    second = Straight(40_000.0, altitude_ft=36_000.0, rate_fpm=-3_000.0)
+    truth = Watch(Straight(), second).fly(30.0).truth
+    assert truth.least_vertical_m is None
+    assert truth.first_ns.keys() <= {"tcas_ta", "tcas_ra"}
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    st.floats(-3_000.0, 3_000.0),
+    st.floats(-1_500.0, 1_500.0),
+    st.floats(-100.0, 100.0),
+    st.floats(-2_000.0, 2_000.0),
+)
+def test_the_closest_approach_is_no_farther_than_the_pair_was_at_any_tick(
+    aside_m, above_ft, north_m_s, rate_fpm
+):
+    watch = Watch(
+        *head_on(
+            10.0, north_m=aside_m, altitude_ft=35_000 + above_ft, north_m_s=north_m_s,
+            rate_fpm=rate_fpm,
+        ),
+        tick_s=0.25,
+    )  # fmt: skip
+    nearest = math.inf
+    for _ in watch.ticks(20.0):
+        motion, first, second = watch.monitor.motion(("A", "B"))
+        nearest = min(nearest, math.hypot(motion.distance_m, second.altitude_m - first.altitude_m))
+    closest = watch.truth.closest
+    vertically_m = abs(rate_fpm) * FOOT_PER_MINUTE * watch.tick_s
+    assert closest.slant_m <= nearest + vertically_m + 1e-6
+    assert closest.slant_m == pytest.approx(nearest, abs=70.0)
+
+
+def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far():
+    near, far = (
+        Watch(*head_on(20.0, north_m=60_000.0), always=always).fly(30.0) for always in (True, False)
+    )
+    assert near.truth.closest.horizontal_m == pytest.approx(60_000.0, rel=1e-3)
+    assert ("A", "B") not in far.monitor.pairs
+
+
+# --- where an aircraft is really going ------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("aircraft", "expected"),
+    [
+        (Straight(), (35_000, 0, None)),
+        (Straight(rate_fpm=300, target_ft=35_050), (35_000, 0, None)),
+        (Straight(rate_fpm=1_500, target_ft=37_000), (35_000, 1_500, 37_000)),
+        (Straight(rate_fpm=-1_500, target_ft=31_000), (35_000, -1_500, 31_000)),
+    ],
+)
+def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(aircraft, expected):
+    altitude, rate, target = expected
+    assert profile_of(aircraft) == pytest.approx(
+        VerticalProfile(
+            altitude * FOOT, rate * FOOT_PER_MINUTE, None if target is None else target * FOOT
+        )
+    )
+
+
+def test_the_time_to_loss_knows_where_a_climb_ends():
+    """Below, at 1500 ft/min, 1500 m from the other's level: it levels off 1000 ft short, or not."""
+    for target_ft, loss in ((34_000.0, False), (35_000.0, True)):
+        climbing = Straight(-25_000, altitude_ft=33_000, east_m_s=250.0, rate_fpm=1_500,
+                            target_ft=target_ft)  # fmt: skip
+        other = Straight(25_000, east_m_s=-250.0)
+        limits = Minima(5 * NAUTICAL_MILE, 900 * FOOT)
+        found = Watch(climbing, other, minima=limits).monitor.time_to_loss_s(("A", "B"))
+        assert (found is not None) == loss
+
+
+# --- at an airport --------------------------------------------------------------------------
+
+ZONE = FixedSite(0.0, 0.0)
+
+
+def low(aside_m=0.0, altitude_ft=1_000.0):
+    """Two at 140 kt that meet over the airport, or beside it, after half a minute."""
+    return [
+        Straight(-way * 30.0 * 72.0, aside_m, altitude_ft, east_m_s=way * 72.0) for way in (1, -1)
+    ]
+
+
+def test_in_the_zone_of_a_tower_there_are_no_minima_but_near_misses_and_collisions():
+    watch = Watch(*low(), zone=ZONE).fly(40.0)
+    assert {"nmac", "collision"} <= set(watch.told)
+    assert "loss_of_separation" not in watch.told
+
+
+@pytest.mark.parametrize(
+    ("aside_m", "altitude_ft", "lost"),
+    [(0.0, 2_400.0, False), (0.0, 2_700.0, True), (10_000.0, 1_000.0, True)],
+)
+def test_the_zone_ends_above_and_around(aside_m, altitude_ft, lost):
+    watch = Watch(*low(aside_m, altitude_ft), zone=ZONE).fly(40.0)
+    assert ("loss_of_separation" in watch.told) == lost
+
+
+def test_who_is_in_the_zone_must_be_separated_from_who_is_not():
+    inside = Straight(0.0, 8_500.0, 2_000.0)
+    outside = Straight(0.0, 10_000.0, 2_000.0)
+    assert "loss_of_separation" in Watch(inside, outside, zone=ZONE).fly(1.0).told
+
+
+def test_a_vehicle_and_an_aircraft_have_no_separation_to_lose_but_can_collide():
+    plane = Straight(-300.0, altitude_ft=0.0, east_m_s=60.0, on_ground=True, phase="rollout")
+    watch = Watch(plane, Rolling()).fly(8.0)
+    assert set(watch.told) == {"collision"}
+    assert watch.told["collision"] == pytest.approx((300.0 - 16.8 - 1.0) / 60.0, abs=0.1)
+    assert watch.truth.least_horizontal_m is None
+
+
+def test_in_the_air_above_a_vehicle_nothing_is_lost_either():
+    plane = Straight(-300.0, altitude_ft=50.0, east_m_s=70.0, phase="flare")
+    watch = Watch(plane, Rolling()).fly(8.0)
+    assert watch.told == {}
+    assert watch.truth.closest.vertical_m == pytest.approx(50 * FOOT, abs=0.1)
+
+
+def test_a_car_between_nose_and_wing_touches_nothing():
+    """It is 12 m ahead of the middle and 12 m to the right, well within the box around it all."""
+    plane = Straight(altitude_ft=0.0, east_m_s=0.1, on_ground=True)
+    watch = Watch(plane, Rolling(12.0, -60.0, north_m_s=8.0)).fly(6.0)
+    assert watch.told == {}
+    assert watch.truth.closest.horizontal_m == pytest.approx(17.0, abs=1.0)
+
+
+def test_two_on_the_ground_are_never_too_near_until_they_touch():
+    first = Straight(-40.0, altitude_ft=0.0, east_m_s=5.0, on_ground=True, phase="taxi")
+    second = Straight(altitude_ft=0.0, on_ground=True, phase="standing")
+    watch = Watch(first, second).fly(1.0)
+    assert watch.told == {}
+    assert set(watch.fly(3.0).told) == {"collision"}
+
+
+def test_a_fast_aircraft_does_not_pass_a_vehicle_between_two_looks():
+    """Pairs on the ground are sorted out once a second."""
+    plane = Straight(-2_000.0, altitude_ft=0.0, east_m_s=75.0, on_ground=True, phase="takeoff_roll")
+    assert "collision" in Watch(plane, Rolling(), always=False).fly(40.0).told

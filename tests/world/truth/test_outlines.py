@@ -1,0 +1,165 @@
+"""How far two bodies are apart, by their outlines seen from above and by their heights."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from shapely import Polygon, affinity, union_all
+
+from airhilt.units import FOOT
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.truth.outlines import gap, radius_m
+from straight import Rolling, Straight
+
+LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
+
+
+def plane(
+    east_m: float = 0.0, north_m: float = 0.0, heading_deg: float = 0.0, height_m: float = 0.0
+):
+    heading = math.radians(heading_deg)
+    return Straight(
+        east_m,
+        north_m,
+        altitude_ft=height_m / FOOT,
+        east_m_s=50.0 * math.sin(heading),
+        north_m_s=50.0 * math.cos(heading),
+    )
+
+
+def test_nose_to_nose_is_the_distance_less_a_length() -> None:
+    between = gap(plane(heading_deg=0.0), plane(north_m=100.0, heading_deg=180.0))
+    assert between.horizontal_m == pytest.approx(100.0 - LENGTH_M, abs=0.1)
+    assert between.vertical_m == 0.0
+    assert not between.touches
+
+
+def test_wing_tip_to_wing_tip_is_the_distance_less_a_span() -> None:
+    between = gap(plane(), plane(east_m=60.0))
+    assert between.horizontal_m == pytest.approx(60.0 - SPAN_M, abs=0.1)
+
+
+def test_a_nose_may_lie_before_a_wing_where_a_box_would_touch() -> None:
+    """Side by side, the second's tail before the first's swept wing: both boxes overlap."""
+    between = gap(plane(), plane(east_m=16.0, north_m=30.0))
+    assert between.horizontal_m > 0.5
+
+
+def test_above_each_other_they_touch_only_within_their_height() -> None:
+    assert gap(plane(), plane(height_m=HEIGHT_M - 0.1)).touches
+    above = gap(plane(), plane(height_m=HEIGHT_M + 10.0))
+    assert above.horizontal_m == 0.0
+    assert above.vertical_m == pytest.approx(10.0, abs=1e-6)
+    assert above.slant_m == pytest.approx(10.0, abs=1e-6)
+
+
+def test_between_a_car_and_an_aircraft_above_it_is_the_height_of_the_car() -> None:
+    car, above = Rolling(north_m_s=1.0), plane(height_m=10.0)
+    for between in (gap(car, above), gap(above, car)):
+        assert between.vertical_m == pytest.approx(10.0 - car.dimensions.height_m, abs=1e-6)
+
+
+def test_a_moment_ago_they_touched() -> None:
+    first, second = plane(heading_deg=90.0), plane(east_m=-60.0, heading_deg=270.0)
+    assert not gap(first, second).touches
+    assert gap(first, second, at_s=-0.6).touches
+
+
+poses = st.tuples(st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(0.0, 359.0))
+
+
+@settings(deadline=None, max_examples=60)
+@given(poses, poses, st.floats(0.0, 30.0))
+def test_it_does_not_matter_who_is_asked(first, second, height) -> None:
+    a, b = plane(*first), plane(*second, height)
+    assert gap(a, b).horizontal_m == pytest.approx(gap(b, a).horizontal_m, abs=1e-3)
+    assert gap(a, b).vertical_m == pytest.approx(gap(b, a).vertical_m, abs=1e-9)
+
+
+@settings(deadline=None, max_examples=60)
+@given(poses, st.floats(0.0, 359.0))
+def test_turning_the_whole_scene_changes_nothing(second, turn) -> None:
+    east, north, heading = second
+    sin, cos = math.sin(math.radians(turn)), math.cos(math.radians(turn))
+    turned = (east * cos + north * sin, north * cos - east * sin, (heading + turn) % 360.0)
+    before = gap(plane(), plane(*second)).horizontal_m
+    after = gap(plane(heading_deg=turn), plane(*turned)).horizontal_m
+    assert after == pytest.approx(before, abs=0.05)
+
+
+@settings(deadline=None, max_examples=60)
+@given(poses)
+def test_the_circles_around_them_bound_the_distance(second) -> None:
+    a, b = plane(), plane(*second)
+    between = math.hypot(*second[:2])
+    assume(between > 1.0)
+    found = gap(a, b).horizontal_m
+    assert between - radius_m(a) - radius_m(b) - 0.1 <= found <= between
+
+
+TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
+
+
+@pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
+def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind) -> None:
+    size = kind.dimensions
+    middle = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
+    for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
+        post = Rolling(east, north, north_m_s=1.0)
+        half = post.dimensions.length_m / 2.0 if north else post.dimensions.span_m / 2.0
+        expected = 200.0 - short / 2.0 - half
+        found = gap(middle, post).horizontal_m
+        # A wing tip that is swept back lies aside of the middle: at a slant, it is farther.
+        assert found == pytest.approx(expected, rel=0.01)
+        assert found >= expected - 0.1
+
+
+@settings(deadline=None, max_examples=60)
+@given(poses, st.floats(0.0, 30.0), st.sampled_from(TYPES))
+def test_two_touch_just_where_their_outlines_and_their_heights_overlap(second, height, kind):
+    a = plane()
+    b = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
+                 east_m_s=math.sin(math.radians(second[2])),
+                 north_m_s=math.cos(math.radians(second[2])))  # fmt: skip
+    found = gap(a, b)
+    shapes = [silhouette(a), affinity.translate(silhouette(b), *second[:2])]
+    assume(abs(shapes[0].distance(shapes[1]) - 0.05) > 0.05)
+    overlaps = shapes[0].intersects(shapes[1])
+    assert found.touches == (overlaps and height <= HEIGHT_M)
+    assert found.horizontal_m == pytest.approx(shapes[0].distance(shapes[1]), abs=0.1)
+
+
+def silhouette(body):
+    """The same shape, made of parts: a fuselage, two wings, two halves of a tailplane."""
+    size, mesh = body.kind.dimensions, body.kind.mesh
+    half, width = size.length_m / 2.0, mesh.fuselage_diameter_m / 2.0
+    tip, span = 0.1 * size.length_m, size.span_m / 2.0
+    back = math.tan(math.radians(mesh.wing_sweep_deg)) * (span - width)
+    tail, chord = -0.38 * size.length_m, 0.1 * size.length_m
+    fuselage = Polygon(
+        [(0, half), (width, half - width), (width, -half), (-width, -half), (-width, half - width)]
+    )
+    wing = Polygon(
+        [(0, tip), (width, tip), (span, tip - back), (span, tip - back - mesh.wing_tip_chord_m),
+         (width, tip - mesh.wing_root_chord_m), (0, tip - mesh.wing_root_chord_m)]
+    )  # fmt: skip
+    tailplane = Polygon(
+        [(0, tail), (width, tail), (mesh.tail_span_m / 2, tail - chord / 2),
+         (mesh.tail_span_m / 2, tail - chord), (0, tail - chord)]
+    )  # fmt: skip
+    halves = [wing, tailplane]
+    mirrored = [affinity.scale(part, -1, 1, origin=(0, 0)) for part in halves]
+    whole = union_all([fuselage, *halves, *mirrored])
+    return affinity.rotate(whole, -body.state.heading_rad, origin=(0, 0), use_radians=True)
+
+
+@settings(deadline=None, max_examples=30)
+@given(poses, st.floats(-20_000.0, 20_000.0), st.floats(-5_000.0, 5_000.0))
+def test_it_does_not_matter_where_on_the_airport_they_are(second, east, north) -> None:
+    away_east, away_north, heading = second
+    moved = plane(away_east + east, away_north + north, heading)
+    found = gap(plane(east, north), moved).horizontal_m
+    assert found == pytest.approx(gap(plane(), plane(*second)).horizontal_m, abs=0.1)
