@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import http.client
-import socket
 import threading
-import urllib.parse
-from contextlib import closing, suppress
-from http import HTTPStatus
+from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from airhilt.errors import AirhiltError
 
-READ_BYTES = 65_536
-QUOTED_BYTES = 200
-"""Of an answer that is an error, in the message about it."""
+if TYPE_CHECKING:
+    import httpx
 
-_CONNECTIONS: dict[str, type[http.client.HTTPConnection]] = {
-    "http": http.client.HTTPConnection,
-    "https": http.client.HTTPSConnection,
-}
+SCHEMES = ("http", "https")
+USAGE = "the address of a service"
+"""Words for such an engine where error messages list what may be written."""
+QUOTED_BYTES = 200
+"""Bytes of an error answer that the error message quotes."""
 
 
 def is_service(engine: str) -> bool:
     """Return whether an engine, as the command line names it, is a service at an address."""
-    return engine.partition(":")[0] in _CONNECTIONS
+    return engine.partition(":")[0] in SCHEMES
 
 
 class HttpService:
@@ -32,13 +29,13 @@ class HttpService:
     Parameters
     ----------
     subject
-        What asks, at the head of messages: ``voice http``.
+        Words at the head of error messages for what calls the service, such as ``voice http``.
     url
-        Where to, with ``http`` or ``https``.
+        Address, with ``http`` or ``https``.
     timeout_s
-        Wall time for the whole exchange, from looking up the name to the last byte.
+        Wall time for a whole request, from the lookup of the name to the last byte.
     maximum_bytes
-        Of an answer.
+        Size of the largest answer that is accepted.
     failure
         Class of all errors.
 
@@ -56,13 +53,7 @@ class HttpService:
         maximum_bytes: int,
         failure: type[AirhiltError],
     ) -> None:
-        try:
-            self._address = urllib.parse.urlsplit(url)
-            is_address = is_service(url) and bool(self._address.hostname)
-            _ = self._address.port
-        except ValueError:
-            is_address = False
-        if not is_address or not all("!" <= character <= "~" for character in url):
+        if not _is_address(url):
             raise failure(
                 f"{subject}: {url!r} is no address; expected one such as http://127.0.0.1:8000/path"
             )
@@ -80,60 +71,57 @@ class HttpService:
         AirhiltError
             The service is down, slow, says that it failed, or answers without an end.
         """
+        import httpx  # Not at the top: most runs call no service, and importing it takes time.
+
         try:
-            return _Exchange(self, body, content_type).within(self._timeout_s)
-        except TimeoutError:
+            with self._client() as client:
+                return _Request(self, client, body, content_type).within(self._timeout_s)
+        except (TimeoutError, httpx.TimeoutException):
             raise self.error(
                 f"has not answered for {self._timeout_s:g} s",
                 "an answer in that time; give it longer, or choose a faster service",
             ) from None
-        except (OSError, http.client.HTTPException) as error:
+        except httpx.ConnectError as error:
+            raise self.error(f"is not there: {error}", "a service that answers") from None
+        except (httpx.TransportError, OSError) as error:
             raise self.error(
                 f"broke off: {type(error).__name__}: {error}", "a complete answer"
             ) from None
 
-    def connect(self) -> http.client.HTTPConnection:
-        """Return a connection to the service.
+    def _client(self) -> httpx.Client:
+        """Return a client whose single steps take no longer than a whole request may."""
+        import httpx
 
-        Raises
-        ------
-        AirhiltError
-            It is not there.
-        """
-        kind, host = _CONNECTIONS[self._address.scheme], self._address.hostname or ""
-        connection = kind(host, self._address.port, timeout=self._timeout_s)
-        try:
-            connection.connect()
-        except TimeoutError:
-            raise
-        except (OSError, UnicodeError) as error:  # UnicodeError: a name that cannot be looked up
-            raise self.error(f"is not there: {error}", "a service that answers") from None
-        return connection
+        return httpx.Client(
+            timeout=self._timeout_s,
+            trust_env=False,
+            verify=self.url.startswith("https"),  # The certificates take time to load.
+            headers={"Accept-Encoding": "identity"},
+        )
 
-    def ask(self, connection: http.client.HTTPConnection, body: bytes, content_type: str) -> bytes:
-        """Return the answer that comes over a connection.
+    def ask(self, client: httpx.Client, body: bytes, content_type: str) -> bytes:
+        """Return what the service answers to one request.
 
         Raises
         ------
         AirhiltError
             The service says that it failed, or answers too much.
         """
-        address = self._address
-        target = (address.path or "/") + (f"?{address.query}" if address.query else "")
-        connection.request("POST", target, body, {"Content-Type": content_type})
-        with connection.getresponse() as answer:
-            if answer.status != HTTPStatus.OK:
-                quoted = answer.read(QUOTED_BYTES).decode("utf-8", "replace").strip()
+        headers = {"Content-Type": content_type}
+        with client.stream("POST", self.url, content=body, headers=headers) as answer:
+            if answer.status_code != 200:
+                quoted = self._read(answer)[:QUOTED_BYTES].decode("utf-8", "replace").strip()
                 raise self.error(
-                    f"answered with HTTP status {answer.status}{f': {quoted!r}' if quoted else ''}",
+                    f"answered with HTTP status {answer.status_code}"
+                    f"{f': {quoted!r}' if quoted else ''}",
                     "200",
                 )
             return self._read(answer)
 
-    def _read(self, answer: http.client.HTTPResponse) -> bytes:
+    def _read(self, answer: httpx.Response) -> bytes:
         blocks: list[bytes] = []
         size = 0
-        while block := answer.read1(READ_BYTES):
+        for block in answer.iter_raw():
             size += len(block)
             if size > self._maximum_bytes:
                 raise self.error(
@@ -141,9 +129,6 @@ class HttpService:
                     "no more than that",
                 )
             blocks.append(block)
-        promised = answer.length
-        if promised:
-            raise http.client.IncompleteRead(b"".join(blocks), promised)
         return b"".join(blocks)
 
     def error(self, what: str, expected: str) -> AirhiltError:
@@ -151,15 +136,30 @@ class HttpService:
         return self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
 
 
-class _Exchange(threading.Thread):
-    """One request and its answer, in a thread that can be left alone if the service is slow."""
+def _is_address(url: str) -> bool:
+    import httpx
 
-    def __init__(self, service: HttpService, body: bytes, content_type: str) -> None:
+    if not is_service(url) or not all("!" <= character <= "~" for character in url):
+        return False
+    try:
+        return bool(httpx.URL(url).host)
+    except httpx.InvalidURL:
+        return False
+
+
+class _Request(threading.Thread):
+    """One request and its answer, in a thread that can be left alone if the service is slow.
+
+    httpx limits the time of each step, a connect or a read, and not of the whole.
+    """
+
+    def __init__(
+        self, service: HttpService, client: httpx.Client, body: bytes, content_type: str
+    ) -> None:
         super().__init__(name=service.subject, daemon=True)
         self._service = service
+        self._client = client
         self._request = (body, content_type)
-        self._socket: socket.socket | None = None
-        self._is_given_up = False
         self._answer = b""
         self._failure: Exception | None = None
 
@@ -174,7 +174,8 @@ class _Exchange(threading.Thread):
         self.start()
         self.join(timeout_s)
         if self.is_alive():
-            self._give_up()
+            with suppress(Exception):  # Whatever the thread was in the middle of.
+                self._client.close()
             raise TimeoutError
         if self._failure is not None:
             raise self._failure
@@ -183,16 +184,6 @@ class _Exchange(threading.Thread):
     def run(self) -> None:
         """Ask the service."""
         try:
-            with closing(self._service.connect()) as connection:
-                self._socket = connection.sock
-                if not self._is_given_up:
-                    self._answer = self._service.ask(connection, *self._request)
+            self._answer = self._service.ask(self._client, *self._request)
         except Exception as error:
             self._failure = error
-
-    def _give_up(self) -> None:
-        """Cut the connection, so that what waits for it ends."""
-        self._is_given_up = True
-        if self._socket is not None:
-            with suppress(OSError):
-                self._socket.shutdown(socket.SHUT_RDWR)
