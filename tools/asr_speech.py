@@ -26,7 +26,7 @@ from scipy.io import wavfile
 from scipy.signal import resample_poly
 
 from airhilt.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
-from airhilt.voices.espeak import ACCENTS, Espeak
+from airhilt.voices.engines.espeak import ACCENTS, Espeak
 
 SHARD = 2_000
 UNSEEN_TIMBRES = ("f3 m2 m4 Mike linda Gene adam ed steph2 victor anika john").split()

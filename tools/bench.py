@@ -401,7 +401,7 @@ def detection() -> dict[str, float]:
     the CPU time of a picture, the mean of a second, in the best second, of a look at all of it and
     (``gated``) as a run looks, at what has changed; and how many places are looked at twice.
     """
-    from airhilt.assistant.vision.embedded import EmbeddedDetector
+    from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
     from airhilt.assistant.vision.gating import Gate
 
     stage, detector = Stage(), EmbeddedDetector(threads=1)

@@ -5,9 +5,9 @@ r"""Fit a detector's confidences, and count its false detections in minutes of c
     python tools/calibrate_detector.py --seed 501 --airport LSZH --airport en_route
 
 With folders of ``airhilt dataset export`` it fits how likely a finding is to be true by score,
-size and class (see `airhilt.assistant.vision.embedded.Calibration`), and writes that into the
-``card.json`` beside the network, with the lowest threshold that gives at most one false detection
-a minute for each kind of camera. Without folders it only counts.
+size and class (see `airhilt.assistant.vision.detectors.embedded.Calibration`), and writes that
+into the ``card.json`` beside the network, with the lowest threshold that gives at most one false
+detection a minute for each kind of camera. Without folders it only counts.
 
 Counted is before cameras like those of ``airhilt dataset export`` where nobody is: fixed ones, and
 ones on aircraft that roll, fly straight or descend. Pictures are taken at 16 Hz and looked at as a
@@ -35,7 +35,7 @@ from rich.progress import track
 from scipy import optimize
 
 from airhilt.assistant.vision.detector import Found, Picture, once
-from airhilt.assistant.vision.embedded import (
+from airhilt.assistant.vision.detectors.embedded import (
     CARD,
     LEAST_SCORE,
     MODEL,

@@ -16,7 +16,7 @@ from eval_detector import on_faint
 from rich.progress import track
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.embedded import EmbeddedDetector
+from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.imaging.boxes import centre, overlap, size_px
 from airhilt.messages import Box

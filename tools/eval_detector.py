@@ -34,8 +34,8 @@ from typing import Any
 from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 from rich.progress import track
 
-from airhilt.assistant.vision.detector import Found, Picture
-from airhilt.assistant.vision.engines import VisionEngine, vision_engine
+from airhilt.assistant.vision.detector import Detector, Found, Picture
+from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.imaging.boxes import centre, overlap, share_of_smaller
 from airhilt.imaging.matching import is_about
@@ -148,12 +148,12 @@ def matched(
     return seen, used
 
 
-def surely_found(engine: VisionEngine, picture: Picture) -> list[Found]:
+def surely_found(engine: Detector, picture: Picture) -> list[Found]:
     """Return what of a picture counts by itself."""
-    return [each for each in engine.detector.detect(picture) if each.confidence >= engine.threshold]
+    return [each for each in engine.detect(picture) if each.confidence >= engine.threshold]
 
 
-def judge(engine: VisionEngine, shots: Sequence[Shot]) -> Judgement:
+def judge(engine: Detector, shots: Sequence[Shot]) -> Judgement:
     """Return what a detector finds in pictures, and what it does not.
 
     Parts of the aircraft that carries the camera are left out, as a vision worker does.
@@ -219,7 +219,7 @@ def _row(value: float, edges: Sequence[float], unit: str) -> str:
 # --- approaches ---------------------------------------------------------------------------
 
 
-def approaches(engine: VisionEngine, renderer: str) -> dict[str, dict[str, float | None]]:
+def approaches(engine: Detector, renderer: str) -> dict[str, dict[str, float | None]]:
     """Return for each camera the ranges from which an airliner that comes near is found."""
     return {
         name: _ranges(engine, frames)
@@ -232,7 +232,7 @@ def approaches(engine: VisionEngine, renderer: str) -> dict[str, dict[str, float
     }
 
 
-def _ranges(engine: VisionEngine, frames: Iterator[Any]) -> dict[str, float | None]:
+def _ranges(engine: Detector, frames: Iterator[Any]) -> dict[str, float | None]:
     away: list[float] = []
     seen: list[bool] = []
     pixels: list[float] = []

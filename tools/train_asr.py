@@ -7,7 +7,7 @@ last part of the training adds calls that really went through `airhilt.sensors.r
 
     python tools/train_asr.py prepare build/asr/train     (as often as there are new shards)
     python tools/train_asr.py train build/asr --minutes 90
-    python tools/train_asr.py export build/asr airhilt/workers/asr/model
+    python tools/train_asr.py export build/asr airhilt/assistant/asr/model
 
 Needs torch, which the package itself does not.
 """

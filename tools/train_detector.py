@@ -9,7 +9,7 @@ as Points, arXiv 1904.07850), of one scale at an eighth of the resolution, and n
 suppression of overlapping boxes. It learns from tiles: most are cut around a body of some class
 and size, drawn so that rare classes and small bodies come as often as others, and changed in
 scale, colour and sharpness. Bodies that can hardly be seen are neither learnt nor counted as
-background. After training, ``tools/train_second_look.py`` makes the second network, and
+background. After training, ``tools/train_refiner.py`` makes the second network, and
 ``tools/calibrate_detector.py`` fits what both say and chooses the threshold.
 
 A checkpoint is written every few minutes; the same command goes on from it. Pictures must all be
@@ -41,7 +41,7 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from airhilt.assistant.vision.detector import GRID_PX
-from airhilt.assistant.vision.embedded import CARD
+from airhilt.assistant.vision.detectors.embedded import CARD
 
 STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from airhilt.assistant.decision import DecisionConfig, DecisionWorker
+from airhilt.engines import EngineFamily
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality
 from airhilt.phraseology.numbers import Style
@@ -16,6 +17,8 @@ ASR = "embedded"
 TTS = "espeak"
 DETECTOR = "embedded"
 """The engines unless others are named."""
+DEFAULTS = {"airhilt.asr": ASR, "airhilt.tts": TTS, "airhilt.detectors": DETECTOR}
+"""The engine of each family unless another is named, by entry point group."""
 
 AssistantName = Literal["reference", "none", "external"]
 
@@ -63,6 +66,16 @@ def reference_workers(
     return workers
 
 
+def families() -> tuple[EngineFamily[Any], ...]:
+    """Return the families of engines that workers are made of."""
+    # Not at the top: a run without speech or cameras starts without the libraries behind them.
+    from airhilt.assistant.asr import engines as asr
+    from airhilt.assistant.vision import detectors
+    from airhilt.voices import engines as voices
+
+    return asr.FAMILY, voices.FAMILY, detectors.FAMILY
+
+
 def reference_worker(
     kind: str, engine: str | None = None, name: str | None = None, style: Style = "faa"
 ) -> Worker:
@@ -99,11 +112,10 @@ def reference_worker(
                 tts_engine(TTS if engine is None else engine), style=style, name=name or kind
             )
         case "vision":
-            from airhilt.assistant.vision.engines import vision_engine
+            from airhilt.assistant.vision.detectors import vision_engine
             from airhilt.assistant.vision.worker import VisionWorker
 
-            detector, threshold = vision_engine(DETECTOR if engine is None else engine)
-            return VisionWorker(detector, name or kind, threshold)
+            return VisionWorker(vision_engine(DETECTOR if engine is None else engine), name or kind)
         case "decision" if engine is None:
             return DecisionWorker(name=name or kind)
         case "decision":

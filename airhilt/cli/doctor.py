@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-import shutil
 import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -12,6 +11,8 @@ from typing import Any
 
 from airhilt import library
 from airhilt._version import __version__
+from airhilt.engines import Engine, EngineFamily
+from airhilt.errors import AirhiltError
 from airhilt.sensors.cameras import RENDERERS, RendererName
 
 NEEDED = (
@@ -29,13 +30,11 @@ NEEDED = (
     "onnxruntime",
     "espeakng-loader",
     "jiwer",
+    "httpx",
 )
 OPTIONAL = {
     "pillow": "vision",
     "av": "video",
-    "ultralytics": "yolo",
-    "faster-whisper": "whisper",
-    "coqui-tts": "coqui",
     "resvg-py": "plot",
 }
 """Extras by the package that they bring."""
@@ -69,11 +68,10 @@ def examine() -> list[Finding]:
         *[_package(name) for name in NEEDED],
         *[_library(kind) for kind in ("aircraft", "scenarios")],
         _jsbsim_models(),
-        _recogniser(),
-        _detector(),
+        *_engines(),
         *[_renderer(name) for name in RENDERERS],
     ]
-    return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()], _flite()]
+    return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
 
 
 def _package(name: str) -> Finding:
@@ -93,28 +91,32 @@ def _version(name: str) -> str:
         return ""
 
 
-def _recogniser() -> Finding:
-    """Load the recogniser that ships with AIRHILT."""
-    from airhilt.assistant.asr.engines import asr_engine
-    from airhilt.errors import SpeechError
+def _engines() -> list[Finding]:
+    """Look at the engines of all families; those that every run has by default are needed."""
+    from airhilt.assistant.reference import DEFAULTS, families
 
+    return [
+        _engine(family, name, needed=name == DEFAULTS[family.group])
+        for family in families()
+        for name in family.names()
+    ]
+
+
+def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
+    """Look for what an engine needs, and load it if its name alone is enough for that."""
+    title = f"{family.word} {name}"
     try:
-        asr_engine("embedded")
-    except SpeechError as error:
-        return Finding("speech recogniser", "", needed=True, remedy=str(error))
-    return Finding("speech recogniser", "(embedded)", needed=True)
-
-
-def _detector() -> Finding:
-    """Load the detector that ships with AIRHILT."""
-    from airhilt.assistant.vision.engines import vision_engine
-    from airhilt.errors import VisionError
-
-    try:
-        vision_engine("embedded")
-    except VisionError as error:
-        return Finding("detector", "", needed=True, remedy=str(error))
-    return Finding("detector", "(embedded)", needed=True)
+        engine: Engine[Any] = family.load(name)
+        for requirement in engine.requires:
+            if not requirement.found():
+                remedy = f"{engine.summary}; {requirement.remedy()}"
+                return Finding(title, "", needed, remedy)
+        if engine.accepts("") and not engine.usage:
+            engine.create("")
+    except AirhiltError as error:
+        return Finding(title, "", needed, str(error))
+    installed = "".join(f"{requirement.found()}, " for requirement in engine.requires)
+    return Finding(title, f"({installed}{engine.summary})", needed)
 
 
 def _renderer(name: RendererName) -> Finding:
@@ -127,13 +129,6 @@ def _renderer(name: RendererName) -> Finding:
     except RendererError as error:
         return Finding(f"renderer {name}", "", needed=False, remedy=str(error))
     return Finding(f"renderer {name}", "(draws)", needed=False)
-
-
-def _flite() -> Finding:
-    found = shutil.which("flite") or ""
-    return Finding(
-        "flite", found, needed=False, remedy="for --tts flite; such as apt install flite"
-    )
 
 
 def _library(kind: str) -> Finding:

@@ -25,6 +25,7 @@ from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.worker import VisionWorker
 class Hashing:
     name = "hashing"
+    threshold = 0.0
     def detect(self, picture):
         number = int(hashlib.sha256(picture.tobytes()).hexdigest()[:12], 16)
         return [Found("airplane", number / 16**12, (0.0, 0.0, 9.0, 9.0))]

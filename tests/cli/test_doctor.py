@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from airhilt.assistant.vision import embedded
+from airhilt.assistant.vision.detectors import embedded
 from airhilt.cli import doctor
 from airhilt.cli.doctor import Finding, examine
 
@@ -22,15 +22,15 @@ def found() -> dict[str, Finding]:
 
 
 def test_the_detector_is_loaded() -> None:
-    assert str(found()["detector"]) == "ok       detector (embedded)"
+    assert str(found()["detector embedded"]).startswith("ok       detector embedded (small network")
 
 
 def test_a_detector_without_its_model_is_missing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(embedded, "MODEL", tmp_path / "detector.onnx")
-    detector = found()["detector"]
-    assert str(detector).startswith("MISSING  detector: ")
+    detector = found()["detector embedded"]
+    assert str(detector).startswith("MISSING  detector embedded: ")
     assert str(tmp_path) in detector.remedy
 
 

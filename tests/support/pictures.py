@@ -60,6 +60,7 @@ class BlobDetector:
     """Finds blobs; how sure it is depends on what is up to `REACH_PX` around them."""
 
     name = "blobs"
+    threshold = 0.0
     REACH_PX = 24
 
     def __init__(self) -> None:
@@ -91,6 +92,7 @@ class Told:
     """A detector that finds what it is told to, picture by picture, the last again and again."""
 
     name = "told"
+    threshold = 0.0
 
     def __init__(self, *pictures: Sequence[Found]) -> None:
         self._pictures = list(pictures)

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.embedded import Calibration
+from airhilt.assistant.vision.detectors.embedded import Calibration
 from airhilt.sensors.cameras.dataset.coco import run_lengths
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from paths import TOOLS

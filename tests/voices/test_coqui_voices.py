@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from airhilt.errors import SpeechError
-from airhilt.voices.coqui import MODEL_FILES, Coqui
 from airhilt.voices.engine import VoiceSpec
+from airhilt.voices.engines.coqui import MODEL_FILES, Coqui
 
 INSTALLED = importlib.util.find_spec("TTS") is not None
 SPEAKERS = ("Ana Florence", "Craig Gutsy", "Viktor Eka")

@@ -10,7 +10,7 @@ import pytest
 from airhilt.errors import SpeechError
 from airhilt.sensors.radio.channel import active
 from airhilt.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
-from airhilt.voices.espeak import Espeak
+from airhilt.voices.engines.espeak import Espeak
 
 CALL = "American one two three, runway zero one, cleared to land."
 
@@ -37,7 +37,7 @@ def test_the_same_words_give_the_same_samples_whatever_was_said_before(espeak: E
 
 def test_another_process_gives_the_same_samples(espeak: Espeak) -> None:
     program = (
-        "import hashlib; from airhilt.voices.espeak import Espeak; e = Espeak(); "
+        "import hashlib; from airhilt.voices.engines.espeak import Espeak; e = Espeak(); "
         f"print(hashlib.sha256(e.synthesise({CALL!r}, e.voice_of('DAL456')).tobytes()).hexdigest())"
     )
     there = subprocess.run(

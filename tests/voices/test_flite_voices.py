@@ -10,7 +10,7 @@ import pytest
 
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
-from airhilt.voices.flite import VOICES, Flite
+from airhilt.voices.engines.flite import VOICES, Flite
 
 needs_flite = pytest.mark.skipif(
     shutil.which("flite") is None, reason="no flite on PATH: apt install flite"

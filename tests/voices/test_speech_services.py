@@ -11,11 +11,11 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from airhilt.assistant.asr.http import HttpAsr
+from airhilt.assistant.asr.engines.http import HttpAsr
 from airhilt.audio.wav import decode_wav, encode_wav
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
-from airhilt.voices.http import HttpTts
+from airhilt.voices.engines.http import HttpTts
 from services import (
     Slow,
     Slowness,

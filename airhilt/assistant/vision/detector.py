@@ -40,6 +40,11 @@ class Detector(Protocol):
         """As in ``Detections.engine``."""
         ...
 
+    @property
+    def threshold(self) -> float:
+        """Confidence from which a finding counts by itself; others only continue tracks."""
+        ...
+
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture, the surest first.
 

@@ -178,12 +178,12 @@ class Tracker:
             End of the exposure.
         """
         self._expect(t_ns, view)
-        threshold = [one for one in found if one.confidence >= self._threshold]
-        unsure = [one for one in found if one.confidence < self._threshold]
+        confident = [one for one in found if one.confidence >= self._threshold]
+        doubtful = [one for one in found if one.confidence < self._threshold]
         followed: list[tuple[_Track, Found]] = []
-        rest = self._assign(self._tracks, threshold, followed)
+        rest = self._assign(self._tracks, confident, followed)
         left = [track for track in self._tracks if all(track is not other for other, _ in followed)]
-        self._assign(left, unsure, followed)
+        self._assign(left, doubtful, followed)
         for track in self._tracks:
             track.misses += 1
         for track, one in followed:

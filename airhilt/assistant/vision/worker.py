@@ -32,17 +32,14 @@ MOST_OF_OWN_AIRCRAFT = 0.6
 class VisionWorker:
     """Gives each picture to a detector, follows what it finds, and publishes it.
 
-    Parameters
-    ----------
-    sure
-        Confidence from which a finding counts by itself. One below it is published only where it
-        goes on with what was found in three pictures or more.
+    A finding below the detector's threshold is published only if it continues a track that was
+    found in three pictures or more.
     """
 
-    def __init__(self, detector: Detector, name: str = "vision", threshold: float = 0.0) -> None:
+    def __init__(self, detector: Detector, name: str = "vision") -> None:
         self._engine = detector.name
         self._gate = Gate(detector)
-        self._threshold = threshold
+        self._threshold = detector.threshold
         self._infos: dict[str, CameraInfo] = {}
         self._masks: dict[str, Mask] = {}
         self._trackers: dict[str, Tracker] = {}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from airhilt.assistant.asr.ctc import Emission, best_path, with_callsign
+from airhilt.assistant.asr.engines.embedded import Emission, best_path, with_callsign
 from airhilt.assistant.asr.spotting import Spotter, spoken_forms
 
 WORDS = [

@@ -14,14 +14,14 @@ import jiwer
 import numpy as np
 import pytest
 
-import airhilt.assistant.asr.ctc
-from airhilt.assistant.asr.ctc import FILES, Calibration, Ctc, best_path
+import airhilt.assistant.asr.engines.embedded
 from airhilt.assistant.asr.engines import asr_engine
+from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, best_path
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import Other, VhfChannel
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.voices.espeak import Espeak
+from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
 
 TINY = DATA / "tiny_recogniser"
@@ -298,7 +298,7 @@ def test_it_gives_only_its_own_words_and_confidences_between_0_and_1(embedded: C
 
 
 def _embedded_words() -> list[str]:
-    folder = Path(airhilt.assistant.asr.ctc.__file__).parent / "model"
+    folder = airhilt.assistant.asr.engines.embedded.MODEL
     return (folder / "words.txt").read_text(encoding="utf-8").split()
 
 
@@ -319,7 +319,7 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
     spoken = said_by(*CALLS[0])
     audio = np.tile(np.concatenate([spoken, silence(0.5)]), 1 + 65 * SAMPLE_RATE_HZ // len(spoken))
     by_windows = embedded.posteriors(audio)
-    monkeypatch.setattr(airhilt.assistant.asr.ctc, "WINDOW_STEPS", len(audio))
+    monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_STEPS", len(audio))
     assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
 
 
@@ -327,7 +327,7 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
 def test_ten_minutes_of_an_open_microphone_take_less_than_half_a_gigabyte() -> None:
     measure = """
 import numpy as np
-from airhilt.assistant.asr.ctc import Ctc
+from airhilt.assistant.asr.engines.embedded import Ctc
 audio = np.random.default_rng(0).standard_normal(600 * 16_000, np.float32) * np.float32(0.05)
 Ctc().recognise(audio, ("AAL123", "DAL456"))
 print(next(line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import json
 from collections.abc import Iterator
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-import airhilt.assistant.asr.http
+import airhilt.assistant.asr.engines.http
 from airhilt import run
 from airhilt.audio.wav import decode_wav
 from airhilt.cosim.simulation import Observer, Result
@@ -76,8 +77,9 @@ def transcripts(result: Result) -> list[Transcript]:
 def test_a_service_that_fails_is_the_loss_of_speech_and_of_nothing_else(
     kind: str, short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    impatient = functools.partial(airhilt.assistant.asr.http.HttpAsr, timeout_s=0.3)
-    monkeypatch.setattr(airhilt.assistant.asr.http, "HttpAsr", impatient)
+    impatient = functools.partial(airhilt.assistant.asr.engines.http.HttpAsr, timeout_s=0.3)
+    http = airhilt.assistant.asr.engines.http
+    monkeypatch.setattr(http, "ENGINE", dataclasses.replace(http.ENGINE, create=impatient))
     failing, said = FAILING[kind]
     observer = Notices()
     with failing() as url:

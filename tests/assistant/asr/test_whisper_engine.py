@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
-from airhilt.assistant.asr.whisper import MODEL_FILES, Whisper
+from airhilt.assistant.asr.engines.whisper import MODEL_FILES, Whisper
 from airhilt.errors import SpeechError
-from airhilt.voices.espeak import Espeak
+from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
 
 MODEL = DATA / "tiny_whisper"

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.asr import ctc
+from airhilt.assistant.asr.engines import embedded as recogniser
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.embedded import MODEL, Calibration, EmbeddedDetector
+from airhilt.assistant.vision.detectors.embedded import MODEL, Calibration, EmbeddedDetector
 from airhilt.assistant.vision.refiner import Refiner
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
@@ -156,13 +156,13 @@ def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(tmp_path, ai
     kind = plain | {"of_class": {"airplane": 1.0}}
     after = EmbeddedDetector(copy(tmp_path / "kind", calibration=kind), 0.0).detect(picture)
     assert {one.box for one in before} == {one.box for one in after}
-    threshold = {one.box: one.confidence for one in before}
+    confidence = {one.box: one.confidence for one in before}
     for one in after:
         if one.label == "airplane":
-            odds = threshold[one.box] / (1.0 - threshold[one.box])
+            odds = confidence[one.box] / (1.0 - confidence[one.box])
             assert one.confidence == pytest.approx(odds * math.e / (1.0 + odds * math.e), rel=1e-3)
         else:
-            assert one.confidence == pytest.approx(threshold[one.box])
+            assert one.confidence == pytest.approx(confidence[one.box])
 
 
 @given(
@@ -199,7 +199,7 @@ def test_a_file_that_is_no_network_is_named(tmp_path: Path) -> None:
 
 def test_a_network_of_another_shape_is_named(tmp_path: Path) -> None:
     path = copy(tmp_path)
-    shutil.copy(Path(ctc.__file__).parent / "model" / "ctc.onnx", path)
+    shutil.copy(recogniser.MODEL / "ctc.onnx", path)
     with pytest.raises(VisionError, match=r"detector\.onnx has .*; expected a network of tools/"):
         EmbeddedDetector(path)
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from airhilt.assistant.vision.detector import Found, PictureMissed
-from airhilt.assistant.vision.http import HttpDetector, encode_png
+from airhilt.assistant.vision.detectors.http import HttpDetector, encode_png
 from airhilt.errors import VisionError
 from pictures import background, with_blobs
 from services import (

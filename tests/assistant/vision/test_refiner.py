@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.embedded import MODEL, EmbeddedDetector, once
+from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector, once
 from airhilt.assistant.vision.refiner import (
     VIEW_PX,
     Refiner,
@@ -49,14 +49,14 @@ def detector_in(folder: Path, **refiner: object) -> Path:
         shutil.copy(network, folder)
     card = json.loads(MODEL.with_name("card.json").read_text())
     plain = {"logit": 1.0, "size": 0.0, "size_squared": 0.0, "logit_and_size": 0.0}
-    card |= {"calibration": plain, "second_look": card["second_look"] | refiner}
+    card |= {"calibration": plain, "refiner": card["refiner"] | refiner}
     (folder / "card.json").write_text(json.dumps(card))
     return folder / "detector.onnx"
 
 
 def look(classes: Sequence[VisibleClass] = CLASSES, **card: object) -> Refiner:
     """Return the second look that ships, with changes to its card."""
-    shipped = json.loads(MODEL.with_name("card.json").read_text())["second_look"]
+    shipped = json.loads(MODEL.with_name("card.json").read_text())["refiner"]
     return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
 
 
@@ -159,7 +159,7 @@ def test_only_likely_places_are_looked_at_and_only_so_many() -> None:
     assert look(least_score=0.25, most=1).places(found, 2 * 640 * 360) == found[:2]
 
 
-def test_the_second_look_has_the_last_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_refiner_has_the_last_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of class, of confidence and of place; what leaves the picture is cut, and twins are one."""
     proposed = [place(20.0, 20.0, 0.9), place(60.0, 20.0, 0.8), place(100.0, 20.0, 0.7)]
     judged = [
@@ -183,12 +183,12 @@ def test_the_second_look_has_the_last_word(tmp_path: Path, monkeypatch: pytest.M
     assert {one.label for one in detector.uncalibrated(noise())} == {"deer", "truck"}
 
 
-def test_without_a_second_look_the_first_has_the_last_word(
+def test_without_a_refiner_the_first_has_the_last_word(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = detector_in(tmp_path)
     card = json.loads((tmp_path / "card.json").read_text())
-    (tmp_path / "card.json").write_text(json.dumps(card | {"second_look": None}))
+    (tmp_path / "card.json").write_text(json.dumps(card | {"refiner": None}))
     proposed = [place(20.0, 20.0, 0.9), place(21.0, 20.0, 0.8)]
     monkeypatch.setattr(EmbeddedDetector, "proposed", lambda *_: proposed)
     found = EmbeddedDetector(path, threshold=0.0).detect(noise())
@@ -203,27 +203,25 @@ def test_a_thing_that_was_found_twice_is_told_once() -> None:
     assert once([whole, again, behind, another]) == [whole, behind, another]
 
 
-def test_a_missing_second_look_is_named(tmp_path: Path) -> None:
+def test_a_missing_refiner_is_named(tmp_path: Path) -> None:
     path = detector_in(tmp_path, file="gone.onnx")
     with pytest.raises(VisionError, match=r"gone\.onnx, which the card beside it names: no such"):
         EmbeddedDetector(path)
 
 
-@pytest.mark.parametrize("file", ["../second_look.onnx", "/etc/passwd", "second_look.pt", ""])
-def test_a_second_look_lies_beside_its_card(tmp_path: Path, file: str) -> None:
-    with pytest.raises(VisionError, match=r"card\.json: second_look/file"):
+@pytest.mark.parametrize("file", ["../refiner.onnx", "/etc/passwd", "refiner.pt", ""])
+def test_a_refiner_lies_beside_its_card(tmp_path: Path, file: str) -> None:
+    with pytest.raises(VisionError, match=r"card\.json: refiner/file"):
         EmbeddedDetector(detector_in(tmp_path, file=file))
 
 
-def test_a_network_that_is_no_second_look_is_named(tmp_path: Path) -> None:
+def test_a_network_that_is_no_refiner_is_named(tmp_path: Path) -> None:
     path = detector_in(tmp_path)
-    shutil.copy(MODEL, tmp_path / "second_look.onnx")
-    with pytest.raises(
-        VisionError, match=r"second_look\.onnx, .* has .*; expected a network of too"
-    ):
+    shutil.copy(MODEL, tmp_path / "refiner.onnx")
+    with pytest.raises(VisionError, match=r"refiner\.onnx, .* has .*; expected a network of too"):
         EmbeddedDetector(path)
 
 
-def test_a_second_look_for_other_classes_is_named() -> None:
+def test_a_refiner_for_other_classes_is_named() -> None:
     with pytest.raises(VisionError, match=r"chances.*and 3 classes"):
         look(classes=CLASSES[:3])

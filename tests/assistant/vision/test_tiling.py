@@ -46,8 +46,8 @@ def test_what_is_smaller_than_the_overlap_is_found_once_and_whole(
 
 def test_what_two_tiles_take_for_different_things_is_one() -> None:
     box, beside = (600.0, 300.0, 640.0, 330.0), (602.0, 300.0, 642.0, 330.0)
-    threshold, unsure = Found("airplane", 0.9, box), Found("truck", 0.5, beside)
-    assert merged([Piece(unsure, is_cut=False), Piece(threshold, is_cut=False)]) == [threshold]
+    confident, doubtful = Found("airplane", 0.9, box), Found("truck", 0.5, beside)
+    assert merged([Piece(doubtful, is_cut=False), Piece(confident, is_cut=False)]) == [confident]
 
 
 def test_different_things_side_by_side_stay_two() -> None:

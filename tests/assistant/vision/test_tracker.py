@@ -205,9 +205,9 @@ def test_a_thing_is_called_what_it_was_taken_for_most() -> None:
 
 
 def test_one_sure_finding_says_more_about_what_it_is_than_two_unsure_ones() -> None:
-    unsure, threshold = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
+    doubtful, confident = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
     tracker = Tracker()
-    for step, one in enumerate((unsure, threshold, unsure)):
+    for step, one in enumerate((doubtful, confident, doubtful)):
         (told,) = tracker.follow(step * PERIOD_NS, VIEW, [one])
     assert (told.track_id, told.hits, told.found.label) == (1, 3, "bird")
 

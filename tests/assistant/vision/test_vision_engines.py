@@ -10,22 +10,28 @@ from types import SimpleNamespace
 import pytest
 
 from airhilt.assistant.reference import reference_worker
-from airhilt.assistant.vision.embedded import MODEL, EmbeddedDetector
-from airhilt.assistant.vision.engines import vision_engine
-from airhilt.assistant.vision.http import HttpDetector
+from airhilt.assistant.vision.detectors import vision_engine
+from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
+from airhilt.assistant.vision.detectors.http import HttpDetector
 from airhilt.errors import VisionError
 from airhilt.messages import Detections
 from pictures import Told, a, background, frame, info
 
 
-@pytest.mark.parametrize("name", ["", "yolo", "yolo:", "opencv", "ftp://127.0.0.1/", "Embedded"])
+@pytest.mark.parametrize("name", ["", "opencv", "ftp://127.0.0.1/", "Embedded"])
 def test_a_name_that_is_none_says_what_would_be(name: str) -> None:
     with pytest.raises(VisionError, match="there is none of that name; expected embedded, "):
         vision_engine(name)
 
 
+@pytest.mark.parametrize("name", ["yolo", "yolo:"])
+def test_an_engine_that_needs_a_file_says_so(name: str) -> None:
+    with pytest.raises(VisionError, match=f"detector '{name}': expected yolo:FILE"):
+        vision_engine(name)
+
+
 def test_an_address_is_a_service() -> None:
-    assert isinstance(vision_engine("http://127.0.0.1:8000/look").detector, HttpDetector)
+    assert isinstance(vision_engine("http://127.0.0.1:8000/look"), HttpDetector)
 
 
 def test_a_reference_worker_looks_with_the_engine_that_is_named() -> None:
@@ -95,7 +101,7 @@ def test_yolo_is_kept_from_the_network_and_nothing_else_is(
     before = dict(os.environ)
     path = tmp_path / "yolov10n.pt"
     path.write_bytes(b"x")
-    assert vision_engine(f"yolo:{path}").detector.name == "yolo:yolov10n"
+    assert vision_engine(f"yolo:{path}").name == "yolo:yolov10n"
     assert (given["YOLO_OFFLINE"], given["YOLO_VERBOSE"]) == ("true", "false")
     assert dict(os.environ) == before
 

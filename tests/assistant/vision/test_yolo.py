@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.assistant.vision.engines import vision_engine
-from airhilt.assistant.vision.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
+from airhilt.assistant.vision.detectors import vision_engine
+from airhilt.assistant.vision.detectors.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
 from airhilt.errors import VisionError
 from pictures import background
 
@@ -101,7 +101,7 @@ def models(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("file", ["yolov10n.pt", "yolov10n.onnx", "fixed.onnx"])
 class TestModel:
     def test_finds_things_with_names_that_are_known(self, models: Path, file: str) -> None:
-        detector, threshold = vision_engine(f"yolo:{models / file}")
+        detector = vision_engine(f"yolo:{models / file}")
         found = detector.detect(PICTURE)
         assert found
         assert {one.label for one in found} <= set(LABELS.values())
@@ -112,7 +112,7 @@ class TestModel:
         for left, top, right, bottom in (one.box for one in found):
             assert 0.0 <= left < right <= 640.0
             assert 0.0 <= top < bottom <= 360.0
-        assert LEAST_CONFIDENCE < threshold < 1.0
+        assert LEAST_CONFIDENCE < detector.threshold < 1.0
         assert detector.name == f"yolo:{Path(file).stem}"
 
     def test_finds_the_same_in_the_same(self, models: Path, file: str) -> None:

@@ -15,7 +15,7 @@ from airhilt.sensors.radio.audio_radio import AudioRadio
 from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
 from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
-from airhilt.voices.espeak import Espeak
+from airhilt.voices.engines.espeak import Espeak
 
 
 @cache

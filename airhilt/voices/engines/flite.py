@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 from airhilt.audio.wav import read_wav
+from airhilt.engines import Command, Engine
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import Audio, VoiceSpec
 
@@ -85,3 +86,11 @@ class Flite:
 def _last_line(text: bytes) -> str:
     lines = text.decode("utf-8", "replace").strip().splitlines()
     return lines[-1] if lines else "it did not say why"
+
+
+ENGINE = Engine(
+    name="flite",
+    summary="CMU Flite, more natural than espeak-ng",
+    create=lambda _: Flite(),
+    requires=(Command("flite", debian="flite"),),
+)

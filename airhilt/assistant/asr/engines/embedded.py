@@ -19,12 +19,16 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.spotting import Spotted, Spotter
+from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
 from airhilt.messages import Confidence
 from airhilt.onnx import open_network
 from airhilt.voices.engine import Audio
 
+MODEL = Path(__file__).parents[1] / "model"
+"""The model that ships with AIRHILT."""
 FILES = ("ctc.onnx", "words.txt", "card.json")
+"""Files of a model's folder."""
 EXPECTED = "a network of tools/train_asr.py: features [1, n, 64] to logits [1, n / 6, words + 1]"
 LEAST_SAMPLES = 1_600
 """A tenth of a second: less holds no word."""
@@ -94,7 +98,7 @@ class Ctc:
     name = "embedded"
 
     def __init__(self, folder: Path | None = None) -> None:
-        where = folder or Path(__file__).parent / "model"
+        where = folder or MODEL
         missing = [name for name in FILES if not (where / name).is_file()]
         if missing:
             raise SpeechError(
@@ -212,3 +216,12 @@ def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
         *(Emission(unit, posterior, spotted.begin) for unit in spotted.units),
         *(each for each in path if each.begin >= spotted.end),
     ]
+
+
+ENGINE = Engine(
+    name="embedded",
+    summary="network for the words of aviation; ships with AIRHILT",
+    create=lambda folder: Ctc(Path(folder) if folder else None),
+    argument="FOLDER",
+    takes=lambda text: (Path(text) / FILES[0]).is_file(),
+)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.signal import resample_poly
 
+from airhilt.engines import Engine, Package
 from airhilt.errors import SpeechError, first_line
 from airhilt.voices.engine import Audio, VoiceSpec
 
@@ -114,3 +115,14 @@ def _fingerprint(folder: Path) -> str:
     stats = [(folder / name).stat() for name in MODEL_FILES]
     text = repr([(stat.st_size, stat.st_mtime_ns) for stat in stats])
     return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+ENGINE = Engine(
+    name="coqui",
+    summary="Coqui XTTS-v2, natural; slow without a GPU",
+    create=lambda folder: Coqui(Path(folder)),
+    argument="FOLDER",
+    is_argument_required=True,
+    takes=lambda text: (Path(text) / "model.pth").is_file(),
+    requires=(Package("coqui-tts", extra="coqui"),),
+)

@@ -1,6 +1,6 @@
 """Train the second look of the detector that ships with AIRHILT, and write it as ONNX.
 
-    python tools/train_second_look.py data/train1 data/train2 --network detector/detector.onnx \
+    python tools/train_refiner.py data/train1 data/train2 --network detector/detector.onnx \
         --scratch places
 
 ``tools/train_detector.py`` makes the network that sees a whole picture. Here it is asked what it
@@ -9,7 +9,7 @@ known, and that is what the second network learns to tell, with the body's class
 `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
 for something. Places on bodies that can hardly be seen teach nothing.
 
-It is written beside the first network, as ``second_look.onnx``, and into the card there. Pictures
+It is written beside the first network, as ``refiner.onnx``, and into the card there. Pictures
 are kept decoded beside the answers of the first network in ``SCRATCH/<folder>-<mark>.u8`` and
 ``SCRATCH/<folder>-<mark>.npz``, where the marks change with what they are made of; both are made
 again when missing. A checkpoint is written every few minutes; the same command goes on from it,
@@ -33,10 +33,10 @@ from torch import Tensor, nn
 from torch.nn import functional
 from train_detector import NOT_CALIBRATED, batches, followed
 
-from airhilt.assistant.vision.embedded import CARD
+from airhilt.assistant.vision.detectors.embedded import CARD
 from airhilt.assistant.vision.refiner import VIEW_PX
 
-FILE = "second_look.onnx"
+FILE = "refiner.onnx"
 USED_FROM, USED = 0.15, 8
 """Of the places that are looked at twice: the first score, and how many there are in a picture."""
 WIDTHS = (16, 48, 64)
@@ -240,7 +240,7 @@ def main() -> None:
     folders = [places_of(folder, given.network, given.scratch) for folder in given.folders]
     lessons = Lessons(folders, given.seed)
     print(f"{len(lessons)} places, {lessons.bodies} of them bodies", flush=True)
-    checkpoint = given.scratch / "second_look.pt"
+    checkpoint = given.scratch / "refiner.pt"
     network, stages = train(lessons, given.steps, checkpoint, given.seed)
     write_onnx(network, given.network.with_name(FILE))
     path = given.network.with_name(CARD)
@@ -248,7 +248,7 @@ def main() -> None:
     for stale in ("calibration", "false_a_minute", "counted_minutes"):
         card.pop(stale, None)
     card["threshold"] = NOT_CALIBRATED
-    card["second_look"] = {
+    card["refiner"] = {
         "file": FILE,
         "least_score": USED_FROM,
         "most": USED,
@@ -260,7 +260,7 @@ def main() -> None:
         },
     }
     path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
-    print(json.dumps(card["second_look"], indent=2))
+    print(json.dumps(card["refiner"], indent=2))
     print(f"{path} has no calibration now: tools/calibrate_detector.py makes it, and the threshold")
 
 

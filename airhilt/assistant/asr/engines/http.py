@@ -9,10 +9,11 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.audio.wav import encode_wav
+from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_problem
 from airhilt.messages import Confidence, Word
 from airhilt.phraseology.canonical import canonical
-from airhilt.services import HttpService
+from airhilt.services import USAGE, HttpService, is_service
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 TIMEOUT_S = 30.0
@@ -78,3 +79,12 @@ class HttpAsr:
                 f"answered {data[:60]!r}: {first_problem(error)}",
                 'JSON such as {"text": "...", "confidence": 0.9}',
             ) from None
+
+
+ENGINE = Engine(
+    name="http",
+    summary="service that takes WAV and answers JSON",
+    create=HttpAsr,
+    takes=is_service,
+    usage=USAGE,
+)

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 
 from airhilt.assistant.vision.detector import Found, Picture
+from airhilt.assistant.vision.detectors.embedded import has_card
+from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
 from airhilt.messages import VisibleClass
 from airhilt.onnx import open_network
@@ -32,8 +34,9 @@ LABELS: Mapping[str, VisibleClass] = {
 """By the names that models give their classes: COCO's, and two that others have. What is none of
 them, a dog or a horse, is not told of."""
 LEAST_CONFIDENCE = 0.1
-SURE = 0.25
-"""Those of ultralytics: ``track_low_thresh`` of its trackers, and ``conf`` of its predictions."""
+"""Findings with less are not reported (``track_low_thresh`` of ultralytics' trackers)."""
+THRESHOLD = 0.25
+"""Findings with less only continue tracks (``conf`` of ultralytics' predictions)."""
 MOST_FOUND = 300
 STRIDE_PX = 32
 EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
@@ -67,6 +70,7 @@ class YoloDetector:
         if path.suffix not in (".pt", ".onnx"):
             raise VisionError(f"detector yolo: {path}: expected {EXPECTED}")
         self.name = f"yolo:{path.stem}"
+        self.threshold = THRESHOLD
         self._path = path
         self._sides_px = _fixed_sides(path) if path.suffix == ".onnx" else None
         try:
@@ -167,3 +171,18 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
             return None
         case shape:
             raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
+
+
+def _is_model(path: Path) -> bool:
+    return path.suffix == ".pt" or (path.suffix == ".onnx" and not has_card(path))
+
+
+ENGINE = Engine(
+    name="yolo",
+    summary="YOLO by ultralytics, .pt or .onnx",
+    create=lambda file: YoloDetector(Path(file)),
+    argument="FILE",
+    is_argument_required=True,
+    takes=lambda text: _is_model(Path(text)),
+    requires=(Package("ultralytics", extra="yolo"),),
+)

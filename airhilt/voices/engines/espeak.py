@@ -15,6 +15,7 @@ from importlib.metadata import version as installed_version
 import numpy as np
 from scipy.signal import resample_poly
 
+from airhilt.engines import Engine
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import Audio, VoiceSpec
 
@@ -118,3 +119,10 @@ class Espeak:
             library.espeak_Terminate()
         pcm = np.frombuffer(b"".join(blocks), np.int16).astype(np.float32) / 32768.0
         return np.asarray(resample_poly(pcm, 320, 441), np.float32)
+
+
+ENGINE = Engine(
+    name="espeak",
+    summary="espeak-ng; comes with AIRHILT",
+    create=lambda _: Espeak(),
+)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 
 from airhilt.audio.wav import decode_wav
+from airhilt.engines import Engine
 from airhilt.errors import SpeechError
-from airhilt.services import HttpService
+from airhilt.services import USAGE, HttpService, is_service
 from airhilt.voices.engine import Audio, VoiceSpec
 
 TIMEOUT_S = 30.0
@@ -41,3 +42,12 @@ class HttpTts:
         asked = {"text": text, "voice": voice.name, "rate": voice.rate, "pitch": voice.pitch}
         answer = self._service.post(json.dumps(asked).encode(), "application/json")
         return decode_wav(answer, f"voice http: answer of {self._service.url}")
+
+
+ENGINE = Engine(
+    name="http",
+    summary="service that takes JSON and answers WAV",
+    create=HttpTts,
+    takes=is_service,
+    usage=USAGE,
+)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from airhilt.assistant.asr.engine import Recognised
+from airhilt.engines import Engine, Package
 from airhilt.errors import SpeechError, first_line
 from airhilt.phraseology.canonical import canonical
 from airhilt.phraseology.telephony import TELEPHONY
@@ -154,3 +155,14 @@ def _require_features(name: str, model: Any) -> None:
             f"{bands} of its preprocessor_config.json; expected that file as it came with the "
             "model (without it, 80)"
         )
+
+
+ENGINE = Engine(
+    name="whisper",
+    summary="Whisper by faster-whisper, from a folder or the Hugging Face hub",
+    create=Whisper,
+    argument="FOLDER_OR_NAME",
+    is_argument_required=True,
+    takes=lambda text: (Path(text) / "model.bin").is_file(),
+    requires=(Package("faster-whisper", extra="whisper"),),
+)

@@ -2,7 +2,7 @@
 
 It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850), and then
 once more at each place where one may be: see `airhilt.assistant.vision.refiner`.
-``tools/train_detector.py`` and ``tools/train_second_look.py`` make the networks, and
+``tools/train_detector.py`` and ``tools/train_refiner.py`` make the networks, and
 docs/detector.md says how well they see.
 """
 
@@ -15,17 +15,18 @@ from typing import Annotated
 
 import numpy as np
 import onnxruntime
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
 from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
+from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 from airhilt.onnx import open_network
 
-MODEL = Path(__file__).with_name("model") / "detector.onnx"
+MODEL = Path(__file__).parents[1] / "model" / "detector.onnx"
 CARD = "card.json"
 EXPECTED = (
     "a network of tools/train_detector.py: 'picture', uint8 [1, rows, columns, 3], to 'found', "
@@ -78,8 +79,11 @@ class Card(BaseModel):
     """Confidence from which a finding counts by itself: with it there is one false detection a
     minute and camera; docs/detector.md has what comes of it elsewhere."""
     calibration: Calibration = Calibration()
-    refiner: RefinerCard | None = None
-    """Without it the first network has the last word."""
+    refiner: Annotated[
+        RefinerCard | None, Field(validation_alias=AliasChoices("refiner", "second_look"))
+    ] = None
+    """Second network; None where the first one's findings are final. Older cards have it as
+    ``second_look``."""
 
 
 class EmbeddedDetector:
@@ -96,8 +100,8 @@ class EmbeddedDetector:
 
     Attributes
     ----------
-    sure
-        Confidence from which a finding counts by itself.
+    threshold
+        Confidence from which a finding counts by itself: that of the card.
 
     Raises
     ------
@@ -256,3 +260,17 @@ def _padded(picture: Picture) -> Picture:
     if not below and not beside:
         return np.ascontiguousarray(picture)
     return np.pad(picture, ((0, below), (0, beside), (0, 0)), mode="edge")
+
+
+def has_card(path: Path) -> bool:
+    """Return whether an ``.onnx`` file has a card beside it, as those of this project have."""
+    return path.suffix == ".onnx" and path.with_name(CARD).is_file()
+
+
+ENGINE = Engine(
+    name="embedded",
+    summary="small network trained on pictures of AIRHILT; ships with it",
+    create=lambda file: EmbeddedDetector(Path(file) if file else None),
+    argument="FILE.onnx",
+    takes=lambda text: has_card(Path(text)),
+)

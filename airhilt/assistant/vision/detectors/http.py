@@ -9,10 +9,11 @@ from collections.abc import Sequence
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.boxes import area
 from airhilt.messages import Box, Confidence, VisibleClass
-from airhilt.services import HttpService
+from airhilt.services import USAGE, HttpService, is_service
 
 TIMEOUT_S = 10.0
 MAXIMUM_BYTES = 1_000_000
@@ -52,6 +53,7 @@ class HttpDetector:
     """
 
     name = "http"
+    threshold = 0.0
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
         self._service = HttpService("detector http", url, timeout_s, MAXIMUM_BYTES, VisionError)
@@ -116,3 +118,12 @@ def encode_png(picture: Picture) -> bytes:
 
 def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+ENGINE = Engine(
+    name="http",
+    summary="service that takes PNG and answers JSON",
+    create=HttpDetector,
+    takes=is_service,
+    usage=USAGE,
+)

@@ -1,0 +1,190 @@
+"""Engines: members of a family that the command line chooses by name, path or address.
+
+Speech recognisers, voices, detectors, decision engines and wordings are such families. A member is
+one module with one `Engine`, or an entry point that names one:
+
+    [project.entry-points."airhilt.asr"]
+    mine = "my_package.asr:ENGINE"
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+from airhilt.errors import AirhiltError
+from airhilt.library import nearest
+from airhilt.plugins import Family
+from airhilt.services import is_service
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class Requirement(Protocol):
+    """Something that must be installed before an engine works."""
+
+    def found(self) -> str:
+        """Return its name and version, or its path; empty if it is missing."""
+
+    def remedy(self) -> str:
+        """Return how to get it."""
+
+
+@dataclass(frozen=True)
+class Package:
+    """A Python distribution, and the extra of AIRHILT that brings it."""
+
+    name: str
+    extra: str
+
+    def found(self) -> str:
+        """Return name and version; empty if it is not installed."""
+        try:
+            return f"{self.name} {importlib.metadata.version(self.name)}"
+        except importlib.metadata.PackageNotFoundError:
+            return ""
+
+    def remedy(self) -> str:
+        """Return the command that installs it."""
+        return f"pip install 'airhilt[{self.extra}]'"
+
+
+@dataclass(frozen=True)
+class Command:
+    """A program on PATH, and the Debian package that has it."""
+
+    name: str
+    debian: str
+
+    def found(self) -> str:
+        """Return its path; empty if there is none."""
+        return shutil.which(self.name) or ""
+
+    def remedy(self) -> str:
+        """Return the command that installs it."""
+        return f"apt install {self.debian}"
+
+
+def _takes_nothing(_text: str) -> bool:
+    return False
+
+
+@dataclass(frozen=True)
+class Engine(Generic[T_co]):
+    """One member of a family: how it is asked for, what it needs, and how it is made.
+
+    Attributes
+    ----------
+    name
+        Name of the module or entry point.
+    summary
+        What it is, in a few words.
+    create
+        Returns the engine. It is given what follows ``NAME:``, or the whole text if `takes` has
+        recognised that; empty if there is nothing.
+    argument
+        Word for what may follow ``NAME:``, such as ``FOLDER``; empty if nothing may.
+    is_argument_required
+        Whether the name alone is not enough.
+    takes
+        Returns whether a text without a name, a path or an address, is for this engine.
+    usage
+        Words for error messages; empty: made from name and argument.
+    requires
+        What must be installed.
+    """
+
+    name: str
+    summary: str
+    create: Callable[[str], T_co]
+    argument: str = ""
+    is_argument_required: bool = False
+    takes: Callable[[str], bool] = _takes_nothing
+    usage: str = ""
+    requires: tuple[Requirement, ...] = ()
+
+    def forms(self) -> str:
+        """Return what to write on the command line."""
+        if self.usage:
+            return self.usage
+        with_argument = f"{self.name}:{self.argument}"
+        if not self.argument:
+            return self.name
+        return with_argument if self.is_argument_required else f"{self.name}, {with_argument}"
+
+    def accepts(self, argument: str) -> bool:
+        """Return whether this may follow the name; empty stands for nothing."""
+        return bool(self.argument) if argument else not self.is_argument_required
+
+
+@dataclass(frozen=True)
+class EngineFamily(Family, Generic[T]):
+    """A `Family` whose members are each an `Engine`."""
+
+    protocol: type[Engine[T]] = Engine
+
+    def create(self, text: str) -> T:
+        """Return the engine for what a person has written.
+
+        Parameters
+        ----------
+        text
+            ``NAME``, ``NAME:ARGUMENT``, a path, or an address.
+
+        Raises
+        ------
+        AirhiltError
+            No engine is meant, or more than one, or it cannot be made. The error is of the class
+            that the family declares.
+        """
+        engine, argument = self.choose(text)
+        return engine.create(argument)
+
+    def choose(self, text: str) -> tuple[Engine[T], str]:
+        """Return the engine that a text asks for, and the argument for it.
+
+        Raises
+        ------
+        AirhiltError
+            No engine is meant, or more than one. The error is of the class that the family
+            declares.
+        """
+        name, _, argument = text.partition(":")
+        if name in self.names() and not is_service(text):
+            engine: Engine[T] = self.load(name)
+            if engine.accepts(argument):
+                return engine, argument
+            raise self.error(f"{self.word} {text!r}: expected {engine.forms()}")
+        takers = [engine for engine in self.members() if engine.takes(text)]
+        if len(takers) == 1:
+            return takers[0], text
+        if takers:
+            forms = " or ".join(f"{engine.name}:{text}" for engine in takers)
+            raise self.error(f"{self.word} {text!r}: more than one can take it; expected {forms}")
+        raise self.error(
+            f"{self.word} {text!r}: there is none of that name; expected {self.expected()}"
+            f"{self._suggestion(name)}"
+        )
+
+    def members(self) -> list[Engine[T]]:
+        """Return all engines that can be loaded: by name, those with an address last."""
+        found = []
+        for name in self.names():
+            try:
+                found.append(self.load(name))
+            except AirhiltError:  # Doctor says what is wrong with it.
+                continue
+        return sorted(found, key=lambda engine: bool(engine.usage))
+
+    def expected(self) -> str:
+        """Return what may be written, for error messages."""
+        *others, last = [engine.forms() for engine in self.members()]
+        return f"{', '.join(others)}, or {last}" if others else last
+
+    def _suggestion(self, name: str) -> str:
+        tail = nearest(name, self.names())
+        return tail if "did you mean" in tail else ""

@@ -1,0 +1,243 @@
+"""Engines are chosen by name, path or address, and other packages add theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TypeVar
+
+import pytest
+
+from airhilt import run
+from airhilt.assistant.asr.engines import FAMILY as RECOGNISERS
+from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
+from airhilt.cli.doctor import examine
+from airhilt.cosim import cameras
+from airhilt.cosim.simulation import Result
+from airhilt.errors import SpeechError, VisionError
+from airhilt.messages import AdvisoryAudio, Detections, Message, Transcript
+from airhilt.record import read_log
+from airhilt.scenario import Scenario
+from airhilt.voices.engines import FAMILY as VOICES
+from camera_run import passing
+from engine_package import installed
+from oracle import BlankSceneRenderer
+
+M = TypeVar("M", bound=Message)
+HEAD = """
+import numpy as np
+from airhilt.engines import Engine, Package
+"""
+RECOGNISER = (
+    HEAD
+    + """
+from airhilt.assistant.asr.engine import Recognised
+
+
+class Parrot:
+    name = "parrot"
+
+    def __init__(self, words):
+        self.words = words or "say again"
+
+    def recognise(self, audio, callsigns):
+        return Recognised(self.words, (), 0.5)
+
+
+ENGINE = Engine("parrot", "hears the same in everything", Parrot, argument="WORDS")
+"""
+)
+VOICE = (
+    HEAD
+    + """
+from airhilt.voices.engine import VoiceSpec
+
+
+class Beep:
+    name, version = "beep", "1"
+
+    def voice_of(self, speaker):
+        return VoiceSpec(speaker)
+
+    def synthesise(self, text, voice):
+        return np.full(8_000, 0.1, np.float32)
+
+
+ENGINE = Engine("beep", "beeps", lambda _: Beep())
+"""
+)
+DETECTOR = (
+    HEAD
+    + """
+from airhilt.assistant.vision.detector import Found
+
+
+class Deer:
+    name, threshold = "deer", 0.0
+
+    def detect(self, picture):
+        return [Found("deer", 0.9, (10.0, 10.0, 40.0, 40.0))]
+
+
+ENGINE = Engine("everything_is_a_deer", "finds a deer in every picture", lambda _: Deer())
+"""
+)
+UNUSABLE = (
+    HEAD
+    + """
+ENGINE = Engine("late", "needs something", str, requires=(Package("not-installed-1", "none"),))
+"""
+)
+BROKEN = "raise RuntimeError('it is broken')"
+
+
+@pytest.fixture
+def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Packages outside of AIRHILT with a recogniser, a voice and a detector."""
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.asr", "parrot", RECOGNISER),
+        installed(tmp_path, monkeypatch, "airhilt.tts", "beep", VOICE),
+        installed(tmp_path, monkeypatch, "airhilt.detectors", "everything_is_a_deer", DETECTOR),
+    ):
+        yield
+
+
+def messages(result: Result, prefix: str, model: type[M]) -> list[M]:
+    log = read_log(result.folder / "log.mcap")
+    return [model.model_validate_json(one.data) for one in log if one.key.startswith(prefix)]
+
+
+@pytest.mark.usefixtures("added")
+def test_a_run_listens_and_speaks_with_engines_of_other_packages(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    result = run(
+        encounter,
+        out=tmp_path / "run",
+        latency="fixed",
+        asr="parrot:american one two three",
+        tts="beep",
+    )
+    heard = messages(result, "asr/", Transcript)
+    assert {(one.engine, one.text) for one in heard} == {("parrot", "american one two three")}
+    spoken = messages(result, "tts/", AdvisoryAudio)
+    assert {(one.engine, one.samples) for one in spoken} == {("beep", 8_000)}
+
+
+@pytest.mark.usefixtures("added")
+def test_a_run_looks_with_a_detector_of_another_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        cameras, "_open_renderer_process", lambda scenario, _: BlankSceneRenderer(scenario)
+    )
+    scenario = passing().model_copy(update={"duration_s": 2.0})
+    result = run(
+        scenario,
+        out=tmp_path / "run",
+        latency="fixed",
+        speech=False,
+        detector="everything_is_a_deer",
+    )
+    seen = messages(result, "vision/", Detections)
+    assert {one.engine for one in seen} == {"deer"}
+    assert all(found.label == "deer" for one in seen for found in one.detections)
+    assert any(one.detections for one in seen)
+
+
+@pytest.mark.usefixtures("added")
+def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("airhilt.cli.doctor.RENDERERS", ())
+    found = {one.name: one for one in examine()}
+    assert found["recogniser embedded"].needed
+    assert found["recogniser parrot"].found == "(hears the same in everything)"
+    assert found["voice espeak"].needed
+    assert not found["voice beep"].needed
+    assert "everything_is_a_deer" in " ".join(found)
+
+
+def test_doctor_says_what_an_engine_lacks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("airhilt.cli.doctor.RENDERERS", ())
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.asr", "late", UNUSABLE),
+        installed(tmp_path, monkeypatch, "airhilt.asr", "broken", BROKEN),
+    ):
+        found = {one.name: one for one in examine()}
+    late, broken = found["recogniser late"], found["recogniser broken"]
+    assert (late.found, late.remedy) == ("", "needs something; pip install 'airhilt[none]'")
+    assert (broken.found, broken.needed) == ("", False)
+    assert "RuntimeError: it is broken" in broken.remedy
+
+
+def test_a_broken_engine_does_not_hide_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.asr", "broken", BROKEN),
+        pytest.raises(SpeechError, match="none of that name; expected embedded, embedded:FOLDER"),
+    ):
+        RECOGNISERS.create("nobody")
+
+
+def test_two_engines_of_one_name_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.asr", "whisper", RECOGNISER),
+        pytest.raises(SpeechError, match="more than one recogniser named 'whisper'"),
+    ):
+        RECOGNISERS.create("whisper:base.en")
+
+
+def test_an_address_goes_to_the_service() -> None:
+    for family in (RECOGNISERS, VOICES, DETECTORS):
+        engine, argument = family.choose("https://example.org/engine")
+        assert (engine.name, argument) == ("http", "https://example.org/engine")
+
+
+@pytest.mark.parametrize(
+    ("file", "name"), [("ctc.onnx", "embedded"), ("model.bin", "whisper"), ("other.bin", None)]
+)
+def test_a_folder_goes_to_the_recogniser_whose_model_is_in_it(
+    tmp_path: Path, file: str, name: str | None
+) -> None:
+    (tmp_path / file).touch()
+    if name is None:
+        with pytest.raises(SpeechError, match="there is none of that name; expected embedded,"):
+            RECOGNISERS.choose(str(tmp_path))
+    else:
+        assert RECOGNISERS.choose(str(tmp_path))[0].name == name
+
+
+def test_a_folder_with_two_models_is_ambiguous(tmp_path: Path) -> None:
+    for file in ("ctc.onnx", "model.bin"):
+        (tmp_path / file).touch()
+    expected = f"more than one can take it; expected embedded:{tmp_path} or whisper:{tmp_path}"
+    with pytest.raises(SpeechError, match=expected):
+        RECOGNISERS.choose(str(tmp_path))
+
+
+def test_a_folder_with_the_files_of_xtts_goes_to_coqui(tmp_path: Path) -> None:
+    (tmp_path / "model.pth").touch()
+    assert VOICES.choose(str(tmp_path))[0].name == "coqui"
+
+
+def test_a_model_file_goes_to_the_detector_that_takes_such_files(tmp_path: Path) -> None:
+    assert DETECTORS.choose("yolov10n.pt")[0].name == "yolo"
+    assert DETECTORS.choose(f"{tmp_path}/yolov10n.onnx")[0].name == "yolo"
+    (tmp_path / "card.json").touch()
+    assert DETECTORS.choose(f"{tmp_path}/mine.onnx")[0].name == "embedded"
+
+
+def test_an_error_names_all_forms_and_the_nearest_name() -> None:
+    with pytest.raises(VisionError) as caught:
+        DETECTORS.create("embeded")
+    assert str(caught.value) == (
+        "detector 'embeded': there is none of that name; expected embedded, embedded:FILE.onnx, "
+        "yolo:FILE, or the address of a service; did you mean 'embedded'?"
+    )
+
+
+def test_a_name_takes_no_argument_that_it_does_not_know() -> None:
+    with pytest.raises(SpeechError, match="voice 'espeak:en': expected espeak"):
+        VOICES.create("espeak:en")
