@@ -10,7 +10,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, field_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, field_validator
 
 from airhilt.commands import Command
 
@@ -61,7 +61,12 @@ class Clock(Message):
     pace: str
 
 
-Modality = Literal["adsb", "radio", "speech", "voice", "vision", "decision"]
+FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}
+"""Names that modalities had up to version 0.4, still understood, by what they are now."""
+Modality = Annotated[
+    Literal["adsb", "radio", "asr", "tts", "vision", "decision"],
+    BeforeValidator(lambda given: FORMER_MODALITIES.get(given, given)),
+]
 ModalityState = Literal["on", "off", "lost", "not evaluated"]
 
 

@@ -23,7 +23,7 @@ def recognise(audio: np.ndarray) -> tuple[str, float]:
 
 class MyRecogniser:
     description = WorkerDescription(
-        name="mine", modality="speech", inputs=(InputSpec(key="radio/*/tx"),)
+        name="mine", modality="asr", inputs=(InputSpec(key="radio/*/tx"),)
     )
 
     def step(self, t_ns: int, inputs: list[Input]) -> Step:

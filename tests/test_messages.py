@@ -109,7 +109,7 @@ EXAMPLES = {
     },
     "Event": {"kind": "command", "subject": "AAL1", "text": "climb"},
     "WorkerDescription": {
-        "name": "asr", "modality": "speech", "inputs": [{"key": "radio/*/tx", "policy": "latest"}],
+        "name": "asr", "modality": "asr", "inputs": [{"key": "radio/*/tx", "policy": "latest"}],
         "latency": {"median_s": 0.5, "sigma": 0.1},
     },
     "Grant": {

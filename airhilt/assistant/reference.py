@@ -55,9 +55,9 @@ def reference_workers(
     workers: list[Worker] = []
     is_assisted = assistant != "none"
     asr, tts, detector = engines
-    if asr is not None and "speech" not in taken and (is_assisted or radio.topology == "asr_first"):
+    if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
-    if tts is not None and "voice" not in taken and is_assisted:
+    if tts is not None and "tts" not in taken and is_assisted:
         workers.append(reference_worker("tts", tts, style=radio.phraseology))
     if detector is not None and "vision" not in taken and is_assisted:
         workers.append(reference_worker("vision", detector))

@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from airhilt.cosim.simulation import Observer, Snapshot
-from airhilt.messages import Advisory, Severity
+from airhilt.messages import FORMER_MODALITIES, Advisory, Severity
 from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary, VisionStatistics
 from airhilt.units import FOOT, NAUTICAL_MILE
 
@@ -158,7 +158,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
         *_vision_rows(summary.vision),
-        ("modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())),
+        ("modalities", ", ".join(_modalities(summary))),
     ]
     rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
     return rows
@@ -300,3 +300,12 @@ def _height(value: float | None) -> str:
 
 def _yes(value: bool) -> str:
     return "yes" if value else "no"
+
+
+def _modalities(summary: Summary) -> list[str]:
+    """Return the state of each modality in words, once under its present name."""
+    return [
+        f"{name} {state}"
+        for name, state in summary.modalities.items()
+        if name not in FORMER_MODALITIES
+    ]

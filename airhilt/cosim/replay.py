@@ -162,7 +162,7 @@ def _recorded(
 def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
     """Return the workers whose results cannot be had again by computing them here."""
     options = info.options
-    engines = {"speech": options.asr, "voice": options.tts, "vision": options.detector}
+    engines = {"asr": options.asr, "tts": options.tts, "vision": options.detector}
     return [
         worker.description
         for worker in info.workers

@@ -246,7 +246,7 @@ class Simulation:
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
         self._advised = AdvisoryDelivery(
-            self._director, actors, self._event, is_voiced=participants.does("voice")
+            self._director, actors, self._event, is_voiced=participants.does("tts")
         )
         self._router.listen(self._radio.take)
         self._router.listen(self._advised.take)
@@ -549,7 +549,7 @@ class Simulation:
         self._collector.step(record)
 
     def _lose(self, name: str, modality: Modality, cause: str) -> None:
-        if modality == "voice":
+        if modality == "tts":
             self._advised.voice_lost()
         self._latency_log.lost(name, self._director.now_ns, cause)
         self._go_on_without(modality, "worker_lost", name, cause)
@@ -641,8 +641,8 @@ class Simulation:
         )
         self._set_modality("adsb", "on" if equipped else "off")
         self._set_modality("radio", "on" if scenario.radio.lines else "off")
-        self._set_modality("speech", "on" if self._participants.does("speech") else "off")
-        self._set_modality("voice", "on" if self._participants.does("voice") else "off")
+        self._set_modality("asr", "on" if self._participants.does("asr") else "off")
+        self._set_modality("tts", "on" if self._participants.does("tts") else "off")
         self._set_modality("vision", *self._vision.state)
         self._set_modality("decision", "on" if self._has_decision else "off")
 

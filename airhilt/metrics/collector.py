@@ -121,7 +121,7 @@ class Collector:
                 self._take_voice(message)
             case Detections(t_frame_ns=begin, t_ns=end, missed=""):
                 self._late("vision", begin, end)
-            case Status(modality="voice", state="lost", t_ns=now_ns) if self._unspoken:
+            case Status(modality="tts", state="lost", t_ns=now_ns) if self._unspoken:
                 self._warned(now_ns)
             case Transcript(t_tx_ns=begin, t_end_ns=said, t_ns=end, engine=engine):
                 if engine != TEXT:
@@ -156,7 +156,7 @@ class Collector:
             and self._reaches_somebody(advisory)
             and self._concerns_conflict(advisory)
         ):
-            if self.modalities.get("voice") == "on":
+            if self.modalities.get("tts") == "on":
                 self._unspoken.add((advisory.id, advisory.recipient, advisory.revision))
             else:
                 self._warned(advisory.t_ns)
@@ -285,13 +285,13 @@ class Collector:
             ],
             radio=self._calls.statistics(
                 roster_of(self._scenario),
-                is_recognised=self.modalities.get("speech") in ("on", "lost"),
+                is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
             vision=self._sight.statistics(run["inputs_dropped"]),
             latencies={
                 stage: LatencyStatistics.of(samples) for stage, samples in self._latencies_s.items()
             },
-            modalities=self.modalities,
+            modalities={**self.modalities},
             ended_actors=self.ended_actors,
             **run,
         )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from airhilt.messages import Modality, ModalityState, Severity
+from airhilt.messages import FORMER_MODALITIES, ModalityState, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
 Stage = str
@@ -229,10 +229,20 @@ class Summary(BaseModel):
     vision: VisionStatistics
     latencies: dict[Stage, LatencyStatistics]
     inputs_dropped: dict[str, int]
-    modalities: dict[Modality, ModalityState]
+    modalities: dict[str, ModalityState]
+    """State of each modality at the end; ``speech`` and ``voice`` are former names of ``asr`` and
+    ``tts``, kept for scripts that read them."""
     ended_actors: dict[str, str]
     real_time_factor: float
     cpu_s: float
+
+    @field_validator("modalities")
+    @classmethod
+    def _under_both_names(cls, given: dict[str, ModalityState]) -> dict[str, ModalityState]:
+        """Add to the modalities that were renamed the other of their two names."""
+        former = {old: given[new] for old, new in FORMER_MODALITIES.items() if new in given}
+        present = {new: given[old] for old, new in FORMER_MODALITIES.items() if old in given}
+        return present | given | former
 
 
 def severest(severities: Iterable[Severity]) -> Severity:

@@ -97,7 +97,7 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
     assert len(sent) == 2
     assert [(one.id, one.engine) for one in heard] == [(one.id, "hashing") for one in sent]
     assert [one.text for one in heard] == [f"{one.sha256} AAL123 DAL456" for one in sent]
-    assert result.summary.modalities["speech"] == "on"
+    assert result.summary.modalities["asr"] == "on"
     assert replay(result.folder).identical
 
 
@@ -116,8 +116,8 @@ def test_a_recogniser_that_dies_or_freezes_is_lost_and_the_run_goes_on(
     assert heard == sent[:1]
     assert result.summary.outcome == "finished"
     assert result.summary.duration_s == pytest.approx(20.0)
-    assert result.summary.modalities["speech"] == "lost"
-    assert "asr" in status_of(result.folder, "speech")["cause"]
+    assert result.summary.modalities["asr"] == "lost"
+    assert "asr" in status_of(result.folder, "asr")["cause"]
     assert replay(result.folder).identical
 
 
@@ -171,7 +171,7 @@ def test_without_the_voice_that_died_advisories_are_read(short: Scenario, tmp_pa
             short, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("tts",),
             step_timeout_s=1.0, observer=ActsAt(1.0, voice, signal.SIGKILL),
         )  # fmt: skip
-    assert result.summary.modalities["voice"] == "lost"
+    assert result.summary.modalities["tts"] == "lost"
     assert result.summary.outcome == "finished"
     assert not logged(result.folder, "tts/", AdvisoryAudio)
     events = [one.data for one in read_log(result.folder / "log.mcap") if one.key == "truth/event"]

@@ -61,8 +61,8 @@ def test_modalities_left_out_are_off(airhilt_command: Any, encounter_file: Path)
     )  # fmt: skip
     modalities = json.loads(done.stdout)["modalities"]
     assert modalities == {
-        "adsb": "on", "radio": "on", "speech": "off", "voice": "off", "vision": "off",
-        "decision": "off",
+        "adsb": "on", "radio": "on", "asr": "off", "tts": "off", "vision": "off",
+        "decision": "off", "speech": "off", "voice": "off",
     }  # fmt: skip
 
 

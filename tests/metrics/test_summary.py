@@ -322,7 +322,7 @@ def voice(t_s, revision=0, recipient="ATC", name="a", t_dec_s=9.0):
 
 def told_aloud():
     told = Told()
-    told.collector.modalities["voice"] = "on"
+    told.collector.modalities["tts"] = "on"
     return told
 
 
@@ -349,10 +349,10 @@ def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning():
 
 def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once():
     told = told_aloud().take(advisory(9.0))
-    told.take(Status(t_ns=12 * SECOND_NS, modality="voice", state="lost"))
+    told.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
     assert told.summary().t_first_warning_s == 12.0
     told = Told()
-    told.collector.modalities["voice"] = "lost"
+    told.collector.modalities["tts"] = "lost"
     assert told.take(advisory(9.0)).summary().t_first_warning_s == 9.0
 
 
@@ -394,7 +394,7 @@ def test_the_radio_is_measured_with_the_callsigns_of_the_roster():
 @pytest.mark.parametrize(("state", "missing"), [("on", 1), ("lost", 1), ("off", None)])
 def test_transcripts_are_missing_only_where_somebody_was_to_make_them(state, missing):
     told = Told()
-    told.collector.modalities["speech"] = state
+    told.collector.modalities["asr"] = state
     for message in call():
         told.take(message)
     assert told.summary().radio.transcripts_missing == missing

@@ -29,7 +29,7 @@ class AsrWorker:
         self._callsigns: tuple[str, ...] = ()
         self.description = WorkerDescription(
             name=name,
-            modality="speech",
+            modality="asr",
             inputs=(InputSpec(key="radio/*/tx"), InputSpec(key="briefing")),
             latency=DeclaredLatency(median_s=0.05),
         )

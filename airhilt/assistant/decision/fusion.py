@@ -33,7 +33,7 @@ class FusionGate:
 
     def take_status(self, status: Status) -> None:
         """Take in that a modality is lost: no more transcripts are waited for."""
-        if status.modality == "speech":
+        if status.modality == "asr":
             self._is_deaf = status.state == "lost"
             if self._is_deaf:
                 self._pending_ns.clear()

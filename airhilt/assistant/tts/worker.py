@@ -48,7 +48,7 @@ class TtsWorker:
     ) -> None:
         self.description = WorkerDescription(
             name=name,
-            modality="voice",
+            modality="tts",
             inputs=(InputSpec(key="advisory/*", policy="fifo"),),
             latency=DeclaredLatency(median_s=0.1),
         )

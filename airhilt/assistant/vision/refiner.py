@@ -82,7 +82,7 @@ class Refiner:
     ) -> None:
         path = folder / card.file
         self._card, self._classes = card, classes
-        self._subject = f"second look {path}, which the card beside it names"
+        self._subject = f"refiner {path}, which the card beside it names"
         self._network = open_network(path, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject, len(classes))
 

@@ -180,7 +180,7 @@ def test_an_engine_that_fails_says_so_itself() -> None:
 def test_it_asks_for_all_frequencies_and_loses_no_call() -> None:
     description = AsrWorker(Counting()).description
     policies = {wanted.key: wanted.policy for wanted in description.inputs}
-    assert description.modality == "speech"
+    assert description.modality == "asr"
     assert policy_of("radio/134325/tx", policies) == "fifo"
     assert policy_of("briefing", policies) == "fifo"
     assert policy_of("asr/134325", policies) is None

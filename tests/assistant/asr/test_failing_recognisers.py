@@ -86,11 +86,11 @@ def test_a_service_that_fails_is_the_loss_of_speech_and_of_nothing_else(
         result = run(short, out=tmp_path / "run", latency="fixed", asr=url, observer=observer)
     assert result.summary.outcome == "finished"
     assert result.summary.duration_s == pytest.approx(25.0)
-    assert result.summary.modalities["speech"] == "lost"
-    assert {"adsb", "radio", "decision", "voice"} <= {
+    assert result.summary.modalities["asr"] == "lost"
+    assert {"adsb", "radio", "decision", "tts"} <= {
         name for name, state in result.summary.modalities.items() if state == "on"
     }
-    last = rows(result, "status/speech")[-1]
+    last = rows(result, "status/asr")[-1]
     assert last["state"] == "lost"
     assert said in last["cause"]
     assert url in last["cause"]
@@ -114,7 +114,7 @@ def test_what_was_recognised_before_a_service_failed_stays(short: Scenario, tmp_
     (transcript,) = transcripts(result)
     assert (transcript.id, transcript.text) == ("check-in-aal", "washington center")
     assert transcript.engine == "http"
-    assert result.summary.modalities["speech"] == "lost"
+    assert result.summary.modalities["asr"] == "lost"
 
 
 def test_strict_stops_at_the_first_failure(short: Scenario, tmp_path: Path) -> None:
@@ -132,4 +132,4 @@ def test_crews_that_read_the_radio_go_on_without_transcripts(
         short, out=tmp_path / "run", latency="fixed", asr=nobody(), topology="asr_first"
     )  # fmt: skip
     assert result.summary.outcome == "finished"
-    assert result.summary.modalities["speech"] == "lost"
+    assert result.summary.modalities["asr"] == "lost"

@@ -52,7 +52,7 @@ def test_it_waits_for_no_transcript_of_a_call_without_sound():
 def test_once_recognition_is_lost_it_waits_no_more(state, waits):
     gate = FusionGate()
     gate.take_transmission(received())
-    gate.take_status(Status(modality="speech", state=state))
+    gate.take_status(Status(modality="asr", state=state))
     assert (gate.opens_ns(END_NS) is not None) == waits
     gate.take_transmission(received("b"))
     assert (gate.opens_ns(END_NS) is not None) == waits
