@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
-from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.wgs84 import Place, onward
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
 from airhilt.world.flight import (
     Aircraft,
@@ -28,7 +28,7 @@ from airhilt.world.flight import (
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.state import OnGround
 from airhilt.world.surface.path import Local
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 TYPES = ("737", "B747", "c172p", "c310")
 TICK_S = 0.05

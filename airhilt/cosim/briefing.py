@@ -12,8 +12,8 @@ from airhilt.world.flight import load_aircraft_type
 from airhilt.world.site import ScenarioSite
 
 if TYPE_CHECKING:
+    from airhilt.geodesy.wgs84 import Place
     from airhilt.world.surface.layout import Layout
-    from airhilt.world.surface.runway import Place
 
 
 def briefing_of(scenario: Scenario, site: ScenarioSite) -> Briefing:

@@ -1,4 +1,4 @@
-"""Local metres around an airport, and the few geodesics that the surface needs.
+"""East and north in metres around a place on the ellipsoid.
 
 `LocalFrame` is an orthographic projection: the east and north axes of the plane that touches the
 WGS84 ellipsoid at the origin, with every place on the ellipsoid's surface (height 0).
@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 
-from geographiclib.geodesic import Geodesic
+from airhilt.geodesy.wgs84 import (
+    ECCENTRICITY_SQUARED,
+    SEMI_MAJOR_AXIS_M,
+    Place,
+    Vector,
+    earth_centred,
+    vertical,
+)
 
-from airhilt.units import DEGREE
-from airhilt.world.surface.runway import Place
-
-SEMI_MAJOR_AXIS_M = Geodesic.WGS84.a
-FLATTENING = Geodesic.WGS84.f
-ECCENTRICITY_2 = FLATTENING * (2.0 - FLATTENING)
 REACH_M = 100_000.0
 """Beyond this from the origin, places have no business in a local frame."""
 
@@ -46,14 +47,14 @@ class LocalFrame:
         latitude, longitude = origin
         sin_lat, cos_lat = math.sin(latitude), math.cos(latitude)
         sin_lon, cos_lon = math.sin(longitude), math.cos(longitude)
-        self._centre = _earth_centred(origin)
+        self._centre = earth_centred(origin)
         self._east = (-sin_lon, cos_lon, 0.0)
         self._north = (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
-        self._up = (cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
+        self._up = vertical(origin)
 
     def to_local(self, place: Place) -> tuple[float, float]:
         """Return east and north of the origin in metres."""
-        there = _earth_centred(place)
+        there = earth_centred(place)
         offset = (
             there[0] - self._centre[0],
             there[1] - self._centre[1],
@@ -78,44 +79,14 @@ class LocalFrame:
             for c, e, n in zip(self._centre, self._east, self._north, strict=True)
         )
         # From the point in the plane, go along the vertical to the ellipsoid x2 + y2 + z2/k = a2.
-        stretch = (1.0, 1.0, 1.0 / (1.0 - ECCENTRICITY_2))
+        stretch = (1.0, 1.0, 1.0 / (1.0 - ECCENTRICITY_SQUARED))
         a = sum(s * u * u for s, u in zip(stretch, self._up, strict=True))
         b = sum(s * u * p for s, u, p in zip(stretch, self._up, flat, strict=True))
         c = sum(s * p * p for s, p in zip(stretch, flat, strict=True)) - SEMI_MAJOR_AXIS_M**2
         rise = -c / (b + math.sqrt(b * b - a * c))
         x, y, z = (p + u * rise for p, u in zip(flat, self._up, strict=True))
-        return math.atan2(z, (1.0 - ECCENTRICITY_2) * math.hypot(x, y)), math.atan2(y, x)
+        return math.atan2(z, (1.0 - ECCENTRICITY_SQUARED) * math.hypot(x, y)), math.atan2(y, x)
 
 
-def distance_and_azimuth(start: Place, end: Place) -> tuple[float, float]:
-    """Return the length (m) of the geodesic from one place to another and its first azimuth.
-
-    The azimuth is in radians from true north, in [0, 2 pi).
-    """
-    line = Geodesic.WGS84.Inverse(
-        start[0] / DEGREE, start[1] / DEGREE, end[0] / DEGREE, end[1] / DEGREE
-    )
-    return float(line["s12"]), float(line["azi1"]) * DEGREE % math.tau
-
-
-def onward(place: Place, azimuth_rad: float, distance_m: float) -> Place:
-    """Return the place at a distance (m) from another along a geodesic; negative is behind it."""
-    line = Geodesic.WGS84.Direct(
-        place[0] / DEGREE, place[1] / DEGREE, azimuth_rad / DEGREE, distance_m
-    )
-    return line["lat2"] * DEGREE, line["lon2"] * DEGREE
-
-
-def _earth_centred(place: Place) -> tuple[float, float, float]:
-    latitude, longitude = place
-    sin_lat, cos_lat = math.sin(latitude), math.cos(latitude)
-    normal = SEMI_MAJOR_AXIS_M / math.sqrt(1.0 - ECCENTRICITY_2 * sin_lat * sin_lat)
-    return (
-        normal * cos_lat * math.cos(longitude),
-        normal * cos_lat * math.sin(longitude),
-        normal * (1.0 - ECCENTRICITY_2) * sin_lat,
-    )
-
-
-def _dot(a: tuple[float, float, float], b: tuple[float, float, float]) -> float:
+def _dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

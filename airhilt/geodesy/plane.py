@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.geodesy.wgs84 import Place, curvature_radii_m
 from airhilt.units import wrap_angle
-from airhilt.world.surface.runway import Place
 
 REACH_M = 50_000.0
 """From its origin, nobody is told to go farther in one go."""

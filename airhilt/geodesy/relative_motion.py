@@ -9,13 +9,7 @@ import itertools
 import math
 from typing import NamedTuple, Protocol
 
-WGS84_SEMI_MAJOR_M = 6_378_137.0
-"""NIMA TR8350.2, table 3.1."""
-WGS84_FIRST_ECCENTRICITY_SQUARED = 6.694_379_990_14e-3
-"""NIMA TR8350.2, table 3.3."""
-
-LEAST_CURVATURE_RADIUS_M = WGS84_SEMI_MAJOR_M * (1.0 - WGS84_FIRST_ECCENTRICITY_SQUARED)
-"""Of the meridians, at the equator: a bound for quick tests."""
+from airhilt.geodesy.wgs84 import offset_m, wrapped_turn
 
 
 class Kinematics(Protocol):
@@ -83,13 +77,6 @@ class Relative(NamedTuple):
         return (-half_b - root) / a, (-half_b + root) / a
 
 
-def curvature_radii_m(latitude_rad: float) -> tuple[float, float]:
-    """Return the ellipsoid's radii of curvature, meridional and prime vertical."""
-    w2 = 1.0 - WGS84_FIRST_ECCENTRICITY_SQUARED * math.sin(latitude_rad) ** 2
-    prime_vertical = WGS84_SEMI_MAJOR_M / math.sqrt(w2)
-    return prime_vertical * (1.0 - WGS84_FIRST_ECCENTRICITY_SQUARED) / w2, prime_vertical
-
-
 def relative(own: Kinematics, other: Kinematics) -> Relative:
     """Return ``other`` as seen from ``own`` by the mid-latitude formula.
 
@@ -98,19 +85,20 @@ def relative(own: Kinematics, other: Kinematics) -> Relative:
     below 70 degrees of latitude.
     """
     middle = 0.5 * (own.latitude_rad + other.latitude_rad)
-    meridional, prime_vertical = curvature_radii_m(middle)
-    height = 0.5 * (own.altitude_m + other.altitude_m)
-    d_longitude = other.longitude_rad - own.longitude_rad
-    if d_longitude > math.pi or d_longitude < -math.pi:
-        d_longitude = (d_longitude + math.pi) % (2.0 * math.pi) - math.pi
-    half_convergence = 0.5 * d_longitude * math.sin(middle)
+    turn = wrapped_turn(other.longitude_rad - own.longitude_rad)
+    north_m, east_m = offset_m(
+        (own.latitude_rad, own.longitude_rad),
+        (other.latitude_rad, other.longitude_rad),
+        0.5 * (own.altitude_m + other.altitude_m),
+    )
+    half_convergence = 0.5 * turn * math.sin(middle)
     # North at `other` lies clockwise of north midway by half the convergence, at `own` against it.
     sin_c, cos_c = math.sin(half_convergence), math.cos(half_convergence)
     own_n, own_e = own.velocity_north_m_s, own.velocity_east_m_s
     oth_n, oth_e = other.velocity_north_m_s, other.velocity_east_m_s
     return Relative(
-        (other.latitude_rad - own.latitude_rad) * (meridional + height),
-        d_longitude * (prime_vertical + height) * math.cos(middle),
+        north_m,
+        east_m,
         (oth_n * cos_c + oth_e * sin_c) - (own_n * cos_c - own_e * sin_c),
         (oth_e * cos_c - oth_n * sin_c) - (own_e * cos_c + own_n * sin_c),
     )

@@ -20,7 +20,8 @@ import numpy as np
 from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError, RunFolderError, first_problem
-from airhilt.geodesy.relative_motion import curvature_radii_m, relative
+from airhilt.geodesy.relative_motion import relative
+from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import (
     AdvisoryAudio,
     HearingTruth,
@@ -543,11 +544,11 @@ class _Projection(NamedTuple):
 
     def nautical_miles(self, state: _State) -> tuple[float, float]:
         """Return how far east and north of the centre a state is, at its height."""
-        middle = (self.latitude_rad + state.latitude_rad) / 2.0
-        meridional, prime_vertical = curvature_radii_m(middle)
-        turn = _wrapped(state.longitude_rad - self.longitude_rad)
-        east_m = turn * (prime_vertical + state.altitude_m) * math.cos(middle)
-        north_m = (state.latitude_rad - self.latitude_rad) * (meridional + state.altitude_m)
+        north_m, east_m = offset_m(
+            (self.latitude_rad, self.longitude_rad),
+            (state.latitude_rad, state.longitude_rad),
+            state.altitude_m,
+        )
         return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
 
 

@@ -10,12 +10,8 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from airhilt.geodesy.relative_motion import (
-    WGS84_SEMI_MAJOR_M,
-    Kinematics,
-    curvature_radii_m,
-    relative,
-)
+from airhilt.geodesy.relative_motion import Kinematics, relative
+from airhilt.geodesy.wgs84 import SEMI_MAJOR_AXIS_M, displaced
 from airhilt.messages import AdsbReport, EmitterCategory
 from airhilt.surveillance import cpr
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS, bearing_degrees
@@ -77,7 +73,7 @@ def radio_horizon_m(*heights_m: float) -> float:
 
     With heights in feet this is 1.23 nautical miles times the sum of their square roots.
     """
-    radius = EFFECTIVE_EARTH_RADIUS * WGS84_SEMI_MAJOR_M
+    radius = EFFECTIVE_EARTH_RADIUS * SEMI_MAJOR_AXIS_M
     return sum(math.sqrt(2.0 * radius * height) for height in heights_m)
 
 
@@ -219,11 +215,8 @@ class Transponder:
 
     def _encoded(self, state: Carrier, t_ns: int, surface: bool) -> cpr.CprPosition:
         north_m, east_m = self._position_error(t_ns)
-        meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
-        latitude = state.latitude_rad + north_m / (meridional + state.altitude_m)
-        longitude = state.longitude_rad + east_m / (
-            (prime_vertical + state.altitude_m) * math.cos(state.latitude_rad)
-        )
+        place = (state.latitude_rad, state.longitude_rad)
+        latitude, longitude = displaced(place, north_m, east_m, state.altitude_m)
         odd, self._odd = self._odd, not self._odd
         return cpr.encode(latitude / DEGREE, longitude / DEGREE, odd, surface)
 

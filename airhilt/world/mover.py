@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
-from airhilt.geodesy.relative_motion import curvature_radii_m
-from airhilt.world.surface.runway import Place
+from airhilt.geodesy.wgs84 import Place, displaced
 
 
 class SurfaceState(NamedTuple):
@@ -104,16 +103,16 @@ def carried_on(state: M, elapsed_s: float) -> M:
     """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
     if elapsed_s == 0.0:
         return state
-    meridional, prime_vertical = curvature_radii_m(state.latitude_rad)
-    height = state.altitude_m
+    latitude, longitude = displaced(
+        (state.latitude_rad, state.longitude_rad),
+        state.velocity_north_m_s * elapsed_s,
+        state.velocity_east_m_s * elapsed_s,
+        state.altitude_m,
+    )
     moved: M = state._replace(  # type: ignore[attr-defined]
-        latitude_rad=state.latitude_rad
-        + state.velocity_north_m_s * elapsed_s / (meridional + height),
-        longitude_rad=state.longitude_rad
-        + state.velocity_east_m_s
-        * elapsed_s
-        / ((prime_vertical + height) * math.cos(state.latitude_rad)),
-        altitude_m=height - state.velocity_down_m_s * elapsed_s,
+        latitude_rad=latitude,
+        longitude_rad=longitude,
+        altitude_m=state.altitude_m - state.velocity_down_m_s * elapsed_s,
     )
     return moved
 

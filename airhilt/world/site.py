@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import distance_and_azimuth, onward
 from airhilt.geodesy.positions import (
     GeodeticPosition,
     HoldShortPosition,
@@ -16,9 +15,10 @@ from airhilt.geodesy.positions import (
     RelativePosition,
     RunwayPosition,
 )
+from airhilt.geodesy.wgs84 import Place, azimuth, beside, onward
 from airhilt.scenario.models import EnRouteScene, Scenario
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout
@@ -126,20 +126,3 @@ class ScenarioSite:
         azimuth_rad = azimuth(threshold, end.end)
         there = onward(threshold, azimuth_rad, position.along_m)
         return beside(there, azimuth_rad, position.offset_m)
-
-
-def beside(place: Place, azimuth_rad: float, offset_m: float) -> Place:
-    """Return the place to the right of a direction; a negative offset is to the left."""
-    if offset_m == 0.0:
-        return place
-    return onward(place, azimuth_rad + math.copysign(math.pi / 2.0, offset_m), abs(offset_m))
-
-
-def azimuth(start: Place, end: Place) -> float:
-    """Return the azimuth (rad) at which the geodesic between two positions (rad) begins."""
-    return distance_and_azimuth(start, end)[1]
-
-
-def distance_m(start: Place, end: Place) -> float:
-    """Return the length of the geodesic between two positions (rad)."""
-    return distance_and_azimuth(start, end)[0]

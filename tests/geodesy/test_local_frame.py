@@ -9,7 +9,8 @@ from geographiclib.geodesic import Geodesic
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.geodesy.local_frame import LocalFrame, distance_and_azimuth, onward
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.geodesy.wgs84 import distance_and_azimuth, onward
 
 latitudes = st.floats(-80.0, 80.0)
 longitudes = st.floats(-180.0, 180.0)

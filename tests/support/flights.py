@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from geographiclib.geodesic import Geodesic
 
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.flight import (
     Aircraft,
@@ -16,7 +17,7 @@ from airhilt.world.flight import (
     load_aircraft_type,
 )
 from airhilt.world.flight.state import OnGround
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 CRUISE = {"737": (35_000, 260), "B747": (35_000, 270), "c172p": (5_000, 95), "c310": (6_000, 150)}
 """Altitude (ft) and calibrated airspeed (kt)."""

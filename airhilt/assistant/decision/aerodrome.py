@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.geodesy.wgs84 import Place, offset_m
 from airhilt.messages import AirportBriefing, GeodeticPoint, RunwayBriefing
 from airhilt.surveillance.adsb import NACP_95_PERCENT_M
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
-from airhilt.world.surface.runway import Place
 
 if TYPE_CHECKING:
     import numpy as np
@@ -56,11 +55,10 @@ class TrafficZone(NamedTuple):
 
     def contains(self, track: Track) -> bool:
         """Return whether an aircraft is in the zone."""
-        meridional, prime_vertical = curvature_radii_m(self.latitude_rad)
-        north_m = (track.latitude_rad - self.latitude_rad) * meridional
-        east_m = (track.longitude_rad - self.longitude_rad) * prime_vertical
-        distance_m = math.hypot(north_m, east_m * math.cos(self.latitude_rad))
-        return distance_m <= ZONE_RADIUS_M and track.altitude_m <= self.ceiling_m
+        north_m, east_m = offset_m(
+            (self.latitude_rad, self.longitude_rad), (track.latitude_rad, track.longitude_rad)
+        )
+        return math.hypot(north_m, east_m) <= ZONE_RADIUS_M and track.altitude_m <= self.ceiling_m
 
 
 @dataclass(frozen=True)

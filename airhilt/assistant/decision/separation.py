@@ -15,13 +15,8 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.manoeuvres import in_words
 from airhilt.assistant.decision.resolution import resolve
 from airhilt.assistant.decision.tracks import Track
-from airhilt.geodesy.relative_motion import (
-    LEAST_CURVATURE_RADIUS_M,
-    Minima,
-    VerticalProfile,
-    relative,
-    time_to_loss_s,
-)
+from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.geodesy.wgs84 import LEAST_CURVATURE_RADIUS_M
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from airhilt.geodesy.relative_motion import VerticalProfile, curvature_radii_m
+from airhilt.geodesy.relative_motion import VerticalProfile
+from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
@@ -71,16 +72,18 @@ class Track:
     def at(self, t_ns: int) -> Track:
         """Return the track carried on to a time."""
         elapsed = (t_ns - self.t_ns) / SECOND_NS
-        meridional, prime_vertical = curvature_radii_m(self.latitude_rad)
+        latitude, longitude = displaced(
+            (self.latitude_rad, self.longitude_rad),
+            self.velocity_north_m_s * elapsed,
+            self.velocity_east_m_s * elapsed,
+            self.altitude_m,
+        )
         return Track(
             self.icao24,
             self.callsign,
             t_ns,
-            self.latitude_rad + self.velocity_north_m_s * elapsed / (meridional + self.altitude_m),
-            self.longitude_rad
-            + self.velocity_east_m_s
-            * elapsed
-            / ((prime_vertical + self.altitude_m) * math.cos(self.latitude_rad)),
+            latitude,
+            longitude,
             self.profile().at(elapsed),
             self.velocity_north_m_s,
             self.velocity_east_m_s,

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, Eye, Ray
-from airhilt.geodesy.relative_motion import curvature_radii_m
+from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import AdsbReport, Box, CameraView, EmitterCategory
 from airhilt.surveillance.adsb import NACP_95_PERCENT_M
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
@@ -82,10 +82,10 @@ class Traffic:
     def _fits(self, report: AdsbReport, eye: Eye, box: Box, t_ns: int) -> bool:
         view, age_s = eye.view, _age_s(report, t_ns)
         track, speed = report.track_deg * DEGREE, report.ground_speed_kt * KNOT
-        meridional, prime_vertical = curvature_radii_m(view.latitude_deg * DEGREE)
-        north_m = (report.latitude_deg - view.latitude_deg) * DEGREE * meridional
-        turn_deg = math.remainder(report.longitude_deg - view.longitude_deg, 360.0)
-        east_m = turn_deg * DEGREE * prime_vertical * math.cos(view.latitude_deg * DEGREE)
+        north_m, east_m = offset_m(
+            (view.latitude_deg * DEGREE, view.longitude_deg * DEGREE),
+            (report.latitude_deg * DEGREE, report.longitude_deg * DEGREE),
+        )
         north_m += speed * math.cos(track) * age_s
         east_m += speed * math.sin(track) * age_s
         up_m = self._height_m(report, age_s)

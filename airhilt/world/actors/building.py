@@ -8,8 +8,8 @@ from typing import Literal
 
 from airhilt.commands import Command
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import RunwayPosition
+from airhilt.geodesy.wgs84 import Place, azimuth, onward
 from airhilt.messages import Advisory, EmitterCategory
 from airhilt.scenario.models import (
     ActorSpec,
@@ -37,9 +37,8 @@ from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.model import ModelError
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
-from airhilt.world.site import ScenarioSite, azimuth
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
-from airhilt.world.surface.runway import Place
 
 AIM_POINT_M = 300.0
 """Past the threshold, where the glide path meets the runway (ICAO Annex 14 volume I, 5.2.5)."""

@@ -17,6 +17,7 @@ from airhilt.commands import (
     TurnCommand,
 )
 from airhilt.errors import ScenarioError
+from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     Advisory,
     CancelTakeoff,
@@ -33,7 +34,6 @@ from airhilt.world.actors.departure_arrival import DepartureArrival
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.runway import Place
 
 
 class Crew:

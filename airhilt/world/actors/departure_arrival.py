@@ -21,12 +21,13 @@ from airhilt.commands import (
     TrackCommand,
     TurnCommand,
 )
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.ground_paths import FinalApproach, exit_for, hold_beside, taxi_path
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 DECISION_SPEED_PART = 0.95
 """V1 as a part of the rotation speed: with dry runways the two lie within a few knots."""

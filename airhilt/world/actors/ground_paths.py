@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from airhilt.commands import TaxiCommand
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import HoldShortPosition
+from airhilt.geodesy.wgs84 import Place, azimuth, distance_m, onward
 from airhilt.units import wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.site import ScenarioSite, azimuth, distance_m
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.runway import RunwayEnd
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Exit, Hold, Layout

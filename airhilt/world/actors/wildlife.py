@@ -9,13 +9,13 @@ from typing import Literal
 from airhilt.commands import Command, MoveCommand, StandCommand
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import relative
+from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import Advisory
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.mover import Creature
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.runway import Place
 
 
 @dataclass(frozen=True)

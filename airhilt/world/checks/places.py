@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from airhilt.errors import AirhiltError
 from airhilt.geodesy.positions import HoldShortPosition, NodePosition, Position, RunwayPosition
+from airhilt.geodesy.wgs84 import distance_m
 from airhilt.scenario.models import HoldingShort, Scenario, Standing
 from airhilt.scenario.problems import Problem
 from airhilt.world.checks.walk import models_of
-from airhilt.world.site import ScenarioSite, distance_m
+from airhilt.world.site import ScenarioSite
 
 GREATEST_SURFACE_DISTANCE_M = 10_000.0
 """Greatest distance of what stands on the ground from the airport's reference point, in m."""

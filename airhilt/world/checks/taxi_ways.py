@@ -12,8 +12,8 @@ from airhilt.commands import (
     TaxiCommand,
 )
 from airhilt.errors import AirhiltError
-from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import Position, RunwayPosition
+from airhilt.geodesy.wgs84 import Place, onward
 from airhilt.scenario.models import (
     AircraftSpec,
     AircraftStart,
@@ -25,7 +25,6 @@ from airhilt.scenario.models import (
 from airhilt.scenario.problems import Problem
 from airhilt.world.checks.walk import commands_of
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.runway import Place
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout

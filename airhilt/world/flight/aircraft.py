@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
 from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft_type import AircraftType, Dimensions
@@ -37,7 +38,7 @@ from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
 from airhilt.world.flight.route import legs_through
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround, require_finite
 from airhilt.world.flight.taxi_path import TaxiPath
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 SETTLING_TIME_S = 40.0
 """For which a model that JSBSim cannot trim flies in still air before it begins."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from airhilt.geodesy.wgs84 import ROTATION_RATE_RAD_S
 from airhilt.units import DEGREE, STANDARD_GRAVITY
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe
@@ -31,7 +32,7 @@ ROLL_RATE_MARGIN = 1.5
 """Of roll rate above the rate at which the commanded bank moves, to catch up with it."""
 MAXIMUM_PRESSURE_RATIO = 4.0
 """Bounds the surface gains at low airspeed."""
-TWICE_EARTH_RATE = 2.0 * 7.292115e-5
+TWICE_EARTH_RATE = 2.0 * ROTATION_RATE_RAD_S
 """rad/s (WGS84); times the sine of latitude, the turn that a wings-level flight makes by itself."""
 ROTATION_PER_S = 2.0
 """Pitch rate per error of pitch, in lifting the nose."""

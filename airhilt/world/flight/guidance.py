@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple, Protocol
 
+from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
 from airhilt.units import DEGREE, STANDARD_GRAVITY, wrap_angle
 from airhilt.world.flight.autopilot import within
 from airhilt.world.flight.route import SHARPEST_TURN_RAD, Arc, Guide, Leg, turn_between
 from airhilt.world.flight.state import AircraftState
 
-EARTH_RADIUS_M = 6_371_008.8
-"""Mean (IUGG)."""
 CROSS_TRACK_PART = 0.4
 """Of the course gain, for the cross-track error: a damping ratio of 0.8."""
 INTERCEPT_ANGLE = 30.0 * DEGREE
@@ -62,7 +61,7 @@ class Track:
     def turn_rate(self, state: AircraftState) -> float:
         """Return the commanded rate of turn."""
         # A constant track is no geodesic: meridians converge.
-        convergence = state.velocity_east_m_s * math.tan(state.latitude_rad) / EARTH_RADIUS_M
+        convergence = state.velocity_east_m_s * math.tan(state.latitude_rad) / MEAN_RADIUS_M
         return self._gain * self._error(state.track_rad) - convergence
 
     def _error(self, angle: float) -> float:

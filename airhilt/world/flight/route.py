@@ -15,18 +15,14 @@ from typing import NamedTuple
 
 from geographiclib.geodesic import Geodesic
 
+from airhilt.geodesy.wgs84 import Place, Vector, earth_centred, vertical
 from airhilt.world.flight.state import AircraftState, require_finite
 
 LONGEST_LEG_M = 100_000.0
 SHORTEST_LEG_M = 50.0
 """Waypoints nearer to each other than this are one."""
-SEMI_MAJOR_AXIS_M = 6_378_137.0
-ECCENTRICITY_SQUARED = 6.69437999014e-3
-"""Of WGS84, like the axis (NIMA TR8350.2)."""
 SHARPEST_TURN_RAD = math.radians(150.0)
 """Beyond it, no arc cuts the corner: the turn begins at the waypoint."""
-
-Vector = tuple[float, float, float]
 
 
 class Guide(NamedTuple):
@@ -43,17 +39,17 @@ class Guide(NamedTuple):
 class Leg:
     """A straight leg between two places at sea level, each (latitude, longitude) in radians."""
 
-    def __init__(self, start: tuple[float, float], end: tuple[float, float]) -> None:
-        a, b = _position(*start), _position(*end)
+    def __init__(self, start: Place, end: Place) -> None:
+        a, b = earth_centred(start), earth_centred(end)
         chord = _minus(b, a)
-        middle = _minus(_vertical(*start), _scaled(_vertical(*end), -1.0))
+        middle = _minus(vertical(start), _scaled(vertical(end), -1.0))
         self.start = start
         self.end = end
         self.right = _unit(_cross(chord, middle))
         self.length_m = math.sqrt(_dot(chord, chord))
         self._origin = a
         self._end = b
-        self._forward_at_end = _cross(_vertical(*end), self.right)
+        self._forward_at_end = _cross(vertical(end), self.right)
 
     def cross_track_m(self, state: AircraftState) -> float:
         """Return the distance to the right of the leg."""
@@ -112,8 +108,8 @@ class Arc:
         self.radius_m = lead_m / math.tan(abs(self.turn) / 2.0)
         self._after = after
         self._lead = lead_m
-        self._place = _position(*place)
-        self._east, self._north = _east_north(*place)
+        self._place = earth_centred(place)
+        self._east, self._north = _east_north(place)
         course = before.course_rad(*place)
         # The centre lies abeam of the arc's beginning, on the inner side.
         abeam = course + self.side * math.pi / 2.0
@@ -141,9 +137,7 @@ class Arc:
         )
 
 
-def legs_through(
-    start: tuple[float, float], waypoints: Sequence[tuple[float, float]]
-) -> tuple[Leg, ...]:
+def legs_through(start: Place, waypoints: Sequence[Place]) -> tuple[Leg, ...]:
     """Return the legs from a place through waypoints, each (latitude, longitude) in radians.
 
     Raises
@@ -151,7 +145,7 @@ def legs_through(
     ValueError
         A waypoint is not on Earth, or none is away from the start.
     """
-    ends: list[tuple[float, float]] = [start]
+    ends: list[Place] = [start]
     for latitude, longitude in waypoints:
         require_finite("a waypoint's latitude", latitude)
         require_finite("a waypoint's longitude", longitude)
@@ -172,7 +166,7 @@ def turn_between(before: Leg, after: Leg) -> float:
     return (change + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def _divided(start: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
+def _divided(start: Place, end: Place) -> list[Place]:
     """Return the ends of the pieces of the geodesic from ``start`` to ``end``."""
     line = Geodesic.WGS84.InverseLine(*(math.degrees(angle) for angle in (*start, *end)))
     if line.s13 < SHORTEST_LEG_M:
@@ -182,21 +176,9 @@ def _divided(start: tuple[float, float], end: tuple[float, float]) -> list[tuple
     return [*((math.radians(at["lat2"]), math.radians(at["lon2"])) for at in places), end]
 
 
-def _position(latitude: float, longitude: float) -> Vector:
-    """Return the Earth-centred coordinates (m) of a place at height 0."""
-    up_x, up_y, up_z = _vertical(latitude, longitude)
-    radius = SEMI_MAJOR_AXIS_M / math.sqrt(1.0 - ECCENTRICITY_SQUARED * up_z**2)
-    return radius * up_x, radius * up_y, radius * (1.0 - ECCENTRICITY_SQUARED) * up_z
-
-
-def _vertical(latitude: float, longitude: float) -> Vector:
-    across = math.cos(latitude)
-    return across * math.cos(longitude), across * math.sin(longitude), math.sin(latitude)
-
-
-def _east_north(latitude: float, longitude: float) -> tuple[Vector, Vector]:
-    east = (-math.sin(longitude), math.cos(longitude), 0.0)
-    return east, _cross(_vertical(latitude, longitude), east)
+def _east_north(place: Place) -> tuple[Vector, Vector]:
+    east = (-math.sin(place[1]), math.cos(place[1]), 0.0)
+    return east, _cross(vertical(place), east)
 
 
 def _minus(a: Vector, b: Vector) -> Vector:

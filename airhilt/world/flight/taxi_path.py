@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.flight.autopilot import within
 from airhilt.world.flight.state import AircraftState
-from airhilt.world.surface.runway import Place
 
 LATERAL_ACCELERATION_M_S2 = 0.8
 """In the turns of a taxiway."""

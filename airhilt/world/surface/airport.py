@@ -13,9 +13,9 @@ from pydantic import Field
 from airhilt import library
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.positions import Bearing, Latitude, Longitude, RunwayIdent, TaxiwayName
+from airhilt.geodesy.wgs84 import Place
 from airhilt.imaging.lenses import FieldOfView
 from airhilt.units import DEGREE
-from airhilt.world.surface.runway import Place
 
 Point = tuple[Latitude, Longitude]
 """Latitude and longitude in degrees, as polygons have them."""

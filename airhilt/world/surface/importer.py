@@ -356,7 +356,10 @@ class _Plan:
 
     def _cost(self, a: Local, b: Local) -> float:
         crossings = self._crossings(a, b)
-        return math.inf if crossings is None else math.dist(a, b) + CROSSING_COST_M * len(crossings)
+        if crossings is None:
+            return math.inf
+        # To the millimetre, so that rounding does not decide between two legs of one length.
+        return round(math.dist(a, b) + CROSSING_COST_M * len(crossings), 3)
 
     def _crossings(self, a: Local, b: Local) -> list[_Crossing] | None:
         """Return the runways that a leg goes over, or None if no taxiway can lie there."""

@@ -17,12 +17,13 @@ from shapely import LineString, Point, Polygon
 
 from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import LocalFrame, distance_and_azimuth, onward
+from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, onward
 from airhilt.units import FOOT
 from airhilt.world.surface import path as lines
 from airhilt.world.surface.airport import Airport, HoldShort, Runway, RunwayThreshold
 from airhilt.world.surface.path import Local
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 STRIP_BEYOND_END_M = 60.0
 """ICAO Annex 14 volume I, 3.4.2: a runway strip extends 60 m beyond the end of the runway."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import distance_and_azimuth
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
 from airhilt.units import DEGREE
 from airhilt.world.surface.airport import MagneticVariation, Runway, RunwayThreshold, Source
-from airhilt.world.surface.runway import Place
 
 MODEL = "WMM_2025"
 FIRST_YEAR, LAST_YEAR = 2025.0, 2030.0

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import distance_and_azimuth
+from airhilt.geodesy.wgs84 import distance_and_azimuth
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold
 

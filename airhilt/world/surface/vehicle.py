@@ -9,9 +9,9 @@ from typing import ClassVar, Literal, NamedTuple
 from pydantic import BaseModel, ConfigDict, Field, PositiveFloat
 
 from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.wgs84 import Place
 from airhilt.world.mover import Dimensions, SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
-from airhilt.world.surface.runway import Place
 
 STANDING_M_S = 1e-6
 """Slower than this is no movement."""

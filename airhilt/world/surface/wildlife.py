@@ -8,10 +8,10 @@ from typing import ClassVar, Literal
 from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
 
 from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.wgs84 import Place
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
 from airhilt.world.mover import Dimensions, SurfaceState
-from airhilt.world.surface.runway import Place
 
 ARRIVED_M = 0.3
 """An animal on the ground that is nearer than this is there."""

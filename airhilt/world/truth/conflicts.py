@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.geodesy.relative_motion import (
-    LEAST_CURVATURE_RADIUS_M,
     Kinematics,
     Minima,
     Relative,
@@ -17,6 +16,7 @@ from airhilt.geodesy.relative_motion import (
     relative,
     time_to_loss_s,
 )
+from airhilt.geodesy.wgs84 import LEAST_CURVATURE_RADIUS_M
 from airhilt.messages import ConflictPhase
 from airhilt.surveillance import tcas
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns

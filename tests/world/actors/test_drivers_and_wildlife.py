@@ -9,11 +9,12 @@ from pydantic import TypeAdapter
 
 from airhilt import load
 from airhilt.commands import Command
+from airhilt.geodesy.wgs84 import distance_m
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.units import KNOT
 from airhilt.world.actors import Actor, Unable, build_actors
 from airhilt.world.actors.triggers import Triggers
-from airhilt.world.site import ScenarioSite, distance_m
+from airhilt.world.site import ScenarioSite
 
 COMMAND = TypeAdapter(Command)
 

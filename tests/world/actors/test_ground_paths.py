@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.commands import TaxiCommand
-from airhilt.geodesy.local_frame import onward
 from airhilt.geodesy.positions import RunwayPosition
+from airhilt.geodesy.wgs84 import beside, distance_m, onward
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.ground_paths import (
@@ -23,7 +23,7 @@ from airhilt.world.actors.ground_paths import (
     taxi_path,
 )
 from airhilt.world.loading import load
-from airhilt.world.site import ScenarioSite, beside, distance_m
+from airhilt.world.site import ScenarioSite
 
 
 @cache

@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import flights
+from airhilt.geodesy.wgs84 import Place
 from airhilt.world.flight import Aircraft, AircraftState
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 from flights import CRUISE, make_runway
 
 

@@ -10,11 +10,11 @@ import pytest
 from shapely import LineString, Point
 
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.local_frame import distance_and_azimuth, onward
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, onward
 from airhilt.world.surface.airport import Airport, load_airport
 from airhilt.world.surface.layout import CLEAR_OF_HOLD_M, Hold, Layout
 from airhilt.world.surface.path import length, turn
-from airhilt.world.surface.runway import Place, RunwayEnd
+from airhilt.world.surface.runway import RunwayEnd
 
 SHIPPED = ("EHAM", "KDCA", "KSFO", "LSZH", "RJTT")
 NOSE_WHEEL_RADIUS_M = 25.0

@@ -12,10 +12,10 @@ from shapely import MultiPoint, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from airhilt.errors import RendererError
+from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
 from airhilt.shapes.mesh import Colour, Floats, Mesh, join
 from airhilt.sim.streams import stream
 
-EARTH_RADIUS_M = 6_371_000.0
 FLAT_M = 9000.0
 """Around the origin the ground is flat, as it is for what moves on it; beyond it falls away."""
 GRID_M = 0.01
@@ -118,7 +118,7 @@ def _triangles(area: BaseGeometry, colour: Colour, sunlit: float) -> Mesh:
 def drop_m(distance_m: Floats | float) -> Floats:
     """Return how far the ground has fallen below the plane at some distance from the origin."""
     beyond = np.maximum(np.asarray(distance_m, dtype=np.float64) - FLAT_M, 0.0)
-    return np.asarray(beyond * beyond / (2.0 * EARTH_RADIUS_M))
+    return np.asarray(beyond * beyond / (2.0 * MEAN_RADIUS_M))
 
 
 def ring(inner_m: float, outer_m: float) -> BaseGeometry:

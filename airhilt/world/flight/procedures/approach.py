@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.guidance import Altitude, AltitudeClearance
 from airhilt.world.flight.phases import Cockpit, FlightPhase
 from airhilt.world.flight.procedures.final import GREATEST_CORRECTION_M_S, Final
 from airhilt.world.flight.procedures.landing import Flare
 from airhilt.world.flight.state import AircraftState
-from airhilt.world.surface.runway import Place
 
 CLOSE_HEIGHT_M = 60.0
 """Below it the glide path is followed as closely as the flare will be: 200 ft, where a category I

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import Cockpit, FlightPhase
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.taxi import Standing, Taxi
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
-from airhilt.world.surface.runway import Place
 
 GREATEST_DECELERATION_M_S2 = 3.0
 """With the brakes alone, on a dry runway (about that of an autobrake's highest landing setting)."""
