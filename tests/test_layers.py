@@ -1,35 +1,28 @@
-"""Which packages know of which."""
+"""Packages import only what the layers in pyproject.toml allow."""
 
 from __future__ import annotations
 
-import ast
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-import airhilt
+ROOT = Path(__file__).parents[1]
 
-PACKAGE = Path(airhilt.__file__).parent
+
+def test_no_import_breaks_a_layer() -> None:
+    linter = pytest.importorskip("importlinter.cli", reason="comes with the extra dev")
+    assert linter.lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
 
 
 @pytest.mark.parametrize(
-    ("package", "unknown"),
-    [("record", "metrics"), ("record", "workers"), ("metrics", "workers.vision")],
+    ("module", "unneeded"),
+    [
+        ("airhilt.scenario", "airhilt.world"),
+        ("airhilt.world.loading", "scipy"),
+    ],
 )
-def test_a_package_does_not_know_of_another(package: str, unknown: str) -> None:
-    files = list((PACKAGE / package).rglob("*.py"))
-    assert files
-    for file in files:
-        named = [name for name in imports(file) if f"{name}.".startswith(f"airhilt.{unknown}.")]
-        assert not named, f"{file.name} imports {', '.join(named)}"
-
-
-def imports(file: Path) -> list[str]:
-    """Return the modules that a file imports, wherever in it."""
-    found: list[str] = []
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom):
-            found.append(node.module or "")
-        elif isinstance(node, ast.Import):
-            found += [each.name for each in node.names]
-    return found
+def test_importing_a_module_does_not_load_what_it_does_not_need(module: str, unneeded: str) -> None:
+    code = f"import sys, {module}; sys.exit({unneeded!r} in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
