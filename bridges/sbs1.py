@@ -103,7 +103,7 @@ def main() -> None:
         told = Clock.model_validate_json(sample.payload.to_bytes())
         if told.phase in ("finished", "stopped"):
             break
-    adsb.undeclare()
+    adsb.undeclare()  # type: ignore[no-untyped-call]
     session.close()  # type: ignore[no-untyped-call]
 
 

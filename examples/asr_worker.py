@@ -8,6 +8,7 @@ report compares what it gives with what was said.
 """
 
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -26,7 +27,7 @@ class MyRecogniser:
         name="mine", modality="asr", inputs=(InputSpec(key="radio/*/tx"),)
     )
 
-    def step(self, t_ns: int, inputs: list[Input]) -> Step:
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         return Step(tuple(self.transcript(item) for item in inputs))
 
     def transcript(self, item: Input) -> Output:

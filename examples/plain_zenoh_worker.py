@@ -9,6 +9,7 @@ It warns the controller as soon as two aircraft are at one level.
 
 import json
 import sys
+from typing import Any
 
 import zenoh
 
@@ -18,8 +19,9 @@ config.insert_json5("connect/endpoints", json.dumps([sys.argv[1]]))
 config.insert_json5("scouting/multicast/enabled", "false")
 session = zenoh.open(config)
 answer = next(iter(session.get("airhilt/*/clock"))).ok
+assert answer is not None, "the run answered with an error"
 prefix = str(answer.key_expr).removesuffix("/clock")
-reports: dict[str, dict] = {}
+reports: dict[str, dict[str, Any]] = {}
 
 
 def hear(sample: zenoh.Sample) -> None:
@@ -46,4 +48,4 @@ token = session.liveliness().declare_token(f"{prefix}/worker/plain")
 for sample in clock:
     if json.loads(sample.payload.to_bytes())["phase"] in ("finished", "stopped"):
         break
-session.close()
+session.close()  # type: ignore[no-untyped-call]

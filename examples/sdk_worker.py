@@ -8,6 +8,7 @@ of each other.
 """
 
 import sys
+from collections.abc import Sequence
 from itertools import combinations
 
 from airhilt.messages import AdsbReport, Advisory, Evidence, InputSpec, Severity, WorkerDescription
@@ -21,19 +22,19 @@ class SimpleWorker:
     )
 
     def __init__(self) -> None:
-        self.reports: dict[str, AdsbReport] = {}
+        self.reports: dict[str, tuple[AdsbReport, float]] = {}
         self.told: set[str] = set()
 
-    def step(self, t_ns: int, inputs: list[Input]) -> Step:
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         for item in inputs:
             report = AdsbReport.model_validate_json(item.payload)
             if report.altitude_ft is not None:
-                self.reports[report.icao24] = report
+                self.reports[report.icao24] = report, report.altitude_ft
         outputs = []
-        for a, b in combinations(self.reports.values(), 2):
+        for (a, a_ft), (b, b_ft) in combinations(self.reports.values(), 2):
             pair = "-".join(sorted((a.icao24, b.icao24)))
             near = abs(a.latitude_deg - b.latitude_deg) + abs(a.longitude_deg - b.longitude_deg)
-            if near < 0.45 and abs(a.altitude_ft - b.altitude_ft) < 1000 and pair not in self.told:
+            if near < 0.45 and abs(a_ft - b_ft) < 1000 and pair not in self.told:
                 self.told.add(pair)
                 outputs.append(self.advisory(pair, a, b, t_ns))
         return Step(tuple(outputs))

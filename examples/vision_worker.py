@@ -8,6 +8,7 @@ detector, and the report compares what it gives with what was there.
 """
 
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 from scipy import ndimage
@@ -31,7 +32,7 @@ class MyDetector:
         inputs=(InputSpec(key="camera/*/frame", policy="latest"),),
     )
 
-    def step(self, t_ns: int, inputs: list[Input]) -> Step:
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         return Step(tuple(self.detections(item) for item in inputs))
 
     def detections(self, item: Input) -> Output:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import runpy
-
 from airhilt.world.checks import check
-from paths import TOOLS
-
-BENCH = TOOLS / "bench.py"
+from benchmarks.traffic import fifty_scenario
 
 
 def test_the_scenario_of_fifty_is_one_that_flies() -> None:
-    scenario = runpy.run_path(str(BENCH))["fifty_scenario"]()
+    scenario = fifty_scenario()
     check(scenario, "fifty")
     assert len(scenario.actors) == 50

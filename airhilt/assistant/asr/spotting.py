@@ -23,7 +23,7 @@ SAME = (("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower"
 """Words for the same digit."""
 MOST_LOSS = 2.5
 """Of `Spotted.loss`: with more, the callsign was not said. Chosen on calls like those of training
-(``tools/calibrate_asr.py``), and on calls by somebody whose callsign is one digit off."""
+(``tools/asr/calibrate_asr.py``), and on calls by somebody whose callsign is one digit off."""
 MARGIN = 0.3
 """By so much another callsign must fit worse."""
 LEAST_POSTERIOR = 1e-8

@@ -25,7 +25,7 @@ from airhilt.messages import Box, Confidence, VisibleClass
 from airhilt.onnx import open_network
 
 EXPECTED = (
-    "a network of tools/train_refiner.py: 'views', uint8 [n, 2, 40, 40, 3], and 'about', "
+    "a network of tools/detector/train_refiner.py: 'views', uint8 [n, 2, 40, 40, 3], and 'about', "
     "float [n, 3], to 'chances', float [n, 1 + classes], and 'moves', float [n, 4]"
 )
 USUAL_PIXELS = 640 * 360

@@ -25,7 +25,7 @@ from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
 
 TINY = DATA / "tiny_recogniser"
-"""Made by tools/make_tiny_recogniser.py: each tone below is a word with a known posterior."""
+"""Made by tools/make/tiny_recogniser.py: each tone below is a word with a known posterior."""
 ALFA_HZ, BRAVO_HZ, CHARLIE_HZ, DOUBTFUL_ALFA_HZ = 588.0, 1_202.0, 2_108.0, 3_446.0
 TONE_S = 0.24
 

@@ -1,7 +1,7 @@
 """The embedded recogniser: a network that knows the words of aviation and no others.
 
 It is a connectionist temporal classification model (Graves et al., ICML 2006) in ONNX, trained
-by ``tools/train_asr.py``. Its words are those that a call can have, so that noise does not become
+by ``tools/asr/train_asr.py``. Its words are those of calls, so that noise does not become
 fluent sentences; and where its best guess is poor it says nothing.
 """
 
@@ -29,7 +29,7 @@ MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""
 FILES = ("ctc.onnx", "words.txt", "card.json")
 """Files of a model's folder."""
-EXPECTED = "a network of tools/train_asr.py: features [1, n, 64] to logits [1, n / 6, words + 1]"
+EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/6, words + 1]"
 LEAST_SAMPLES = 1_600
 """A tenth of a second: less holds no word."""
 STEP_FRAMES = 6
@@ -103,7 +103,7 @@ class Ctc:
         if missing:
             raise SpeechError(
                 f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
-                f"{', '.join(FILES)}, as tools/train_asr.py writes them"
+                f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
         self._words = (where / "words.txt").read_text(encoding="utf-8", errors="replace").split()
         try:
@@ -111,7 +111,7 @@ class Ctc:
         except ValidationError as error:
             raise SpeechError(
                 f"recogniser {self.name}: {where / 'card.json'} is no model card: "
-                f"{first_problem(error)}; expected it as tools/train_asr.py writes it"
+                f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
         self._least = card.least_word_confidence

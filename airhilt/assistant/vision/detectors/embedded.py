@@ -2,7 +2,7 @@
 
 It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850), and then
 once more at each place where one may be: see `airhilt.assistant.vision.refiner`.
-``tools/train_detector.py`` and ``tools/train_refiner.py`` make the networks, and
+``tools/detector/train_detector.py`` and ``tools/detector/train_refiner.py`` make the networks, and
 docs/detector.md says how well they see.
 """
 
@@ -29,7 +29,8 @@ from airhilt.onnx import open_network
 MODEL = Path(__file__).parents[1] / "model" / "detector.onnx"
 CARD = "card.json"
 EXPECTED = (
-    "a network of tools/train_detector.py: 'picture', uint8 [1, rows, columns, 3], to 'found', "
+    "a network of tools/detector/train_detector.py: "
+    "'picture', uint8 [1, rows, columns, 3], to 'found', "
     "float [1, n, 6]: left, top, right, bottom, score, class"
 )
 SMALLEST_PX = 64
@@ -228,13 +229,13 @@ def _card(path: Path) -> Card:
         return Card.model_validate_json(path.read_bytes())
     except OSError as error:
         raise VisionError(
-            f"{path}: cannot be read: {error.strerror}; expected what tools/train_detector.py "
-            "writes beside a network"
+            f"{path}: cannot be read: {error.strerror}; "
+            "expected what tools/detector/train_detector.py writes beside a network"
         ) from None
     except ValidationError as error:
         raise VisionError(
-            f"{path}: {first_problem(error)}; expected what tools/train_detector.py writes beside "
-            "a network"
+            f"{path}: {first_problem(error)}; "
+            "expected what tools/detector/train_detector.py writes beside a network"
         ) from None
 
 

@@ -1,10 +1,11 @@
 """Train the second look of the detector that ships with AIRHILT, and write it as ONNX.
 
-    python tools/train_refiner.py data/train1 data/train2 --network detector/detector.onnx \
-        --scratch places
+    python tools/detector/train_refiner.py data/train1 data/train2 \
+        --network detector/detector.onnx --scratch places
 
-``tools/train_detector.py`` makes the network that sees a whole picture. Here it is asked what it
-makes of pictures; whether a body of `airhilt dataset export` is at each place that it names is
+``tools/detector/train_detector.py`` makes the network that sees a whole picture. Here it is asked
+what it makes of pictures; whether a body of `airhilt dataset export` is at each place that it
+names is
 known, and that is what the second network learns to tell, with the body's class and box (see
 `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
 for something. Places on bodies that can hardly be seen teach nothing.
@@ -26,15 +27,15 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from detector_data import CLASSES
-from detector_lessons import Lessons
-from detector_places import places_of
 from torch import Tensor, nn
 from torch.nn import functional
-from train_detector import NOT_CALIBRATED, batches, followed
 
 from airhilt.assistant.vision.detectors.embedded import CARD
 from airhilt.assistant.vision.refiner import VIEW_PX
+from detector_data import CLASSES
+from detector_lessons import Lessons
+from detector_places import places_of
+from train_detector import NOT_CALIBRATED, batches, followed
 
 FILE = "refiner.onnx"
 USED_FROM, USED = 0.15, 8
@@ -261,7 +262,7 @@ def main() -> None:
     }
     path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
     print(json.dumps(card["refiner"], indent=2))
-    print(f"{path} has no calibration now: tools/calibrate_detector.py makes it, and the threshold")
+    print(f"{path} has no calibration now: tools/detector/calibrate_detector.py makes one")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import re
 from pathlib import Path
 
 HERE = Path(__file__).parent
-TELEPHONY = HERE.parent / "airhilt" / "radio" / "phraseology" / "telephony.csv"
+TELEPHONY = HERE.parents[1] / "airhilt" / "phraseology" / "telephony.csv"
 FORMS = HERE / "asr_forms.txt"
 
 DIGITS = "zero one two three four five six seven eight nine".split()

@@ -5,9 +5,9 @@ A TDNN-CTC network (temporal convolutions with residuals) whose units are the wo
 each time an utterance is seen: they are mixed as mel powers, which costs next to nothing. The
 last part of the training adds calls that really went through `airhilt.sensors.radio.channel`.
 
-    python tools/train_asr.py prepare build/asr/train     (as often as there are new shards)
-    python tools/train_asr.py train build/asr --minutes 90
-    python tools/train_asr.py export build/asr airhilt/assistant/asr/model
+    python tools/asr/train_asr.py prepare build/asr/train     (as often as there are new shards)
+    python tools/asr/train_asr.py train build/asr --minutes 90
+    python tools/asr/train_asr.py export build/asr airhilt/assistant/asr/model
 
 Needs torch, which the package itself does not.
 """
@@ -24,12 +24,12 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from asr_corpus import Talk
 from torch import Tensor, nn
 
 from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
+from asr_corpus import Talk
 
 STRIDE = 6
 """Frames of features to one of the output: 60 ms."""
@@ -236,8 +236,9 @@ class Mixer:
         rng = self._rng
         noise = self._bank[rng.integers(len(self._bank))]
         start, size = rng.integers(0, 1_000), rng.integers(30, 500)
-        log = np.log(noise[start : start + size] * 10.0 ** rng.uniform(-6, -1) + FLOOR)
-        return log - log.mean(axis=0)
+        log: np.ndarray = np.log(noise[start : start + size] * 10.0 ** rng.uniform(-6, -1) + FLOOR)
+        log -= log.mean(axis=0)
+        return log
 
 
 # --- training ------------------------------------------------------------------------------
@@ -291,12 +292,12 @@ def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
             if not easy and order.random() < 0.3:
                 inputs.append(mixer.noise_alone())
                 targets.append([])
-            longest = -(-max(map(len, inputs)) // 48) * 48
+            longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
             features = torch.zeros(len(inputs), longest, BINS)
-            for row, each in enumerate(inputs):
-                features[row, : len(each)] = torch.from_numpy(each)
+            for row, mixed in enumerate(inputs):
+                features[row, : len(mixed)] = torch.from_numpy(mixed)
             logits = network(features).log_softmax(2).transpose(0, 1)
-            sizes = torch.tensor([-(-len(each) // STRIDE) for each in inputs])
+            sizes = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
             loss = nn.functional.ctc_loss(
                 logits, torch.tensor([u for t in targets for u in t]), sizes,
                 torch.tensor([len(t) for t in targets]), zero_infinity=True,
@@ -346,7 +347,7 @@ def export(folder: Path, target: Path) -> None:
     shards = sorted((folder / "train").glob("*.mel.npz"))
     lines = {path.name: _lines(path) for path in shards}
     card = {
-        "made_by": "tools/asr_corpus.py, tools/asr_speech.py, tools/train_asr.py",
+        "made_by": "tools/asr/asr_corpus.py, tools/asr/asr_speech.py, tools/asr/train_asr.py",
         "parameters": sum(p.numel() for p in network.parameters()),
         "utterances": sum(lines.values()),
         "training_minutes": round(sum(json.loads((folder / "minutes.json").read_text())), 1),

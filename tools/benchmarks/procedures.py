@@ -384,7 +384,7 @@ def measure(procedure: str, name: str, weather: str, seeds: int) -> Row:
     fly, criteria = PROCEDURES[procedure]
     bounds = criteria(kind)
     worst = {bound.measurement: -math.inf for bound in bounds}
-    failed = {}
+    failed: dict[str, None] = {}
     for seed in range(1, seeds + 1):
         try:
             measured = fly(Flight(kind, WEATHERS[weather], seed))

@@ -3,10 +3,10 @@
 A shard is two files: `NAME.npy`, all samples one after another (int16, 16 kHz), and `NAME.jsonl`,
 one line an utterance with its text, voice and length.
 
-    python tools/asr_speech.py build/asr espeak --count 30000 --seed 1
-    python tools/asr_speech.py build/asr flite --count 6000 --seed 2
-    python tools/asr_speech.py build/asr espeak-unseen --count 600 --seed 3
-    python tools/asr_speech.py build/asr flite-unseen --count 600 --seed 4
+    python tools/asr/asr_speech.py build/asr espeak --count 30000 --seed 1
+    python tools/asr/asr_speech.py build/asr flite --count 6000 --seed 2
+    python tools/asr/asr_speech.py build/asr espeak-unseen --count 600 --seed 3
+    python tools/asr/asr_speech.py build/asr flite-unseen --count 600 --seed 4
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from asr_corpus import Talk
 from numpy.typing import NDArray
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
 from airhilt.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
 from airhilt.voices.engines.espeak import ACCENTS, Espeak
+from asr_corpus import Talk
 
 SHARD = 2_000
 UNSEEN_TIMBRES = ("f3 m2 m4 Mike linda Gene adam ed steph2 victor anika john").split()
@@ -63,7 +63,7 @@ def speech(
                 pitch=rng.uniform(0.5, 1.5),
             )
             samples = espeak.synthesise(spoken, voice)
-            pcm = np.int16(np.clip(samples, -1.0, 1.0) * 32767)
+            pcm = (np.clip(samples, -1.0, 1.0) * 32767).astype(np.int16)
             yield about | {"voice": voice.name}, pcm
         else:
             name = rng.choice(FLITE_UNSEEN if engine.endswith("unseen") else FLITE)

@@ -1,6 +1,6 @@
 """Makes airports/kdca.json: the runways of OurAirports, the rest drawn after the real airport.
 
-    python tools/make_kdca.py RUNWAYS_CSV FREQUENCIES_CSV airports/kdca.json
+    python tools/make/kdca.py RUNWAYS_CSV FREQUENCIES_CSV airports/kdca.json
 
 Runways and frequencies are those of the files. Everything else is drawn from memory of the real
 airport, in metres beside the runways: right as to what crosses what and which side it is on, wrong

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from detector_data import Shot
 from rich.progress import track
+
+from detector_data import Shot
 
 Pictures = npt.NDArray[np.uint8]
 

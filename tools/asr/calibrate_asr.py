@@ -1,6 +1,6 @@
 """Makes the embedded recogniser's confidence mean what it says, and writes it into its card.
 
-    python tools/calibrate_asr.py build/asr/dev airhilt/assistant/asr/model
+    python tools/asr/calibrate_asr.py build/asr/dev airhilt/assistant/asr/model
 
 The calls of the folder (not those of training, nor those that scores are given of) go through the
 channel at many ratios. Two logistic curves are fitted by maximum likelihood (Platt, 1999): from
@@ -18,13 +18,13 @@ from pathlib import Path
 
 import jiwer
 import numpy as np
-from eval_asr import noise_alone, rosters_for, spoken
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from airhilt.assistant.asr.engines.embedded import Ctc
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
+from eval_asr import noise_alone, rosters_for, spoken
 
 MOST_TALKATIVE = 0.005
 """Of transmissions without speech, the share that may give words."""

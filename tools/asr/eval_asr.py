@@ -1,7 +1,7 @@
 """Measures recognisers: word error rate and callsigns, by voice and by signal-to-noise ratio.
 
-    python tools/eval_asr.py build/asr/test --engine embedded
-    python tools/eval_asr.py build/asr/test --engine embedded --engine whisper:DIR --markdown
+    python tools/asr/eval_asr.py build/asr/test --engine embedded
+    python tools/asr/eval_asr.py build/asr/test --engine embedded --engine whisper:DIR --markdown
 
 The folder holds shards of `asr_speech`. Each utterance goes through the channel "vhf" with a noise
 of its own, the same for each engine. A callsign is right if the parser finds it among ten that are
@@ -25,7 +25,7 @@ import numpy as np
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import VhfChannel
+from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
@@ -106,7 +106,7 @@ def noise_alone(count: int, seed: int) -> Iterator[Audio]:
         rng = np.random.default_rng([index, seed])
         channel = VhfChannel(PROFILES[rng.choice(list(PROFILES))])
         silence = np.zeros(SAMPLE_RATE_HZ * int(rng.integers(1, 12)), np.float32)
-        background = "cockpit" if index % 2 else "none"
+        background: BackgroundNoise = "cockpit" if index % 2 else "none"
         yield channel.transmit(silence, float(rng.uniform(-3, 30)), rng, (), background)
 
 

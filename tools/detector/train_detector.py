@@ -2,15 +2,15 @@
 
     pip install torch onnx
     airhilt dataset export --out data/train --images 10000 --seed 101 --renderer moderngl ...
-    python tools/train_detector.py data/train --out detector
+    python tools/detector/train_detector.py data/train --out detector
 
 It is a small convolutional network that looks for the middles of bodies (X. Zhou et al., Objects
 as Points, arXiv 1904.07850), of one scale at an eighth of the resolution, and needs no
 suppression of overlapping boxes. It learns from tiles: most are cut around a body of some class
 and size, drawn so that rare classes and small bodies come as often as others, and changed in
 scale, colour and sharpness. Bodies that can hardly be seen are neither learnt nor counted as
-background. After training, ``tools/train_refiner.py`` makes the second network, and
-``tools/calibrate_detector.py`` fits what both say and chooses the threshold.
+background. After training, ``tools/detector/train_refiner.py`` makes the second network, and
+``tools/detector/calibrate_detector.py`` fits what both say and chooses the threshold.
 
 A checkpoint is written every few minutes; the same command goes on from it. Pictures must all be
 of one size; they are kept decoded in ``OUT/pictures-<mark>.u8``, where the mark changes with the
@@ -34,14 +34,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import torch
-from detector_data import CLASSES, Body, Shot, read_folder
-from detector_scratch import Pictures, contents, decoded, mark_of
 from PIL import Image, ImageFilter
 from torch import Tensor, nn
 from torch.nn import functional
 
 from airhilt.assistant.vision.detector import GRID_PX
 from airhilt.assistant.vision.detectors.embedded import CARD
+from detector_data import CLASSES, Body, Shot, read_folder
+from detector_scratch import Pictures, contents, decoded, mark_of
 
 STEM_STRIDE, STRIDE = 4, 8
 """Of the first convolution, and of the maps."""
@@ -79,7 +79,7 @@ WORTH = (2.0, 0.5, 0.5)
 PRIOR = 0.005
 """Score of everything before training."""
 NOT_CALIBRATED = 1.0
-"""The threshold in a card, until tools/calibrate_detector.py chooses one."""
+"""The threshold in a card, until tools/detector/calibrate_detector.py chooses one."""
 
 Picture = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
@@ -202,7 +202,7 @@ class Detector(nn.Module):
 
 def folded(network: Network) -> Network:
     """Return a network whose first two convolutions do what the normalisation after them did."""
-    quick = copy.deepcopy(network).eval()
+    quick: Network = copy.deepcopy(network).eval()
     norm = quick.stem_norm[0]
     assert isinstance(norm, nn.BatchNorm2d)
     with torch.no_grad():
@@ -340,14 +340,14 @@ class Tiles:
         flip = draws.random() < 0.5
         if flip:
             tile = tile[:, ::-1]
-        scores, counts, *boxes = _maps(
+        scores, counts, boxes, box_weights = _maps(
             self._shots[index].bodies, x, y, tile_px / side, flip, tile_px
         )
         if index in self._own:
             middles = ((np.arange(tile_px // STRIDE) + 0.5) * STRIDE * side / tile_px).astype(int)
             own = self._own[index][np.ix_(y + middles, x + middles)]
             counts[0][(own[:, ::-1] if flip else own) & (scores.max(axis=0) < 0.3)] = 0.0
-        return varied(tile, draws), scores, counts, *boxes
+        return varied(tile, draws), scores, counts, boxes, box_weights
 
 
 def _weights(found: list[tuple[int, Body]], side: int) -> npt.NDArray[np.float64]:
@@ -655,7 +655,7 @@ def main() -> None:
     path = given.out / CARD
     path.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
     print(json.dumps(card, indent=2))
-    print(f"{path} has no calibration yet: tools/calibrate_detector.py makes it, and the threshold")
+    print(f"{path} has no calibration yet: tools/detector/calibrate_detector.py makes one")
 
 
 if __name__ == "__main__":

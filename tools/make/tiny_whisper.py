@@ -1,6 +1,6 @@
 """Make the tiny Whisper model of the tests: the real architecture, and one sentence.
 
-    python tools/make_tiny_whisper.py tests/data/tiny_whisper
+    python tools/make/tiny_whisper.py tests/data/tiny_whisper
 
 Needs ``transformers``, ``ctranslate2``, ``tokenizers`` and ``torch``, none of which AIRHILT needs.
 What it writes is what `ct2-transformers-converter` would write of a real model. Whatever it is

@@ -1,6 +1,6 @@
 """Make the tiny learned channels of the tests.
 
-    python tools/make_tiny_channels.py tests/data/channels
+    python tools/make/tiny_channels.py tests/data/channels
 
 Needs ``onnx``, which AIRHILT does not.
 """

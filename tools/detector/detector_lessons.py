@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from detector_places import Places
 
 from airhilt.assistant.vision.refiner import about, moves_to, views_of
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box
+from detector_places import Places
 
 BATCH, OF_BODIES = 256, 0.35
 """Places in a batch, and the part of them that are bodies."""

@@ -10,9 +10,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from detector_data import Body, Shot, read_folder
-from detector_scratch import Pictures, contents, decoded, mark_of
-from eval_detector import on_faint
 from rich.progress import track
 
 from airhilt.assistant.vision.detector import Found
@@ -20,6 +17,9 @@ from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.imaging.boxes import centre, overlap, size_px
 from airhilt.messages import Box
+from detector_data import Body, Shot, read_folder
+from detector_scratch import Pictures, contents, decoded, mark_of
+from eval_detector import on_faint
 
 LEAST_SCORE, MOST = 0.03, 20
 """Of the places that are learnt from: the score that the first network gives, and how many there

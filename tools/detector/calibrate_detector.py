@@ -1,8 +1,8 @@
 r"""Fit a detector's confidences, and count its false detections in minutes of cameras.
 
-    python tools/calibrate_detector.py data/dev --network detector/detector.onnx --seed 401 \
-        --airport KDCA --airport KSFO --airport EHAM --airport RJTT --airport en_route
-    python tools/calibrate_detector.py --seed 501 --airport LSZH --airport en_route
+    python tools/detector/calibrate_detector.py data/dev --network detector/detector.onnx \
+        --seed 401 --airport KDCA --airport KSFO --airport EHAM --airport RJTT --airport en_route
+    python tools/detector/calibrate_detector.py --seed 501 --airport LSZH --airport en_route
 
 With folders of ``airhilt dataset export`` it fits how likely a finding is to be true by score,
 size and class (see `airhilt.assistant.vision.detectors.embedded.Calibration`), and writes that
@@ -29,8 +29,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from detector_data import CLASSES, Shot, read_folder
-from eval_detector import loosely, matched, on_faint
 from rich.progress import track
 from scipy import optimize
 
@@ -56,6 +54,8 @@ from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.sensor import view_message
 from airhilt.sim.streams import stream
 from airhilt.units import seconds_to_ns
+from detector_data import CLASSES, Shot, read_folder
+from eval_detector import loosely, matched, on_faint
 
 RATE_HZ = 16.0
 SPEEDS_M_S = {"ground": 8.0, "air": 75.0}

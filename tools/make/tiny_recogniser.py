@@ -1,6 +1,6 @@
 """Make the tiny recogniser of the tests: three words, each of them a tone.
 
-    python tools/make_tiny_recogniser.py tests/data/tiny_recogniser
+    python tools/make/tiny_recogniser.py tests/data/tiny_recogniser
 
 The network looks at four mel bands in every sixth frame and gives the posteriors that belong to
 the loudest, or those of silence where none stands out. Needs ``onnx``, which AIRHILT does not.
@@ -66,7 +66,7 @@ def main() -> None:
     (out / "words.txt").write_text("\n".join(WORDS) + "\n", encoding="utf-8")
     as_it_is = {"slope": 1.0, "offset": 0.0}
     card = {
-        "made_by": "tools/make_tiny_recogniser.py",
+        "made_by": "tools/make/tiny_recogniser.py",
         "word_calibration": as_it_is,
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,

@@ -2,9 +2,9 @@
 
     airhilt dataset export --out data/test --images 2500 --seed 301 --airport LSZH ...
     airhilt dataset export --out data/empty --images 2000 --seed 302 --empty 1 --airport LSZH ...
-    python tools/eval_detector.py data/test data/empty
-    python tools/eval_detector.py data/test data/empty --engine yolo:yolov10n.pt --json
-    python tools/eval_detector.py --approaches
+    python tools/detector/eval_detector.py data/test data/empty
+    python tools/detector/eval_detector.py data/test data/empty --engine yolo:yolov10n.pt --json
+    python tools/detector/eval_detector.py --approaches
 
 Only findings count that are sure by themselves. A body counts as found if a box of its class
 overlaps its own by half (intersection over union); in the column `loose`, by three tenths. Bodies
@@ -31,7 +31,6 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 from rich.progress import track
 
 from airhilt.assistant.vision.detector import Detector, Found, Picture
@@ -39,6 +38,7 @@ from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.imaging.boxes import centre, overlap, share_of_smaller
 from airhilt.imaging.matching import is_about
+from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
 
 FRAMES_A_MINUTE = 960
 SMALL_PX = 12.0
@@ -373,7 +373,7 @@ def main() -> None:
     if not given.folders and not given.approaches:
         parser.error("nothing to judge: give folders of airhilt dataset export, or --approaches")
     engine = vision_engine(given.engine)
-    result: dict[str, Any] = {"engine": engine.detector.name}
+    result: dict[str, Any] = {"engine": engine.name}
     if given.folders:
         shots = [shot for folder in given.folders for shot in read_folder(folder)]
         result |= {"pictures": len(shots), **judge(engine, shots).as_dict()}

@@ -1,0 +1,47 @@
+"""From the command line to its help, and to the first simulated second."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+import time
+
+from benchmarks.rounds import best
+
+FIRST_SECOND = """
+import sys, time
+from pathlib import Path
+from airhilt.cosim import Observer, run
+from airhilt.options import Options
+from airhilt.world.loading import load
+class First(Observer):
+    def snapshot(self, snapshot):
+        if snapshot.t_s >= 1.0:
+            print(time.time())
+            sys.stdout.flush()
+            raise KeyboardInterrupt
+try:
+    run(load("s02a_headon"), Options(out=Path(sys.argv[1]) / "run"), First())
+except KeyboardInterrupt:
+    pass
+"""
+
+
+def startup() -> dict[str, float]:
+    """Time the command line to its help and to the first simulated second."""
+
+    def first_second() -> float:
+        with tempfile.TemporaryDirectory() as scratch:
+            begun = time.time()
+            command = [sys.executable, "-c", FIRST_SECOND, scratch]
+            done = subprocess.run(command, capture_output=True, text=True, check=True)
+        return float(done.stdout) - begun
+
+    def show_help() -> float:
+        begun = time.perf_counter()
+        command = [sys.executable, "-m", "airhilt", "--help"]
+        subprocess.run(command, capture_output=True, check=True)
+        return time.perf_counter() - begun
+
+    return {"first_simulated_second_s": best(first_second), "help_s": best(show_help)}

@@ -1,0 +1,213 @@
+"""Runs without cameras: one encounter, fifty aircraft, a terminal, a busy airport, BlueSky."""
+
+from __future__ import annotations
+
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from airhilt import load, run
+from airhilt.cosim.setup import TICK_S
+from airhilt.scenario import Scenario
+from airhilt.scenario.perturbation import realise
+from airhilt.world.actors import build_actors
+from airhilt.world.flight import Aircraft
+from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.airport import load_airport
+from airhilt.world.surface.layout import Layout
+from benchmarks.rounds import ROUNDS
+
+BLUESKY = """
+import time, bluesky as bs
+bs.init(mode="sim", detached=True)
+bs.settings.simdt = 0.05
+bs.sim.simdt = 0.05
+for i, lon in enumerate((-77.4, -76.6)):
+    bs.traf.cre(f"AC{i}", "B737", 38.9, lon, 90 if i == 0 else 270, 35000 * 0.3048, 135)
+bs.sim.op()
+best = 0.0
+for _ in range(3):
+    begun, from_s = time.perf_counter(), bs.sim.simt
+    for _ in range(4000):
+        bs.sim.step()
+    best = max(best, (bs.sim.simt - from_s) / (time.perf_counter() - begun))
+print(best)
+"""
+
+
+def headon() -> dict[str, float]:
+    """Compare s02a_headon with stepping its two aircraft bare, turn by turn."""
+    scenario = load("s02a_headon")
+    factors, whole, bare = [], [], []
+    for _ in range(ROUNDS):
+        with tempfile.TemporaryDirectory() as scratch:
+            summary = run(scenario, out=Path(scratch) / "run", cameras=False).summary
+        factors.append(summary.real_time_factor)
+        whole.append(summary.cpu_s / summary.duration_s)
+        realised, _ = realise(scenario, 0)
+        actors = build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
+        steppers = [
+            actor.body._airframe.step
+            for actor in actors.values()
+            if isinstance(actor.body, Aircraft)
+        ]
+        begun = time.process_time()
+        for _ in range(60 * round(6 / TICK_S)):
+            for step in steppers:
+                step()
+        bare.append((time.process_time() - begun) / 60.0)
+    return {
+        "real_time_factor_best": max(factors),
+        "real_time_factor_median": statistics.median(factors),
+        "cpu_ms_per_simulated_s": 1000.0 * min(whole),
+        "bare_cpu_ms_per_simulated_s": 1000.0 * min(bare),
+        "cpu_ratio_to_bare_best": min(whole) / min(bare),
+        "cpu_ratio_to_bare_median": statistics.median(
+            a / b for a, b in zip(whole, bare, strict=True)
+        ),
+    }
+
+
+def fifty_scenario() -> Scenario:
+    """Return fifty 737s on ten levels that all fly to one point."""
+    document = load("s02a_headon").model_dump(mode="json")
+    template = document["actors"][0]
+    document |= {"name": "fifty", "conflict": None, "end_when": [], "perturbations": []}
+    document |= {"duration_s": 60.0, "radio": {}, "cameras": []}
+    document["actors"] = [
+        template
+        | {
+            "callsign": f"TST{index}",
+            "icao24": f"{0xABC000 + index:06x}",
+            "initial": {
+                "type": "airborne",
+                "position": {
+                    "type": "from_centre",
+                    "bearing_deg": index * 7.2,
+                    "distance_nm": 40.0 + 3.0 * (index % 5),
+                },
+                "altitude_ft": 29_000 + 1000.0 * (index % 10),
+                "cas_kt": 255.0,
+            },
+            "route": [{"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}],
+        }
+        for index in range(50)
+    ]
+    return Scenario.model_validate(document)
+
+
+def fifty() -> dict[str, float]:
+    """Run fifty aircraft."""
+    with tempfile.TemporaryDirectory() as scratch:
+        summary = run(fifty_scenario(), out=Path(scratch) / "run").summary
+    peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return {"real_time_factor": summary.real_time_factor, "peak_memory_mb": peak_kib / 1024.0}
+
+
+def terminal_scenario() -> Scenario:
+    """Return a landing, a departure, two vehicles that drive, and a deer."""
+    document = load("s01b_nominal").model_dump(mode="json")
+    departure = load("s01a_tight_timing").model_dump(mode="json")["actors"][1]
+    deer = load("s01c_nominal").model_dump(mode="json")["actors"][1]
+    document["actors"] += [departure, deer]
+    document["actors"][2]["commands"] = [
+        {"action": "taxi", "to": {"type": "hold_short", "runway": "01", "taxiway": "A"}}
+    ]
+    document |= {"name": "terminal", "duration_s": 150.0, "end_when": [], "perturbations": []}
+    return Scenario.model_validate(document)
+
+
+def terminal() -> dict[str, float]:
+    """Run 2 aircraft, 2 vehicles and an animal."""
+    return _repeated(terminal_scenario())
+
+
+def airport_scenario() -> Scenario:
+    """Return five arrivals, five departures and ten taxiing aircraft among twenty vehicles."""
+    layout = Layout(load_airport("KDCA"))
+    stands, holds = list(layout.stands), ["A", "D", "E", "F", "N"]
+
+    def stand(index: int) -> dict[str, object]:
+        position = {"type": "node", "node": stands[index % len(stands)]}
+        return {"type": "standing", "position": position, "heading_deg": 85.0}
+
+    def to_hold(index: int) -> dict[str, object]:
+        place = {"type": "hold_short", "runway": "01", "taxiway": holds[index % len(holds)]}
+        return {"action": "taxi", "to": place}
+
+    actors: list[dict[str, object]] = []
+    for index in range(20):
+        aircraft = {
+            "type": "aircraft",
+            "callsign": f"TST{index}",
+            "icao24": f"{0xABC000 + index:06x}",
+            "aircraft": "737",
+        }
+        if index < 10:
+            final = {"type": "final", "runway": "01", "distance_nm": 2.0 + 1.2 * index}
+            land = {"action": "land", "runway": "01"}
+            actors.append(aircraft | {"initial": final, "commands": [land]})
+        else:
+            actors.append(aircraft | {"initial": stand(index), "commands": [to_hold(index)]})
+    for index in range(20):
+        actors.append(
+            {
+                "type": "vehicle",
+                "callsign": f"OPS{index}",
+                "icao24": f"{0xABD000 + index:06x}",
+                "kind": "follow_me",
+                "initial": stand(index),
+                "commands": [to_hold(index + 2)],
+                "transponder": {"equipped": True},
+            }
+        )
+    return Scenario.model_validate(
+        {
+            "name": "airport",
+            "title": "A busy airport",
+            "family": "S01A",
+            "scene": {"type": "airport", "airport": "KDCA"},
+            "duration_s": 90.0,
+            "actors": actors,
+        }
+    )
+
+
+def airport() -> dict[str, float]:
+    """Run 20 aircraft and 20 vehicles."""
+    return _repeated(airport_scenario(), rounds=2)
+
+
+def _repeated(scenario: Scenario, rounds: int = ROUNDS) -> dict[str, float]:
+    factors = []
+    for _ in range(rounds):
+        with tempfile.TemporaryDirectory() as scratch:
+            summary = run(scenario, out=Path(scratch) / "run", cameras=False).summary
+        factors.append(summary.real_time_factor)
+    return {
+        "real_time_factor_best": max(factors),
+        "real_time_factor_median": statistics.median(factors),
+    }
+
+
+def bluesky(python: str) -> dict[str, float]:
+    """Compare with BlueSky's point masses at the same step, BlueSky being in its own environment.
+
+    Raises
+    ------
+    SystemExit
+        There is no BlueSky in that environment.
+    """
+    ours = headon()["real_time_factor_best"]
+    done = subprocess.run([python, "-c", BLUESKY], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(
+            f"{python}: cannot run BlueSky: {done.stderr.strip().splitlines()[-1:]}; make an "
+            "environment with `pip install bluesky-simulator` and give its python"
+        )
+    theirs = float(done.stdout.strip().splitlines()[-1])
+    return {"airhilt_x": ours, "bluesky_x": theirs, "ratio": ours / theirs}
