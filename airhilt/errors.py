@@ -34,6 +34,10 @@ class ScenarioError(AirhiltError):
         self.problems = problems or (message,)
 
 
+class SensorError(AirhiltError):
+    """A sensor cannot be loaded, or publishes on keys that are not its own."""
+
+
 class BusError(AirhiltError):
     """The Zenoh session could not be opened, or something on it broke its contract."""
 

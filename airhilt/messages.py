@@ -7,6 +7,7 @@ worker is. ``airhilt schema`` prints all of this as JSON Schema.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
 from typing import Annotated, Any, Literal
 
@@ -24,6 +25,10 @@ class Message(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     t_ns: Nanoseconds = Field(default=0, description="when it was published, stamped by the run")
+
+
+class Header(Message):
+    """A message that goes with raw bytes: they are the payload of the key, it is the attachment."""
 
 
 class Severity(StrEnum):
@@ -131,7 +136,7 @@ class Briefing(Message):
 # --- what sensors give ----------------------------------------------------------------------
 
 
-class Transmission(Message):
+class Transmission(Header):
     """``radio/<freq_khz>/tx``: attachment to one transmission as received, PCM 16 kHz mono.
 
     ``samples`` is 0 in a run without speech: the transmission took its time on the frequency,
@@ -229,7 +234,7 @@ class CameraInfo(Message):
     )
 
 
-class CameraFrame(Message):
+class CameraFrame(Header):
     """``camera/<camera>/frame``: attachment to one picture, 8-bit sRGB, row by row."""
 
     camera: str
@@ -416,7 +421,7 @@ class Advisory(Message):
     t_ready_ns: Nanoseconds = Field(description="the last input that it rests on had arrived")
 
 
-class AdvisoryAudio(Message):
+class AdvisoryAudio(Header):
     """``tts/<advisory id>``: attachment to an advisory as it is spoken, PCM 16 kHz mono.
 
     ``t_ns`` is the paper's t_tts: the voice begins to be heard.
@@ -701,13 +706,15 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
 """What a worker may publish, by the first part of the key. Truth and sensors are not its own."""
 
 
-HEADERS = (Transmission, AdvisoryAudio, CameraFrame)
-"""Messages that go with raw bytes: the bytes are the payload of the key, these the attachment."""
+def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str, Any]:
+    """Return all schemas in one JSON object, by key, as ``airhilt schema`` prints them.
 
-
-def json_schemas() -> dict[str, Any]:
-    """Return all schemas in one JSON object, by key, as ``airhilt schema`` prints them."""
+    Parameters
+    ----------
+    more
+        Messages of other packages, by key.
+    """
     return {
         key: {"title": model.__name__, **TypeAdapter(model).json_schema()}
-        for key, model in {**BUS_MESSAGES, **WORKER_MESSAGES}.items()
+        for key, model in {**BUS_MESSAGES, **WORKER_MESSAGES, **(more or {})}.items()
     }

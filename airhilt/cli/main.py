@@ -398,8 +398,9 @@ def schema(scenario: bool) -> None:
         document = Scenario.model_json_schema()
     else:
         from airhilt.messages import json_schemas
+        from airhilt.sensors.base import sensor_messages
 
-        document = json_schemas()
+        document = json_schemas(sensor_messages())
     click.echo(json.dumps(document, indent=2))
 
 

@@ -20,6 +20,7 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
+from airhilt.sensors.base import SensorType, load_sensor_types
 from airhilt.sensors.radio.backend import RadioBackend, TextRadio
 from airhilt.sensors.radio.backends import backend_of, models_of
 from airhilt.sensors.radio.script import planned_ends_ns
@@ -60,6 +61,7 @@ class Setup:
     site: ScenarioSite
     actors: dict[str, Actor]
     sound: RadioBackend
+    sensor_types: Sequence[SensorType]
     lines: Sequence[EffectiveLine]
     ends_ns: Mapping[str, int]
 
@@ -140,6 +142,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         site=site,
         actors=actors,
         sound=sound,
+        sensor_types=load_sensor_types(scenario),
         lines=lines,
         ends_ns=planned_ends_ns(lines, planned),
     )

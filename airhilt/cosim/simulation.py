@@ -27,7 +27,6 @@ from airhilt.cosim.setup import TICK_S, Setup, set_up
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
 from airhilt.messages import (
     ActorCommand,
-    AdsbReport,
     Advisory,
     Clock,
     ConflictPhase,
@@ -51,7 +50,7 @@ from airhilt.report.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
-from airhilt.sensors.adsb import AdsbSensor
+from airhilt.sensors.base import SensorContext, start_sensors
 from airhilt.sensors.radio.backend import FallbackRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
@@ -250,16 +249,19 @@ class Simulation:
         )
         self._router.listen(self._radio.take)
         self._router.listen(self._advised.take)
-        self._sensor = AdsbSensor(
-            self._director,
-            scenario,
-            site,
-            actors,
-            setup.latency,
-            options.seed,
-            state_at_ns=lambda: self._ticked_ns,
-            publish=self._publish_report,
-            done=self._latency_log.step,
+        self._sensors = start_sensors(
+            setup.sensor_types,
+            SensorContext(
+                director=self._director,
+                scenario=scenario,
+                site=site,
+                actors=actors,
+                latency=setup.latency,
+                seed=options.seed,
+                state_at_ns=lambda: self._ticked_ns,
+                publish=self._router.publish,
+                step_done=self._latency_log.step,
+            ),
         )
         self._vision = vision
         vision.mount(
@@ -313,7 +315,8 @@ class Simulation:
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
             stack.callback(self._vision.finish)
             self._radio.close()
-            for step in (*self._pool.unfinished(), *self._sensor.unfinished()):
+            sensed = (step for sensor in self._sensors for step in sensor.unfinished())
+            for step in (*self._pool.unfinished(), *sensed):
                 self._latency_log.step(step)
         summary = self._summary(cause, wall_s, cpu_s)
         self._folder.write_summary(summary)
@@ -505,9 +508,6 @@ class Simulation:
         """Return when the annotated pair was nearest up to now."""
         truth = None if self._pair is None else self._monitor.pairs.get(self._pair)
         return None if truth is None or truth.closest is None else truth.closest.t_ns
-
-    def _publish_report(self, report: AdsbReport) -> None:
-        self._router.publish(f"adsb/{report.icao24}", report)
 
     def _failed(self, happening: EffectiveLine) -> None:
         self._misled |= happening.misled

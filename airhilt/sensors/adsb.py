@@ -1,9 +1,15 @@
-"""ADS-B in a run: when transponders squitter, and when a report leaves the receiver."""
+"""ADS-B in a run: when transponders squitter, and when a report leaves the receiver.
+
+Every actor with a transponder squitters its position, its velocity and its identification, each at
+its own random intervals. The receivers of the scenario hear some of it; a report leaves one
+receiver latency after the squitter that
+completes it.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 
 from airhilt.geodesy.positions import RelativePosition
@@ -15,133 +21,112 @@ from airhilt.scenario.models import (
     VehicleSpec,
     WildlifeSpec,
 )
-from airhilt.sim import Director, LatencySpec, Priority, StepRecord
+from airhilt.sensors.base import SensorContext
+from airhilt.sim import Priority, StepRecord
 from airhilt.sim.streams import stream
-from airhilt.surveillance.adsb import (
+from airhilt.surveillance.receivers import Receiver, Reception
+from airhilt.surveillance.squitters import Squitter
+from airhilt.surveillance.transponders import (
     IDENTIFICATION_INTERVAL_S,
     POSITION_INTERVAL_S,
     STATIONARY_IDENTIFICATION_INTERVAL_S,
     STATIONARY_POSITION_INTERVAL_S,
     VELOCITY_INTERVAL_S,
-    Receiver,
-    Reception,
-    Squitter,
     SurfaceRate,
     Transponder,
 )
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, Mover, carried_on
+from airhilt.world.mover import Motion, carried_on
 from airhilt.world.site import FixedSite, ScenarioSite
 
 STAGE = "adsb"
+"""Name of the receivers in the latency log."""
 DECLARED_LATENCY = DeclaredLatency(median_s=0.05, sigma=0.3)
-"""Of a receiver from the end of a squitter to its report, where it is not measured."""
+"""Latency of a receiver from the end of a squitter to its report, where it is not measured."""
 LOOK_NS = SECOND_NS // 2
-"""How often a transponder that stands on the ground looks whether it has begun to move."""
+"""Period at which a transponder that stands on the ground checks for movement, in ns."""
+
+
+class AdsbType:
+    """The ADS-B receivers of a scenario; they are there if any actor has a transponder."""
+
+    name = "adsb"
+    messages = {"adsb/{icao24}": AdsbReport}  # noqa: RUF012
+
+    def create(self, context: SensorContext) -> AdsbSensor | None:
+        """Return the sensor of a run; None if no actor has a transponder."""
+        sensor = AdsbSensor(context)
+        return sensor if sensor.is_needed else None
+
+
+SENSOR = AdsbType()
 
 
 class AdsbSensor:
-    """Schedules the squitters of all that are equipped and gives out what is received.
+    """Schedules the squitters of all transponders, and publishes what the receivers report.
 
     Parameters
     ----------
-    publish
-        Called with each report when it leaves the receiver.
-    done
-        Called with the latency record of each report.
+    context
+        What the run gives.
     """
 
-    def __init__(
-        self,
-        director: Director,
-        scenario: Scenario,
-        site: ScenarioSite,
-        actors: Mapping[str, Actor],
-        latency: LatencySpec,
-        seed: int,
-        state_at_ns: Callable[[], int],
-        publish: Callable[[AdsbReport], None],
-        done: Callable[[StepRecord], None],
-    ) -> None:
-        self._director = director
-        self._state_at_ns = state_at_ns
-        self._publish = publish
-        self._done = done
-        self._latency = latency.source(
-            STAGE, seed, DECLARED_LATENCY.median_s, DECLARED_LATENCY.sigma
+    def __init__(self, context: SensorContext) -> None:
+        scenario = context.scenario
+        self._director = context.director
+        self._state_at_ns = context.state_at_ns
+        self._publish = context.publish
+        self._done = context.step_done
+        self._latency = context.latency.source(
+            STAGE, context.seed, DECLARED_LATENCY.median_s, DECLARED_LATENCY.sigma
         )
         self._seq = 0
         self._in_flight: dict[int, StepRecord] = {}
         self._reception = Reception(
-            [_receiver(declared, site) for declared in _declared(scenario)],
+            [_receiver(declared, context.site) for declared in _declared(scenario)],
             scenario.adsb.loss_probability,
             [(seconds_to_ns(a), seconds_to_ns(b)) for a, b in scenario.adsb.outages_s],
         )
-        for actor in actors.values():
-            spec = actor.spec
-            if not isinstance(spec, WildlifeSpec) and spec.transponder.equipped:
-                self._equip(actor, spec, seed)
+        self._sources = [
+            _Source(actor, spec, context.seed)
+            for actor in context.actors.values()
+            if not isinstance(spec := actor.spec, WildlifeSpec) and spec.transponder.equipped
+        ]
 
-    def _equip(self, actor: Actor, spec: AircraftSpec | VehicleSpec, seed: int) -> None:
-        transponder = Transponder(
-            spec.icao24,
-            spec.callsign,
-            spec.transponder.nacp,
-            spec.transponder.nacv,
-            stream(seed, f"adsb/{spec.icao24}"),
-            actor.emitter_category,
-        )
-        body, rate, uniform = actor.body, SurfaceRate(), transponder.generator.uniform
-        position_due_ns = 0
+    @property
+    def is_needed(self) -> bool:
+        """Whether any actor has a transponder."""
+        return bool(self._sources)
 
-        def is_stationary(state: Motion) -> bool:
-            return body.on_ground and rate.is_stationary(state, self._director.now_ns)
+    def start(self) -> None:
+        """Schedule the first squitters of all transponders."""
+        for source in self._sources:
+            for squitter, (within_s, _) in (
+                (source.position, POSITION_INTERVAL_S),
+                (source.velocity, VELOCITY_INTERVAL_S),
+                (source.identification, IDENTIFICATION_INTERVAL_S),
+            ):
+                self._repeat(source, squitter, source.first_ns(within_s))
 
-        def position(state: Motion) -> int:
-            """Squitter if it is time to; who begins to move is not silent for seconds."""
-            nonlocal position_due_ns
-            now_ns, stationary = self._director.now_ns, is_stationary(state)
-            if now_ns >= position_due_ns or not stationary:
-                make = transponder.surface_position if body.on_ground else transponder.position
-                self._receive(transponder, make(state, now_ns), state)
-                interval_s = STATIONARY_POSITION_INTERVAL_S if stationary else POSITION_INTERVAL_S
-                position_due_ns = now_ns + seconds_to_ns(uniform(*interval_s))
-            return (
-                min(position_due_ns - now_ns, LOOK_NS) if stationary else position_due_ns - now_ns
-            )
+    def unfinished(self) -> list[StepRecord]:
+        """Return the latency records of reports that are still in a receiver."""
+        return [replace(step, outputs=0, finished=False) for step in self._in_flight.values()]
 
-        def velocity(state: Motion) -> int:
-            if not body.on_ground:
-                self._receive(transponder, transponder.velocity(state), state)
-            return seconds_to_ns(uniform(*VELOCITY_INTERVAL_S))
+    def _repeat(self, source: _Source, squitter: _Squitterer, first_ns: int) -> None:
+        """Call ``squitter`` at a time, then each time after the wait it returns, until the end."""
+        body = source.actor.body
 
-        def identification(state: Motion) -> int:
-            self._receive(transponder, transponder.identification(), state)
-            return seconds_to_ns(
-                uniform(
-                    *STATIONARY_IDENTIFICATION_INTERVAL_S
-                    if is_stationary(state)
-                    else IDENTIFICATION_INTERVAL_S
-                )
-            )
-
-        for squitter, (first_s, _) in (
-            (position, POSITION_INTERVAL_S),
-            (velocity, VELOCITY_INTERVAL_S),
-            (identification, IDENTIFICATION_INTERVAL_S),
-        ):
-            self._repeat(body, squitter, seconds_to_ns(uniform(0.0, first_s)))
-
-    def _repeat(self, body: Mover, squitter: Callable[[Motion], int], first_ns: int) -> None:
-        """Call ``squitter``, which says after how many nanoseconds again, until the body ends."""
+        def send(message: Squitter, state: Motion) -> None:
+            self._receive(source.transponder, message, state)
 
         def call() -> None:
             if body.ended is not None:
                 return
             now_ns = self._director.now_ns
             state = carried_on(body.state, (now_ns - self._state_at_ns()) / SECOND_NS)
-            self._director.at(now_ns + squitter(state), call, Priority.SENSOR)
+            wait_ns = squitter(state, now_ns, send)
+            self._director.at(now_ns + wait_ns, call, Priority.SENSOR)
 
         self._director.at(first_ns, call, Priority.SENSOR)
 
@@ -161,13 +146,70 @@ class AdsbSensor:
         def leave() -> None:
             self._done(step)
             del self._in_flight[step.seq]
-            self._publish(decoded.report(out_ns))
+            self._publish(f"adsb/{sender.icao24}", decoded.report(out_ns))
 
         self._director.at(out_ns, leave, Priority.RESULT)
 
-    def unfinished(self) -> list[StepRecord]:
-        """Return the reports that are still in a receiver."""
-        return [replace(step, outputs=0, finished=False) for step in self._in_flight.values()]
+
+_Send = Callable[[Squitter, Motion], None]
+"""Sends a squitter; the loss on the way is drawn from the transponder's own generator."""
+_Squitterer = Callable[[Motion, int, _Send], int]
+"""Sends a squitter for a state at a time (ns), and returns the wait until the next one (ns)."""
+
+
+class _Source:
+    """An actor with its transponder: sends squitters and draws the intervals between them."""
+
+    def __init__(self, actor: Actor, spec: AircraftSpec | VehicleSpec, seed: int) -> None:
+        self.actor = actor
+        self.transponder = Transponder(
+            spec.icao24,
+            spec.callsign,
+            spec.transponder.nacp,
+            spec.transponder.nacv,
+            stream(seed, f"adsb/{spec.icao24}"),
+            actor.emitter_category,
+        )
+        self._rate = SurfaceRate()
+        self._position_due_ns = 0
+
+    def position(self, state: Motion, now_ns: int, send: _Send) -> int:
+        """Send the position if it is due, or if the actor has begun to move."""
+        stationary = self._is_stationary(state, now_ns)
+        if now_ns >= self._position_due_ns or not stationary:
+            on_ground, transponder = self.actor.body.on_ground, self.transponder
+            encode = transponder.surface_position if on_ground else transponder.position
+            send(encode(state, now_ns), state)
+            self._position_due_ns = now_ns + self._draw_ns(
+                STATIONARY_POSITION_INTERVAL_S if stationary else POSITION_INTERVAL_S
+            )
+        wait_ns = self._position_due_ns - now_ns
+        return min(wait_ns, LOOK_NS) if stationary else wait_ns
+
+    def velocity(self, state: Motion, now_ns: int, send: _Send) -> int:  # noqa: ARG002
+        """Send the velocity in the air; the surface position brings its own."""
+        if not self.actor.body.on_ground:
+            send(self.transponder.velocity(state), state)
+        return self._draw_ns(VELOCITY_INTERVAL_S)
+
+    def identification(self, state: Motion, now_ns: int, send: _Send) -> int:
+        """Send callsign and emitter category."""
+        send(self.transponder.identification(), state)
+        return self._draw_ns(
+            STATIONARY_IDENTIFICATION_INTERVAL_S
+            if self._is_stationary(state, now_ns)
+            else IDENTIFICATION_INTERVAL_S
+        )
+
+    def first_ns(self, within_s: float) -> int:
+        """Return the time of the first squitter, drawn from the start of the run."""
+        return self._draw_ns((0.0, within_s))
+
+    def _is_stationary(self, state: Motion, now_ns: int) -> bool:
+        return self.actor.body.on_ground and self._rate.is_stationary(state, now_ns)
+
+    def _draw_ns(self, interval_s: tuple[float, float]) -> int:
+        return seconds_to_ns(self.transponder.generator.uniform(*interval_s))
 
 
 def _declared(scenario: Scenario) -> tuple[AdsbReceiver, ...]:

@@ -1,21 +1,32 @@
-"""What a sensor of a run is: the protocol, and what a run gives to each.
+"""What a sensor is, what a run gives to each, and how a run starts all of them.
 
-A sensor turns the true world into what can be perceived of it, and publishes that.
-a module in `airhilt.sensors.members`, or an entry point of the group ``airhilt.sensors``, whose
-``SENSOR`` makes it for a run, or says that the run has no use for it.
+A sensor measures the true world and publishes what can be perceived of it. One file is one type of
+sensor: a module of this package, or an object in another package that an entry point of the group
+``airhilt.sensors`` names, such as ``lidar = "my_package.lidar:SENSOR"``. The name of a type is the
+first chunk of the keys that its sensors publish on: ``adsb`` publishes on ``adsb/<icao24>``.
+
+`SensorType` is what to write; a run calls `load_sensor_types` and `start_sensors`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, runtime_checkable
 
-from airhilt.messages import Message
+from airhilt.errors import ScenarioError, SensorError
+from airhilt.library import nearest
+from airhilt.messages import WORKER_OUTPUTS, Message
+from airhilt.plugins import Family
 from airhilt.scenario.models import Scenario
 from airhilt.sim import Director, LatencySpec, StepRecord
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
+
+RESERVED = frozenset(
+    {"truth", "status", "clock", "briefing", "command", "worker", "radio", "camera"}
+) | frozenset(WORKER_OUTPUTS)
+"""First chunks of keys that belong to the run and to workers; no sensor type has such a name."""
 
 
 class Publish(Protocol):
@@ -30,12 +41,26 @@ class SensorContext:
 
     Attributes
     ----------
+    director
+        Schedules the measurements, at ``Priority.SENSOR``.
     scenario
-        With its perturbations drawn.
+        The scenario after its perturbations were drawn and the run's options were applied.
+    site
+        The place of the scenario: its centre, its ground and its airport.
+    actors
+        Everything that can be sensed, by callsign.
+    latency
+        Source of the latencies of the run.
+    seed
+        The run's seed; draw from ``sim.streams.stream(seed, "<name of the sensor>/<target>")``.
     state_at_ns
-        Returns the time of the actors' states: that of the last physics tick.
+        Returns the time of the actors' states, which is that of the last physics tick.
+    publish
+        Publishes a message on a key below the sensor type's name, now.
     step_done
-        Called with the latency record of each finished measurement.
+        Called with the latency record of each finished measurement, for sensors that have any.
+    settings
+        Settings of this sensor type in the scenario's ``sensors``; None if it has none there.
     """
 
     director: Director
@@ -47,6 +72,7 @@ class SensorContext:
     state_at_ns: Callable[[], int]
     publish: Publish
     step_done: Callable[[StepRecord], None]
+    settings: Mapping[str, Any] | None = None
 
 
 class Sensor(Protocol):
@@ -56,4 +82,110 @@ class Sensor(Protocol):
         """Schedule the first measurements; the run begins."""
 
     def unfinished(self) -> Sequence[StepRecord]:
-        """Return the measurements that were begun and are not published yet; the run ends."""
+        """Return latency records of measurements that are not published when the run ends."""
+
+
+@runtime_checkable
+class SensorType(Protocol):
+    """One type of sensor: the ``SENSOR`` of a module."""
+
+    @property
+    def name(self) -> str:
+        """First chunk of the keys that its sensors publish on; also the name of its module."""
+
+    @property
+    def messages(self) -> Mapping[str, type[Message]]:
+        """Message of each key that its sensors publish on, such as ``adsb/{icao24}``."""
+
+    def create(self, context: SensorContext) -> Sensor | None:
+        """Return the sensor for a run; None if there is nothing for it to do.
+
+        Raises
+        ------
+        AirhiltError
+            The scenario asks for a sensor that cannot exist.
+        """
+
+
+FAMILY = Family(
+    "sensor",
+    "airhilt.sensors",
+    "airhilt.sensors",
+    "SENSOR",
+    SensorType,
+    SensorError,
+    frozenset({"base", "cameras", "radio"}),
+)
+
+
+def sensor_messages() -> dict[str, type[Message]]:
+    """Return the message of each key that installed sensors publish on, those of AIRHILT included.
+
+    Raises
+    ------
+    SensorError
+        A sensor type cannot be loaded, or claims a key that is not below its name.
+    """
+    return {key: model for name in FAMILY.names() for key, model in _load(name).messages.items()}
+
+
+def load_sensor_types(scenario: Scenario) -> list[SensorType]:
+    """Return all installed sensor types in the order of their names.
+
+    Raises
+    ------
+    SensorError
+        A sensor type cannot be loaded, or its name or its keys belong to something else.
+    ScenarioError
+        The scenario has settings for a sensor that is not installed.
+    """
+    names = FAMILY.names()
+    for name in scenario.sensors:
+        if name not in names:
+            raise ScenarioError(f"sensors: no sensor named {name!r}{nearest(name, names)}")
+    return [_load(name) for name in names]
+
+
+def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[Sensor]:
+    """Start a sensor of each type that has something to do in a run.
+
+    Raises
+    ------
+    AirhiltError
+        The scenario asks for a sensor that cannot exist.
+    """
+    sensors = []
+    for sensor_type in types:
+        name = sensor_type.name
+        sensor = sensor_type.create(
+            replace(
+                context,
+                publish=_publish_below(name, context.publish),
+                settings=context.scenario.sensors.get(name),
+            )
+        )
+        if sensor is not None:
+            sensor.start()
+            sensors.append(sensor)
+    return sensors
+
+
+def _load(name: str) -> SensorType:
+    sensor_type: SensorType = FAMILY.load(name)
+    if name in RESERVED:
+        raise SensorError(f"a sensor is named {name!r}, and those keys are not a sensor's")
+    for key in sensor_type.messages:
+        if not key.startswith(f"{name}/"):
+            raise SensorError(f"sensor {name!r} declares the key {key!r}; expected {name}/...")
+    return sensor_type
+
+
+def _publish_below(name: str, publish: Publish) -> Publish:
+    """Return a function that publishes on keys below a name only."""
+
+    def publish_below(key: str, message: Message, *, raw: bytes | None = None) -> None:
+        if not key.startswith(f"{name}/"):
+            raise SensorError(f"sensor {name!r} published on {key!r}; expected {name}/...")
+        publish(key, message, raw=raw)
+
+    return publish_below

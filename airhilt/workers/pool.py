@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -12,17 +13,20 @@ from pydantic import ValidationError
 
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
-    HEADERS,
     WORKER_OUTPUTS,
     Advisory,
     AdvisoryAudio,
     Detections,
+    Header,
     Message,
     Transcript,
     WorkerDescription,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
 from airhilt.voices.engine import SAMPLE_RATE_HZ
+
+NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+"""First chunk of a key that stands for itself only; a wildcard there would take in truth."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,7 @@ class WorkerPool:
             policies: dict[str, Policy] = {}
             for wanted in description.inputs:
                 first = wanted.key.split("/")[0]
-                if first == "truth" or not first.isalpha():
+                if first == "truth" or not NAMED.fullmatch(first):
                     raise WorkerError(
                         f"worker {description.name!r} asks for {wanted.key!r}; truth never "
                         "reaches a worker, so the first part of a key must be named: adsb/*"
@@ -114,7 +118,7 @@ class WorkerPool:
                 for server, policies in self._inputs
                 if (policy := policy_of(key, policies)) is not None
             ]
-        is_header = routes and isinstance(message, HEADERS)
+        is_header = routes and isinstance(message, Header)
         attachment = message.model_dump(mode="json") if is_header else None
         for server, policy in routes:
             server.offer(Input(key, message.t_ns, data, attachment), policy)
@@ -137,7 +141,7 @@ class WorkerPool:
             worker, output.key, output.payload, self._director.now_ns, output.attachment
         )
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
-        raw = output.payload if isinstance(message, HEADERS) else None
+        raw = output.payload if isinstance(message, Header) else None
         self._publish(output.key, stamped, worker, raw)
 
 
@@ -171,7 +175,7 @@ def parse_output(
         )
     message: Message
     try:
-        if model in HEADERS:
+        if issubclass(model, Header):
             message = model.model_validate(attachment)
         else:
             message = model.model_validate_json(payload)

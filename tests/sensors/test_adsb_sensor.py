@@ -9,6 +9,7 @@ import pytest
 from airhilt import load
 from airhilt.scenario.models import AircraftSpec, Scenario
 from airhilt.sensors.adsb import AdsbSensor
+from airhilt.sensors.base import SensorContext
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.units import DEGREE, SECOND_NS
 from airhilt.world.flight import AircraftState
@@ -42,6 +43,21 @@ class Acting:
     emitter_category: str = "A3"
 
 
+def context(scenario, director, actors, reports, steps, latency="fixed:0.05", seed=1):
+    """Return what a run would give to the sensor."""
+    return SensorContext(
+        director=director,
+        scenario=scenario,
+        site=ScenarioSite.of(scenario),
+        actors=actors,
+        latency=parse_latency(latency),
+        seed=seed,
+        state_at_ns=lambda: director.now_ns,
+        publish=lambda key, report, raw=None: reports.append(report),
+        step_done=steps.append,
+    )
+
+
 class Run:
     def __init__(self, seconds=120.0, latency="fixed:0.05", seed=1, equipped=True, **adsb):
         document = load("s02a_headon").model_dump()
@@ -54,11 +70,9 @@ class Run:
         actors = {actor.callsign: Acting(actor) for actor in scenario.actors}
         self.aircraft = {callsign: acting.body for callsign, acting in actors.items()}
         self.sensor = AdsbSensor(
-            self.director, scenario, ScenarioSite.of(scenario), actors, parse_latency(latency),
-            seed,
-            state_at_ns=lambda: self.director.now_ns,
-            publish=self.reports.append, done=self.steps.append,
-        )  # fmt: skip
+            context(scenario, self.director, actors, self.reports, self.steps, latency, seed)
+        )
+        self.sensor.start()
         self.end_ns = round(seconds * SECOND_NS)
         self.director.at(self.end_ns, self.director.stop, Priority.OBSERVE)
 
@@ -136,10 +150,7 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter():
         part = replace_actors(document, keep)
         director, reports = Director(Virtual()), []
         actors = {actor.callsign: Acting(actor) for actor in part.actors}
-        AdsbSensor(
-            director, part, ScenarioSite.of(part), actors, parse_latency("fixed:0.05"), 1,
-            lambda d=director: d.now_ns, reports.append, lambda _: None,
-        )  # fmt: skip
+        AdsbSensor(context(part, director, actors, reports, [])).start()
         director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)
         director.run()
         seen.append([r for r in reports if r.icao24 == part.actors[0].icao24])

@@ -21,7 +21,8 @@ from airhilt.messages import (
     VisibleClass,
 )
 from airhilt.sim import Input
-from airhilt.surveillance.adsb import Receiver, Transponder
+from airhilt.surveillance.receivers import Receiver
+from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
 from airhilt.world.site import FixedSite
 from projected import Body, Camera

@@ -14,7 +14,8 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, VisibleClass
 from airhilt.sim import Input
-from airhilt.surveillance.adsb import Receiver, Transponder
+from airhilt.surveillance.receivers import Receiver
+from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
 from projected import Body, Camera, Place

@@ -9,16 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import relative
-from airhilt.surveillance.adsb import (
-    NACP_95_PERCENT_M,
-    STATIONARY_AFTER_NS,
-    Receiver,
-    Reception,
-    SurfaceRate,
-    Transponder,
-    movement_kt,
-    quantise,
-)
+from airhilt.surveillance.receivers import Receiver, Reception
+from airhilt.surveillance.squitters import NACP_95_PERCENT_M, movement_kt, quantise
+from airhilt.surveillance.transponders import STATIONARY_AFTER_NS, SurfaceRate, Transponder
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
 

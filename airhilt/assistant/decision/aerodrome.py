@@ -12,7 +12,7 @@ from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, offset_m
 from airhilt.messages import AirportBriefing, GeodeticPoint, RunwayBriefing
-from airhilt.surveillance.adsb import NACP_95_PERCENT_M
+from airhilt.surveillance.squitters import NACP_95_PERCENT_M
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 if TYPE_CHECKING:

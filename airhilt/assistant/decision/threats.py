@@ -30,7 +30,7 @@ from airhilt.assistant.decision.occupancy import SeenAloft
 from airhilt.assistant.decision.situation import Obstacle, SeenObstacle, Situation
 from airhilt.messages import Severity
 from airhilt.phraseology import Action
-from airhilt.surveillance.adsb import NACP_95_PERCENT_M
+from airhilt.surveillance.squitters import NACP_95_PERCENT_M
 from airhilt.units import SECOND_NS
 
 PAPER_TIME_TO_GO_S = 8.0

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, Eye, Ray
 from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import AdsbReport, Box, CameraView, EmitterCategory
-from airhilt.surveillance.adsb import NACP_95_PERCENT_M
+from airhilt.surveillance.squitters import NACP_95_PERCENT_M
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 STALE_NS = 15 * SECOND_NS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, JsonValue
 
 from airhilt.scenario.models.actors import ActorSpec
 from airhilt.scenario.models.adsb import Adsb
@@ -38,6 +38,9 @@ class Scenario(Model):
     radio: Radio = Radio()
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
+    sensors: dict[Identifier, dict[str, JsonValue]] = Field(
+        default={}, description="settings of sensors from other packages, by the sensor's name"
+    )
     weather: Weather = Weather()
     daylight: Daylight = Daylight()
     separation: Separation = Separation()

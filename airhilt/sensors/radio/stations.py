@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from airhilt.geodesy.relative_motion import Kinematics, relative
 from airhilt.scenario.models import RadioLine
-from airhilt.surveillance.adsb import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
+from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import FixedSite, ScenarioSite

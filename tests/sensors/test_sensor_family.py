@@ -1,0 +1,165 @@
+"""Sensors are found by their name: files of the package, and entry points of other packages."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import run
+from airhilt.errors import ScenarioError, SensorError
+from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
+from airhilt.options import Options, Recorded
+from airhilt.record import read_log
+from airhilt.scenario import Scenario
+from airhilt.sensors.base import FAMILY, RESERVED, sensor_messages
+from airhilt.sim.worker import Input
+from airhilt.workers import LocalWorker, Step
+from airhilt.workers.pool import Participant
+from airhilt.world.loading import load_text
+from paths import ROOT
+
+GUIDE = (ROOT / "docs" / "sensors.md").read_text()
+
+
+def block(language: str) -> str:
+    found = re.search(rf"```{language}\n(.*?)```", GUIDE, flags=re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
+@pytest.fixture
+def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The sensor that the guide shows, in a package that is installed beside AIRHILT."""
+    package = tmp_path / "my_package"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "loop.py").write_text(block("python"))
+    metadata = tmp_path / "my_package-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: my-package\nVersion: 1.0\n")
+    _, line = block("toml").splitlines()
+    (metadata / "entry_points.txt").write_text(f"[airhilt.sensors]\n{line.replace(chr(34), '')}\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    yield package
+    for name in [name for name in sys.modules if name.split(".")[0] == "my_package"]:
+        del sys.modules[name]
+
+
+@pytest.fixture
+def scenario(encounter: Scenario) -> Scenario:
+    """Five seconds of the encounter, and a loop in the pavement."""
+    document = encounter.model_dump(mode="json") | {"duration_s": 5.0}
+    document["sensors"] = json.loads(block("json"))
+    return load_text(json.dumps(document), "encounter")
+
+
+class Subscriber:
+    """A worker that keeps what it gets on ``loop/*``."""
+
+    description = WorkerDescription(
+        name="subscriber", modality="decision", inputs=(InputSpec(key="loop/*"),)
+    )
+
+    def __init__(self) -> None:
+        self.inputs: list[Input] = []
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        self.inputs += inputs
+        return Step()
+
+
+def go(
+    scenario: Scenario, folder: Path, worker: Subscriber | None = None, **options: object
+) -> list[tuple[str, dict[str, object]]]:
+    """Run, and return the messages on ``loop/...``."""
+    workers = (
+        () if worker is None else (Participant(worker.description, LocalWorker(worker), False),)
+    )
+    run(
+        scenario,
+        Options(out=folder, latency="fixed", cameras=False, speech=False, **options),  # type: ignore[arg-type]
+        recorded=Recorded(workers=workers),
+    )
+    log = read_log(folder / "log.mcap")
+    return [(m.key, json.loads(m.data)) for m in log if m.key.startswith("loop/")]
+
+
+def test_a_sensor_of_another_package_is_logged_with_its_schema(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    measured = go(scenario, tmp_path / "run")
+    assert len(measured) == 6
+    assert all(key == "loop/1" and not state["occupied"] for key, state in measured)
+    with (tmp_path / "run" / "log.mcap").open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    schema_id = next(c.schema_id for c in summary.channels.values() if c.topic == "loop/1")
+    assert summary.schemas[schema_id].name == "airhilt.LoopState"
+    assert "occupied" in json.loads(summary.schemas[schema_id].data)["properties"]
+
+
+def test_it_reaches_a_worker_that_asks_for_its_key(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    worker = Subscriber()
+    go(scenario, tmp_path / "run", worker)
+    assert [item.key for item in worker.inputs] == ["loop/1"] * len(worker.inputs)
+    assert len(worker.inputs) >= 5
+
+
+def test_it_comes_again_in_a_replay(installed: Path, scenario: Scenario, tmp_path: Path) -> None:
+    assert go(scenario, tmp_path / "run")
+    assert replay(tmp_path / "run").identical
+
+
+def test_it_rests_where_the_scenario_does_not_ask_for_it(
+    installed: Path, encounter: Scenario, tmp_path: Path
+) -> None:
+    short = encounter.model_copy(update={"duration_s": 2.0})
+    assert go(short, tmp_path / "run") == []
+
+
+def test_its_messages_are_among_the_schemas(installed: Path) -> None:
+    assert sensor_messages()["loop/{name}"].__name__ == "LoopState"
+
+
+def test_settings_for_a_sensor_that_is_not_installed_are_refused(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    asking = encounter.model_copy(update={"sensors": {"adbs": {}}})
+    with pytest.raises(ScenarioError, match="no sensor named 'adbs'; did you mean 'adsb'"):
+        go(asking, tmp_path / "run")
+
+
+def test_a_sensor_publishes_on_no_key_but_its_own(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    source = installed / "loop.py"
+    source.write_text(source.read_text().replace('publish("loop/1"', 'publish("truth/1"'))
+    with pytest.raises(SensorError, match="'loop' published on 'truth/1'"):
+        go(scenario, tmp_path / "run")
+
+
+def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    (installed / "loop.py").write_text("import no_such_module\n")
+    with pytest.raises(SensorError, match=r"my_package\.loop:SENSOR: ModuleNotFoundError"):
+        go(scenario, tmp_path / "run")
+
+
+def test_the_sensors_of_airhilt_declare_what_is_on_the_bus() -> None:
+    own = sensor_messages()
+    assert {key: BUS_MESSAGES[key] for key in own} == own
+
+
+def test_every_first_chunk_belongs_to_a_sensor_or_is_reserved() -> None:
+    chunks = {key.split("/")[0] for key in BUS_MESSAGES} | set(WORKER_OUTPUTS) | {"worker"}
+    assert chunks == RESERVED | set(FAMILY.names())
