@@ -38,10 +38,10 @@ from airhilt.record import Logged, RunFolder, RunInfo, read_log
 from airhilt.report.camera_section import CameraSection
 from airhilt.report.sounds import Sounds
 from airhilt.report.timelines import Approach, Interval, Intervals, PhaseLane, RunwayLane
+from airhilt.shapes.sizes import Size
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.voices.engine import SAMPLE_RATE_HZ
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.mover import Size
 from airhilt.world.surface.kinds import load_kind
 
 if TYPE_CHECKING:

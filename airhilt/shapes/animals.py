@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from airhilt.shapes.mesh import Colour, Floats, Mesh, ellipsoid, join, loft, srgb, tube
+from airhilt.shapes.sizes import Size
 from airhilt.sim.streams import stream
-from airhilt.world.mover import Size
 
 FAWN = srgb(150, 102, 62)
 CREAM = srgb(226, 208, 180)

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from airhilt.shapes.aircraft import GLASS, GREY, TYRE, WHITE, aircraft_meshes
-from airhilt.shapes.mesh import Colour, Mesh, box, join, srgb, tube, wheel
-from airhilt.world.flight.aircraft_type import load_aircraft_type
-from airhilt.world.mover import Size
-
-YELLOW = srgb(246, 200, 30)
-RED = srgb(196, 26, 30)
-LIME = srgb(190, 214, 40)
-ORANGE = srgb(240, 120, 20)
-AMBER = srgb(255, 170, 30)
-BLACK = srgb(24, 24, 26)
+from airhilt.shapes.aircraft import aircraft_meshes
+from airhilt.shapes.aircraft.spec import AircraftShape
+from airhilt.shapes.colours import (
+    AMBER,
+    BLACK,
+    GLASS,
+    GREY,
+    LIME,
+    ORANGE,
+    RED,
+    TYRE,
+    WHITE,
+    YELLOW,
+)
+from airhilt.shapes.mesh import Colour, Mesh, box, join, tube, wheel
+from airhilt.shapes.sizes import Size
 
 
 def follow_me(size: Size) -> Mesh:
@@ -81,14 +86,13 @@ def snow_plough(size: Size) -> Mesh:
     ])  # fmt: skip
 
 
-def tug_with_aircraft(size: Size) -> Mesh:
-    """Return a tug, its towbar and a 737 behind it."""
-    length = size.length_m
-    kind = load_aircraft_type("737")
-    towed = aircraft_meshes(kind)["gear"]
-    stretch = size.span_m / kind.dimensions.span_m
-    towed = towed.moved(up_m=kind.dimensions.wheel_height_offset_m).stretched(stretch, stretch, 1.0)
-    aft = -length / 2.0 + kind.dimensions.length_m * stretch / 2.0
+def tug_with_aircraft(size: Size, aircraft: AircraftShape) -> Mesh:
+    """Return a tug, its towbar and an aircraft behind it, which is as wide as the whole."""
+    length, own = size.length_m, aircraft.dimensions
+    towed = aircraft_meshes(aircraft)["gear"]
+    stretch = size.span_m / own.span_m
+    towed = towed.moved(up_m=own.wheel_height_offset_m).stretched(stretch, stretch, 1.0)
+    aft = -length / 2.0 + own.length_m * stretch / 2.0
     nose = length / 2.0
     return join([
         towed.moved(ahead_m=aft),
@@ -99,8 +103,8 @@ def tug_with_aircraft(size: Size) -> Mesh:
     ])  # fmt: skip
 
 
-def block(size: Size, colour: Colour = WHITE) -> Mesh:
-    """Return a van of some size, for kinds of vehicles that have no shape of their own."""
+def van(size: Size, colour: Colour = WHITE) -> Mesh:
+    """Return a van of some size, for kinds of vehicles that have no mesh of their own."""
     width, length, height = size.span_m, size.length_m, size.height_m
     return join([
         box(colour, width, length, 0.8 * height, 0.94).moved(up_m=0.2 * height),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
 from airhilt.geodesy.wgs84 import Place, displaced
+from airhilt.shapes.sizes import Size
 
 
 class SurfaceState(NamedTuple):
@@ -45,28 +45,6 @@ class SurfaceState(NamedTuple):
     def vertical_rate_m_s(self) -> float:
         """Rate of climb, negative in a descent."""
         return -self.velocity_down_m_s
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Dimensions:
-    """The box around something, lined up with its heading.
-
-    Raises
-    ------
-    ValueError
-        A value is not a finite number above 0.
-    """
-
-    length_m: float
-    span_m: float
-    """Width."""
-    height_m: float
-
-    def __post_init__(self) -> None:
-        for name in ("length_m", "span_m", "height_m"):
-            value = getattr(self, name)
-            if not 0.0 < value < math.inf:
-                raise ValueError(f"{name} is {value}; expected a finite number above 0")
 
 
 class Motion(Protocol):
@@ -115,17 +93,6 @@ def carried_on(state: M, elapsed_s: float) -> M:
         altitude_m=state.altitude_m - state.velocity_down_m_s * elapsed_s,
     )
     return moved
-
-
-class Size(Protocol):
-    """What `Dimensions` and those of an aircraft type both tell."""
-
-    @property
-    def length_m(self) -> float: ...  # noqa: D102
-    @property
-    def span_m(self) -> float: ...  # noqa: D102
-    @property
-    def height_m(self) -> float: ...  # noqa: D102
 
 
 class Mover(Protocol):

@@ -28,7 +28,7 @@ from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 from airhilt.world.loading import load
-from airhilt.world.truth.outlines import Gap
+from airhilt.world.truth.gaps import Gap
 from airhilt.world.truth.runways import Incursion
 from straight import Straight, Watch
 

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from airhilt.geodesy.relative_motion import Minima
+from airhilt.shapes.sizes import Dimensions
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import AircraftState, AircraftType, load_aircraft_type
-from airhilt.world.mover import Dimensions, carried_on
+from airhilt.world.mover import carried_on
 from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import ConflictMonitor
 

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from airhilt.geodesy.wgs84 import Place
+from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
 from airhilt.world.flight import standard_atmosphere
-from airhilt.world.flight.aircraft_type import AircraftType, Dimensions
+from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe, heading_to_track
 from airhilt.world.flight.autopilot import Autopilot
 from airhilt.world.flight.ground import GroundLaw
@@ -155,7 +156,7 @@ class Aircraft:
         return self._airframe.main_wheel_height_m(self.state)
 
     @property
-    def dimensions(self) -> Dimensions:
+    def dimensions(self) -> AircraftDimensions:
         """Its size."""
         return self.kind.dimensions
 

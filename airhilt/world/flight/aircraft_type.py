@@ -9,20 +9,11 @@ from pydantic import Field
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.shapes.aircraft.spec import AircraftCategory, AircraftDimensions, AircraftMesh
 
 
 class _Section(pydantic.BaseModel):
     model_config = pydantic.ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-class Dimensions(_Section):
-    """Size of the real aircraft, and where the JSBSim model's wheels are."""
-
-    length_m: float = Field(gt=0)
-    span_m: float = Field(gt=0)
-    height_m: float = Field(gt=0)
-    wheel_height_offset_m: float = Field(ge=0)
-    """Of JSBSim's reference point above the ground when the model stands on its wheels."""
 
 
 class Speeds(_Section):
@@ -178,21 +169,6 @@ class Takeoff(_Section):
     """Of a rejected takeoff."""
 
 
-class Mesh(_Section):
-    """Free shape parameters for a lofted model; what is not here follows from `Dimensions`."""
-
-    fuselage_diameter_m: float = Field(gt=0)
-    wing_sweep_deg: float
-    """Of the quarter-chord line."""
-    wing_root_chord_m: float = Field(gt=0)
-    wing_tip_chord_m: float = Field(gt=0)
-    wing_position: Literal["low", "high"]
-    tail_span_m: float = Field(gt=0)
-    fin_height_m: float = Field(gt=0)
-    engines_m: tuple[tuple[float, float, float], ...]
-    """Front of each engine: aft of the nose, right of the centre line, above the fuselage axis."""
-
-
 class AircraftType(_Section):
     """One ``aircraft/*.json``."""
 
@@ -202,8 +178,8 @@ class AircraftType(_Section):
     icao_designator: str = Field(pattern=r"^[A-Z][A-Z0-9]{1,3}$")
     """ICAO Doc 8643."""
     description: str
-    category: Literal["jet", "heavy_jet", "piston_single", "piston_twin"]
-    dimensions: Dimensions
+    category: AircraftCategory
+    dimensions: AircraftDimensions
     speeds: Speeds
     start: Literal["trim", "settle"]
     """How the model finds its equilibrium: JSBSim's trim, or flying until it is steady."""
@@ -211,7 +187,7 @@ class AircraftType(_Section):
     ground: Ground
     takeoff: Takeoff
     landing: Landing
-    mesh: Mesh
+    mesh: AircraftMesh
 
 
 def load_aircraft_type(name: str) -> AircraftType:

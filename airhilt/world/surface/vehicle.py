@@ -10,7 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, PositiveFloat
 
 from airhilt.geodesy.plane import Plane
 from airhilt.geodesy.wgs84 import Place
-from airhilt.world.mover import Dimensions, SurfaceState
+from airhilt.shapes.sizes import Dimensions
+from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
 
 STANDING_M_S = 1e-6

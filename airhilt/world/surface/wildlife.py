@@ -9,9 +9,10 @@ from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
 
 from airhilt.geodesy.plane import Plane
 from airhilt.geodesy.wgs84 import Place
+from airhilt.shapes.sizes import Dimensions
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
-from airhilt.world.mover import Dimensions, SurfaceState
+from airhilt.world.mover import SurfaceState
 
 ARRIVED_M = 0.3
 """An animal on the ground that is nearer than this is there."""

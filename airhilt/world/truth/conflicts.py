@@ -22,7 +22,7 @@ from airhilt.surveillance import tcas
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.flight import Aircraft
 from airhilt.world.mover import Mover
-from airhilt.world.truth.outlines import gap, radius_m
+from airhilt.world.truth.gaps import gap, radius_m
 
 NMAC = Minima(500 * FOOT, 100 * FOOT)
 """Near mid-air collision: closer than 500 ft horizontally and 100 ft vertically

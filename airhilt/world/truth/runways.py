@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor
-from airhilt.world.truth.outlines import Gap, corners, gap, radius_m
+from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout, RunwayStrip

@@ -9,9 +9,10 @@ from functools import cache
 import pytest
 
 from airhilt.messages import RunwayTruth
+from airhilt.shapes.sizes import Dimensions
 from airhilt.units import FOOT, KNOT, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.mover import Dimensions, SurfaceState
+from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 from airhilt.world.truth.runways import RunwayMonitor

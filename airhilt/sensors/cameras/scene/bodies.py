@@ -15,11 +15,12 @@ from airhilt.sensors.cameras.view import Pose
 from airhilt.shapes import animals, vehicles
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.shapes.mesh import Mesh
+from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.actor import Actor
 from airhilt.world.flight import Aircraft
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
-from airhilt.world.mover import Dimensions, Size, carried_on
+from airhilt.world.mover import carried_on
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.wildlife import AnimalKind
 
@@ -118,9 +119,11 @@ def vehicle_model(name: str) -> Model:
         "follow_me": vehicles.follow_me,
         "fire_truck": vehicles.fire_truck,
         "snow_plough": vehicles.snow_plough,
-        "tug_with_aircraft": vehicles.tug_with_aircraft,
+        "tug_with_aircraft": lambda size: vehicles.tug_with_aircraft(
+            size, load_aircraft_type("737")
+        ),
     }
-    mesh = makers.get(name, vehicles.block)(size)
+    mesh = makers.get(name, vehicles.van)(size)
     # Something is towed: what is seen of it is the aircraft.
     label: VisibleClass = "airplane" if name == "tug_with_aircraft" else "truck"
     return Model(label, name, {"driving": mesh}, lambda t_s, _: vehicle_lights(size, t_s))

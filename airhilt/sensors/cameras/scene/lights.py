@@ -15,8 +15,8 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import NEAR_M, Pose, View
 from airhilt.shapes.aircraft import wing_tip_m
 from airhilt.shapes.mesh import Colour, Floats, srgb
+from airhilt.shapes.sizes import Size
 from airhilt.world.flight.aircraft_type import AircraftType
-from airhilt.world.mover import Size
 from airhilt.world.surface.layout import Layout
 
 WHITE = srgb(255, 244, 224)

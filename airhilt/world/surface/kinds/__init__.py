@@ -12,7 +12,8 @@ from typing import Any, Literal, Protocol, TypeVar, overload, runtime_checkable
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
 from airhilt.plugins import Family
-from airhilt.world.mover import Creature, Driven, Mover, Size
+from airhilt.shapes.sizes import Size
+from airhilt.world.mover import Creature, Driven, Mover
 
 Category = Literal["vehicle", "wildlife"]
 M_co = TypeVar("M_co", bound=Mover, covariant=True)

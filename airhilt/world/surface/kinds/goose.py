@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from airhilt.world.mover import Dimensions
+from airhilt.shapes.sizes import Dimensions
 from airhilt.world.surface.wildlife import AnimalKind, Flight
 
 KIND = AnimalKind(

@@ -11,7 +11,7 @@ from shapely import Polygon, affinity, union_all
 
 from airhilt.units import FOOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.truth.outlines import gap, radius_m
+from airhilt.world.truth.gaps import gap, radius_m
 from straight import Rolling, Straight
 
 LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57

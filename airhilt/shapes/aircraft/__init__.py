@@ -1,0 +1,44 @@
+"""Aircraft, lofted from the numbers of their ``aircraft/*.json``.
+
+The origin is the reference point of the flight model: half the length behind the nose, and
+``wheel_height_offset_m`` above the ground when the aircraft stands on its wheels.
+"""
+
+from __future__ import annotations
+
+from airhilt.shapes.aircraft.engines import engine
+from airhilt.shapes.aircraft.fuselage import cabin, fuselage, upper_deck
+from airhilt.shapes.aircraft.gear import gear
+from airhilt.shapes.aircraft.proportions import Proportions
+from airhilt.shapes.aircraft.spec import AircraftShape
+from airhilt.shapes.aircraft.surfaces import fin, strut, tailplane, wing
+from airhilt.shapes.mesh import Mesh, join
+
+
+def aircraft_meshes(aircraft: AircraftShape, *, coarse: bool = False) -> dict[str, Mesh]:
+    """Return the meshes of a type, ``clean`` and with its ``gear`` down.
+
+    Coarse ones are for pictures in which it is small.
+    """
+    proportions = Proportions.of(aircraft, coarse)
+    clean = _clean(proportions)
+    return {"clean": clean, "gear": join([clean, *gear(proportions)])}
+
+
+def wing_tip_m(aircraft: AircraftShape) -> tuple[float, float, float]:
+    """Return the leading edge of the right wing tip: right, ahead, up."""
+    return Proportions.of(aircraft).wing_tip
+
+
+def _clean(p: Proportions) -> Mesh:
+    """Return an aircraft with its gear up."""
+    right = [wing(p), tailplane(p)]
+    parts = [fuselage(p), fin(p), *right, *(part.mirrored() for part in right)]
+    parts += [engine(p, *place) for place in p.mesh.engines_m]
+    if p.is_heavy:
+        parts.append(upper_deck(p))
+    if not p.is_jet:
+        parts.append(cabin(p))
+    if p.is_high_wing:
+        parts += [strut(p), strut(p).mirrored()]
+    return join(parts)

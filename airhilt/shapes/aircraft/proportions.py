@@ -1,0 +1,126 @@
+"""What all parts of an aircraft's mesh are measured by."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from airhilt.shapes.aircraft.spec import WING_ROOT_SHARE, AircraftMesh, AircraftShape
+from airhilt.shapes.colours import SILVER, WHITE
+from airhilt.shapes.mesh import Colour, srgb
+
+SEGMENTS, COARSE_SEGMENTS = 28, 12
+"""Corners of a cross-section of the fuselage."""
+
+
+@dataclass(frozen=True)
+class Livery:
+    """The colours of an aircraft."""
+
+    body: Colour
+    belly: Colour
+    tail: Colour
+    stripe: Colour
+    wing: Colour
+    engine: Colour
+
+
+LIVERIES = {
+    "jet": Livery(WHITE, srgb(196, 202, 210), srgb(24, 62, 140), srgb(24, 62, 140), SILVER, WHITE),
+    "heavy_jet": Livery(
+        WHITE, srgb(176, 182, 190), srgb(176, 28, 44), srgb(28, 44, 96), SILVER, srgb(200, 204, 210)
+    ),
+    "piston_single": Livery(
+        WHITE, WHITE, srgb(180, 30, 34), srgb(180, 30, 34), WHITE, srgb(180, 30, 34)
+    ),
+    "piston_twin": Livery(
+        srgb(240, 236, 222), srgb(30, 70, 60), srgb(30, 70, 60), srgb(196, 150, 40),
+        srgb(240, 236, 222), srgb(30, 70, 60),
+    ),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Proportions:
+    """Measures of an aircraft that several of its parts need, in m, and how it is drawn.
+
+    Attributes
+    ----------
+    mesh
+        The free shape parameters of its type.
+    coarse
+        Whether it is drawn with few triangles.
+    radius
+        Radius of the fuselage.
+    ground
+        Height of the ground below the reference point, when it stands on its wheels; negative.
+    fin_top
+        Height of the top of the fin above the reference point.
+    axis
+        Height of the fuselage's axis above the reference point: fins of jets stand on top of the
+        fuselage, those of others on the tail cone.
+    """
+
+    mesh: AircraftMesh
+    livery: Livery
+    coarse: bool
+    is_jet: bool
+    is_heavy: bool
+    is_single: bool
+    length: float
+    half_span: float
+    radius: float
+    ground: float
+    fin_top: float
+    axis: float
+
+    @classmethod
+    def of(cls, aircraft: AircraftShape, coarse: bool = False) -> Proportions:
+        """Return the proportions of an aircraft type."""
+        size, mesh = aircraft.dimensions, aircraft.mesh
+        is_jet = aircraft.category in ("jet", "heavy_jet")
+        radius = mesh.fuselage_diameter_m / 2.0
+        fin_top = size.height_m - size.wheel_height_offset_m
+        return cls(
+            mesh=mesh,
+            livery=LIVERIES[aircraft.category],
+            coarse=coarse,
+            is_jet=is_jet,
+            is_heavy=aircraft.category == "heavy_jet",
+            is_single=aircraft.category == "piston_single",
+            length=size.length_m,
+            half_span=size.span_m / 2.0,
+            radius=radius,
+            ground=-size.wheel_height_offset_m,
+            fin_top=fin_top,
+            axis=fin_top - mesh.fin_height_m - (radius if is_jet else 0.0),
+        )
+
+    @property
+    def segments(self) -> int:
+        """Corners of a cross-section of the fuselage."""
+        return COARSE_SEGMENTS if self.coarse else SEGMENTS
+
+    @property
+    def is_high_wing(self) -> bool:
+        """Whether the wing is above the fuselage."""
+        return self.mesh.wing_position == "high"
+
+    @property
+    def wing_root_up(self) -> float:
+        """Height of the wing at its root."""
+        return self.axis + (1.22 if self.is_high_wing else -0.5) * self.radius
+
+    @property
+    def dihedral(self) -> float:
+        """Slope of the wing, upwards and outwards."""
+        degrees = 6.0 if self.is_jet else 1.7 if self.is_high_wing else 5.0
+        return math.tan(math.radians(degrees))
+
+    @property
+    def wing_tip(self) -> tuple[float, float, float]:
+        """Leading edge of the right wing tip: right, ahead, up."""
+        out = self.half_span - self.radius
+        back = math.tan(math.radians(self.mesh.wing_sweep_deg)) * out
+        up = self.wing_root_up + self.dihedral * out
+        return self.half_span, WING_ROOT_SHARE * self.length - back, up
