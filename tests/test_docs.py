@@ -10,6 +10,7 @@ import click
 import pytest
 from pydantic import TypeAdapter
 
+from airhilt import __version__
 from airhilt.cli.main import cli
 from airhilt.messages import json_schemas
 from airhilt.scenario import Scenario
@@ -58,3 +59,20 @@ def test_published_schemas_are_those_of_the_code() -> None:
     published = ROOT / "docs" / "schemas"
     assert json.loads((published / "messages.json").read_text()) == json_schemas()
     assert json.loads((published / "scenario.json").read_text()) == Scenario.model_json_schema()
+
+
+def test_the_citation_is_of_this_version() -> None:
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
+
+
+def test_what_the_dockerfile_copies_is_let_through() -> None:
+    recipe = (ROOT / "Dockerfile").read_text()
+    copied = {
+        source
+        for line in re.findall(r"^COPY (?!--)(.*) \S+$", recipe, flags=re.MULTILINE)
+        for source in line.split()
+    } | set(re.findall(r"source=([^/,]+)", recipe))
+    ignore = (ROOT / ".dockerignore").read_text()
+    assert copied
+    assert all((ROOT / name).exists() for name in copied)
+    assert copied <= set(re.findall(r"^!(\S+)$", ignore, flags=re.MULTILINE))

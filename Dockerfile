@@ -1,0 +1,26 @@
+# docker build -t airhilt .
+# docker run --rm -v "$PWD/runs:/work/runs" airhilt cosim --scenario s02a_headon
+
+FROM python:3.11-slim AS build
+WORKDIR /source
+COPY pyproject.toml README.md LICENSE ./
+COPY airhilt airhilt
+COPY aircraft aircraft
+COPY airports airports
+COPY scenarios scenarios
+COPY bridges bridges
+RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
+
+FROM python:3.11-slim
+RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
+    --mount=type=bind,source=constraints.txt,target=/constraints.txt \
+    pip install --no-cache-dir --no-compile -c /constraints.txt /wheels/*.whl
+RUN useradd --uid 1000 --create-home airhilt \
+    && install -d -o airhilt -g airhilt -m 1777 /work /work/runs /work/cache
+# The cache of voices is in /work/cache, so that any user (docker run --user) may write it.
+ENV XDG_CACHE_HOME=/work/cache PYTHONUNBUFFERED=1
+USER airhilt
+WORKDIR /work
+VOLUME /work/runs
+ENTRYPOINT ["airhilt"]
+CMD ["--help"]
