@@ -187,7 +187,7 @@ def taxi(flight: Flight) -> Measurements:
     """Taxi along three straights and the right and the left bend between them, and stop."""
     aircraft = flight.lined_up(0.0)
     track = _taxi_track()
-    aircraft.taxi([_place(point) for point in track])
+    aircraft.procedures.taxi([_place(point) for point in track])
     radius, (first, second, _) = TAXI_RADIUS_M, TAXI_LEGS_M
     straight = bend = 0.0
     for state in states(aircraft, until="standing"):
@@ -254,7 +254,7 @@ REJECTED_AT_KT = {"jet": 100.0, "heavy_jet": 100.0, "piston_single": 40.0, "pist
 def takeoff(flight: Flight) -> Measurements:
     """Take off and climb to an altitude."""
     aircraft = flight.lined_up(BEGINS_M)
-    aircraft.take_off(RUNWAY, CLIMB_TO_M)
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
     line = Final(RUNWAY, flight.kind)
     off = pitch = bank = lost = highest = screen = 0.0
     for state in states(aircraft, until="en_route"):
@@ -289,14 +289,14 @@ def takeoff_criteria(kind: AircraftType) -> tuple[Criterion, ...]:
 def rejected_takeoff(flight: Flight) -> Measurements:
     """Reject a takeoff, and stop."""
     aircraft = flight.lined_up(BEGINS_M)
-    aircraft.take_off(RUNWAY, CLIMB_TO_M)
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
     line = Final(RUNWAY, flight.kind)
     speed = REJECTED_AT_KT[flight.kind.category] * KNOT
     off = rejected = 0.0
     for state in states(aircraft, until="standing"):
         off = max(off, abs(line.cross_track_m(state)))
         if aircraft.phase == "takeoff_roll" and state.calibrated_airspeed_m_s >= speed:
-            aircraft.reject_takeoff()
+            aircraft.procedures.reject_takeoff()
             rejected = line.along_m(state)
     return {
         "stop_ft": (line.along_m(aircraft.state) - rejected) / FOOT,
@@ -316,7 +316,7 @@ def rejected_takeoff_criteria(kind: AircraftType) -> tuple[Criterion, ...]:
 def landing(flight: Flight) -> Measurements:
     """Land and stop on the runway."""
     aircraft = flight.on_final(4.0)
-    aircraft.land(RUNWAY)
+    aircraft.procedures.land(RUNWAY)
     final = Final(RUNWAY, flight.kind)
     sink = touchdown = off = bounce = 0.0
     for state in states(aircraft, until="standing"):
@@ -350,12 +350,12 @@ GO_AROUND_FT = 50.0
 def go_around(flight: Flight) -> Measurements:
     """Go around with the wheels at 50 ft."""
     aircraft = flight.on_final(1.0)
-    aircraft.land(RUNWAY)
+    aircraft.procedures.land(RUNWAY)
     lowest, begun = math.inf, 0.0
     for _ in states(aircraft, until="en_route"):
         height = aircraft.main_wheel_height_m / FOOT
         if aircraft.phase in {"glide", "flare"} and height < GO_AROUND_FT:
-            aircraft.go_around(CLIMB_TO_M)
+            aircraft.procedures.go_around(CLIMB_TO_M)
             begun = height
         lowest = min(lowest, height)
     return {"height_lost_ft": begun - lowest}

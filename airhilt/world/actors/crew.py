@@ -50,7 +50,7 @@ class Crew:
         self._person = person
         self._site = site
         self._return_lateral: Callable[[], None] = partial(
-            aircraft.hold_track, aircraft.state.track_rad
+            aircraft.en_route.hold_track, aircraft.state.track_rad
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
@@ -61,8 +61,8 @@ class Crew:
 
     def fly_route(self, waypoints: list[Place]) -> None:
         """Take a route and fly it."""
-        self.aircraft.fly_route(waypoints)
-        self._return_lateral = self.aircraft.resume_route
+        self.aircraft.en_route.fly_route(waypoints)
+        self._return_lateral = self.aircraft.en_route.resume_route
         self._has_route = True
 
     def command(self, command: Command) -> None:
@@ -102,27 +102,27 @@ class Crew:
         aircraft = self.aircraft
         match command:
             case AltitudeCommand(altitude_ft=altitude, vertical_rate_fpm=rate):
-                aircraft.hold_altitude(
+                aircraft.en_route.hold_altitude(
                     altitude * FOOT, None if rate is None else rate * FOOT_PER_MINUTE
                 )
             case TrackCommand(track_deg=track):
-                aircraft.hold_track(track * DEGREE)
-                self._return_lateral = partial(aircraft.hold_track, track * DEGREE)
+                aircraft.en_route.hold_track(track * DEGREE)
+                self._return_lateral = partial(aircraft.en_route.hold_track, track * DEGREE)
             case TurnCommand(degrees=degrees):
                 track = aircraft.state.track_rad + degrees * DEGREE
-                aircraft.turn_by(degrees * DEGREE)
-                self._return_lateral = partial(aircraft.hold_track, track)
+                aircraft.en_route.turn_by(degrees * DEGREE)
+                self._return_lateral = partial(aircraft.en_route.hold_track, track)
             case SpeedCommand(cas_kt=speed):
-                aircraft.hold_speed(speed * KNOT)
+                aircraft.en_route.hold_speed(speed * KNOT)
             case RouteCommand(route=route):
                 self.fly_route([self._site.place(position) for position in route])
             case ResumeRouteCommand() if self._has_route:
-                aircraft.resume_route()
-                self._return_lateral = aircraft.resume_route
+                aircraft.en_route.resume_route()
+                self._return_lateral = aircraft.en_route.resume_route
             case DriftDownCommand():
-                aircraft.drift_down()
+                aircraft.procedures.drift_down()
             case EmergencyDescentCommand(altitude_ft=altitude):
-                aircraft.emergency_descent(altitude * FOOT)
+                aircraft.procedures.emergency_descent(altitude * FOOT)
             case _:
                 raise Unable(f"unable to {command.action.replace('_', ' ')}")
 
@@ -170,11 +170,11 @@ class Crew:
             self._altitude_before_m = self.aircraft.target_altitude_m
         match recommendation:
             case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
-                self.aircraft.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+                self.aircraft.en_route.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
             case MaintainLevel(altitude_ft=altitude):
-                self.aircraft.hold_altitude(altitude * FOOT)
+                self.aircraft.en_route.hold_altitude(altitude * FOOT)
             case Turn(degrees=degrees):
-                self.aircraft.turn_by(degrees * DEGREE)
+                self.aircraft.en_route.turn_by(degrees * DEGREE)
                 self._has_turned = True
         self._followed[advisory.id] = advisory.revision
         return True
@@ -183,7 +183,7 @@ class Crew:
         """Go back to what was flown before, unless another advisory still holds."""
         if self._followed.pop(advisory_id, None) is None or self._followed:
             return False
-        self.aircraft.hold_altitude(self._altitude_before_m)
+        self.aircraft.en_route.hold_altitude(self._altitude_before_m)
         if self._has_turned:
             self._has_turned = False
             self._return_lateral()

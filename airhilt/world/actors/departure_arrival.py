@@ -90,10 +90,10 @@ class DepartureArrival:
             case TaxiCommand():
                 self._taxi(command)
             case HoldPositionCommand():
-                self._aircraft.hold_position()
+                self._aircraft.procedures.hold_position()
                 self._next = None
             case ContinueCommand():
-                self._aircraft.resume_taxi()
+                self._aircraft.procedures.resume_taxi()
             case LineUpCommand(runway=runway):
                 self._line_up(runway)
             case TakeOffCommand(runway=runway, climb_to_ft=altitude):
@@ -115,7 +115,7 @@ class DepartureArrival:
 
     def begin_on_final(self, runway: str) -> None:
         """Fly the approach from where the aircraft is; it still needs a clearance to land."""
-        self._aircraft.land(self.bind(runway))
+        self._aircraft.procedures.land(self.bind(runway))
         self._next = self._go_around_uncleared
 
     def attend(self) -> None:
@@ -155,9 +155,9 @@ class DepartureArrival:
                 decision = DECISION_SPEED_PART * aircraft.kind.speeds.rotate_kt * KNOT
                 if aircraft.state.calibrated_airspeed_m_s > decision:
                     return False
-                aircraft.reject_takeoff()
+                aircraft.procedures.reject_takeoff()
             case "line_up" | "taxi":
-                aircraft.hold_position()
+                aircraft.procedures.hold_position()
             case "lined_up" | "standing":
                 pass
             case _:
@@ -170,7 +170,7 @@ class DepartureArrival:
         if self._aircraft.phase not in ("taxi", "line_up"):
             return False
         self._next = None
-        self._aircraft.hold_position()
+        self._aircraft.procedures.hold_position()
         return True
 
     # --- how --------------------------------------------------------------------------------
@@ -184,7 +184,7 @@ class DepartureArrival:
         nose_m = self._aircraft.kind.dimensions.length_m / 2.0
         path = taxi_path(self._site, self._here(), command, nose_m)
         speed = None if command.speed_kt is None else command.speed_kt * KNOT
-        self._aircraft.taxi(path, speed)
+        self._aircraft.procedures.taxi(path, speed)
 
     def _line_up(self, runway: str) -> None:
         aircraft, here = self._aircraft, self._here()
@@ -197,7 +197,7 @@ class DepartureArrival:
             # Held on its way in, it goes on from there, and not back to the hold line.
             aside_m = abs(final.right_m(here))
             ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
-            aircraft.taxi([here, *(ahead or path[-1:])], then="lined_up")
+            aircraft.procedures.taxi([here, *(ahead or path[-1:])], then="lined_up")
         self._final = final
 
     def _line_up_once_standing(self, runway: str) -> bool:
@@ -219,7 +219,7 @@ class DepartureArrival:
             return False
         if self._aircraft.phase != "lined_up":
             return False
-        self._aircraft.take_off(self.bind(runway), climb_to_m)
+        self._aircraft.procedures.take_off(self.bind(runway), climb_to_m)
         return True
 
     def _land(self, command: LandCommand) -> None:
@@ -238,7 +238,7 @@ class DepartureArrival:
         self._cleared_to_land = True
         if command.via:
             via = [site.place(position) for position in command.via]
-            aircraft.fly_route([*via, runway.threshold])
+            aircraft.en_route.fly_route([*via, runway.threshold])
         self._next = partial(self._land_once_on_final, exit_path)
         if not command.via:
             self.attend()
@@ -257,7 +257,7 @@ class DepartureArrival:
             or abs(final.right_m(here)) > CAPTURE_DISTANCE_M
         ):
             return False
-        self._aircraft.land(final.runway, exit_path)
+        self._aircraft.procedures.land(final.runway, exit_path)
         return True
 
     def _go_around_uncleared(self) -> bool:
@@ -276,9 +276,9 @@ class DepartureArrival:
     def _break_off(self, climb_to_m: float) -> None:
         self._cleared_to_land = False
         self._next = None
-        self._aircraft.go_around(climb_to_m)
+        self._aircraft.procedures.go_around(climb_to_m)
         self._final = None
 
     def _side_step(self, runway: str) -> None:
-        self._aircraft.side_step(self._site.runway(runway))
+        self._aircraft.procedures.side_step(self._site.runway(runway))
         self.bind(runway)

@@ -33,9 +33,9 @@ def aircraft():
 
 @pytest.fixture(autouse=True)
 def as_it_began(aircraft):
-    aircraft.hold_altitude(5_000 * FOOT)
-    aircraft.hold_speed(95 * KNOT)
-    aircraft.hold_track(60.0 * DEGREE)
+    aircraft.en_route.hold_altitude(5_000 * FOOT)
+    aircraft.en_route.hold_speed(95 * KNOT)
+    aircraft.en_route.hold_track(60.0 * DEGREE)
 
 
 def crew_of(aircraft, compliance=1.0, median_s=5.0, sigma=0.0, seed=1):

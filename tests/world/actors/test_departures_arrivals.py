@@ -45,6 +45,14 @@ class Plane:
     ended = None
 
     @property
+    def en_route(self) -> Plane:
+        return self
+
+    @property
+    def procedures(self) -> Plane:
+        return self
+
+    @property
     def on_ground(self) -> bool:
         return self.height_m == 0.0
 

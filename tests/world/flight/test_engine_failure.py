@@ -9,7 +9,7 @@ def test_a_twin_drifts_down_at_its_speed_on_its_heading(in_cruise, states):
     aircraft = in_cruise("737")
     heading = aircraft.state.heading_rad
     aircraft.fail_engine(0)
-    aircraft.drift_down()
+    aircraft.procedures.drift_down()
     assert aircraft.phase == "drift_down"
     flown = list(states(aircraft, 400))
     assert max(abs(wrap_angle(state.heading_rad - heading)) for state in flown) < 1.1 * DEGREE
@@ -23,7 +23,7 @@ def test_a_twin_drifts_down_at_its_speed_on_its_heading(in_cruise, states):
 def test_it_levels_where_the_other_engine_keeps_it(in_cruise, states):
     aircraft = in_cruise("737", altitude_ft=28_000, airspeed_kt=225)
     aircraft.fail_engine(1)
-    aircraft.drift_down()
+    aircraft.procedures.drift_down()
     *_, before = states(aircraft, 900)
     assert aircraft.phase == "en_route"
     *_, after = states(aircraft, 60)
@@ -34,9 +34,9 @@ def test_it_levels_where_the_other_engine_keeps_it(in_cruise, states):
 def test_it_does_not_go_below_an_altitude_that_it_was_told(in_cruise, states):
     aircraft = in_cruise("737")
     aircraft.fail_engine(0)
-    aircraft.drift_down()
+    aircraft.procedures.drift_down()
     *_, _ = states(aircraft, 30)
-    aircraft.hold_altitude(33_500 * FOOT)
+    aircraft.en_route.hold_altitude(33_500 * FOOT)
     assert aircraft.phase == "drift_down"
     for _ in states(aircraft, 500):
         if aircraft.phase == "en_route":
@@ -58,9 +58,9 @@ def test_cruise_goes_on_under_control(name, engine, in_cruise, states):
 
 def test_a_go_around_goes_on_with_one_engine(on_final, runway, states):
     aircraft = on_final("737", distance_nm=1.0)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
-    aircraft.go_around(900.0)
+    aircraft.procedures.go_around(900.0)
     *_, _ = states(aircraft, 10)
     aircraft.fail_engine(0)
     low = min(state.height_agl_m for state in states(aircraft, 200))
@@ -73,7 +73,7 @@ def test_a_go_around_goes_on_with_one_engine(on_final, runway, states):
 def test_a_single_without_its_engine_glides(in_cruise, states):
     aircraft = in_cruise("c172p")
     aircraft.fail_engine(0)
-    aircraft.drift_down()
+    aircraft.procedures.drift_down()
     *_, state = states(aircraft, 90)
     assert aircraft.phase == "drift_down"
     assert state.calibrated_airspeed_m_s == pytest.approx(65 * KNOT, abs=2 * KNOT)
@@ -88,7 +88,7 @@ def test_an_engine_that_is_not_there_is_named(in_cruise):
 @pytest.mark.parametrize("name", ["737", "B747"])
 def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name, in_cruise, states):
     aircraft = in_cruise(name)
-    aircraft.emergency_descent(10_000 * FOOT)
+    aircraft.procedures.emergency_descent(10_000 * FOOT)
     seconds = 0.0
     for _ in states(aircraft, 25_000 / 4_000 * 60):
         seconds += 0.05
@@ -103,4 +103,4 @@ def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name, in_c
 
 def test_an_emergency_descent_upwards_is_refused(in_cruise):
     with pytest.raises(ValueError, match="expected less than the altitude now"):
-        in_cruise("737").emergency_descent(12_000.0)
+        in_cruise("737").procedures.emergency_descent(12_000.0)

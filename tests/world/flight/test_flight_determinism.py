@@ -22,7 +22,7 @@ print(repr(flight(in_cruise, states)))
 
 def flight(in_cruise, states, name="737", seed=7):
     aircraft = in_cruise(name, seed=seed, atmosphere=AIR)
-    aircraft.turn_by(0.5)
+    aircraft.en_route.turn_by(0.5)
     *_, last = states(aircraft, 20)
     return tuple(last)
 
@@ -39,7 +39,7 @@ def test_with_other_aircraft_flown_in_between(in_cruise, states):
     alone = flight(in_cruise, states)
     aircraft = in_cruise("737", seed=7, atmosphere=AIR)
     others = [in_cruise("B747", seed=3, atmosphere=AIR), in_cruise("737", seed=9, atmosphere=AIR)]
-    aircraft.turn_by(0.5)
+    aircraft.en_route.turn_by(0.5)
     for _ in states(aircraft, 20):
         for other in others:
             other.advance()

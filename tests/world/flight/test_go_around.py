@@ -10,7 +10,7 @@ TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severi
 
 def descend_to(height_ft, aircraft, runway, states):
     """Fly the approach down to a height of the main wheels."""
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     for state in states(aircraft, 200):
         if aircraft._airframe.main_wheel_height_m(state) < height_ft * FOOT:
             return
@@ -20,7 +20,7 @@ def descend_to(height_ft, aircraft, runway, states):
 def test_from_50_ft_it_climbs_away_without_touching(name, air, on_final, runway, states):
     aircraft = on_final(name, atmosphere=air, distance_nm=1.0)
     descend_to(50, aircraft, runway, states)
-    aircraft.go_around(600.0)
+    aircraft.procedures.go_around(600.0)
     assert aircraft.phase == "go_around"
     for state in states(aircraft, 150):
         assert not aircraft.on_ground
@@ -34,7 +34,7 @@ def test_from_50_ft_it_climbs_away_without_touching(name, air, on_final, runway,
 def test_it_levels_off_clean_on_the_runways_track(on_final, runway, states):
     aircraft = on_final("737", distance_nm=1.0)
     descend_to(200, aircraft, runway, states)
-    aircraft.go_around(900.0)
+    aircraft.procedures.go_around(900.0)
     assert aircraft.target_altitude_m == 900.0
     *_, state = states(aircraft, 150)
     assert aircraft.phase == "en_route"
@@ -46,9 +46,9 @@ def test_it_levels_off_clean_on_the_runways_track(on_final, runway, states):
 def test_it_turns_when_told_and_climbs_on(on_final, runway, states):
     aircraft = on_final("737", distance_nm=1.0)
     descend_to(100, aircraft, runway, states)
-    aircraft.go_around(900.0)
+    aircraft.procedures.go_around(900.0)
     *_, _ = states(aircraft, 20)
-    aircraft.turn_by(30 * DEGREE)
+    aircraft.en_route.turn_by(30 * DEGREE)
     assert aircraft.phase == "go_around"
     *_, state = states(aircraft, 120)
     assert state.altitude_m == pytest.approx(900.0, abs=10.0)
@@ -58,11 +58,11 @@ def test_it_turns_when_told_and_climbs_on(on_final, runway, states):
 
 def test_once_more_it_lands(on_final, runway, states):
     aircraft = on_final("c172p", distance_nm=3.0)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
-    aircraft.go_around(400.0)
+    aircraft.procedures.go_around(400.0)
     *_, _ = states(aircraft, 15)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     for _ in states(aircraft, 300):
         if aircraft.on_ground:
             break
@@ -72,21 +72,21 @@ def test_once_more_it_lands(on_final, runway, states):
 
 def test_after_touchdown_it_is_refused(on_final, runway, states):
     aircraft = on_final("c172p", distance_nm=0.5)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     for _ in states(aircraft, 100):
         if aircraft.on_ground:
             break
     with pytest.raises(ValueError, match="expected glide or flare"):
-        aircraft.go_around(500.0)
+        aircraft.procedures.go_around(500.0)
 
 
 def test_without_an_approach_it_is_refused(on_final):
     with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
-        on_final("737").go_around(1_000.0)
+        on_final("737").procedures.go_around(1_000.0)
 
 
 def test_an_altitude_that_is_not_above_is_refused(on_final, runway):
     aircraft = on_final("737")
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     with pytest.raises(ValueError, match="expected more than the altitude now"):
-        aircraft.go_around(50.0)
+        aircraft.procedures.go_around(50.0)

@@ -10,7 +10,7 @@ from airhilt.world.flight.guard import Guard
 
 def test_flying_into_the_ground_ends_with_ground_contact(in_cruise, states):
     aircraft = in_cruise("c172p", altitude_ft=2_000, terrain_elevation_m=500.0)
-    aircraft.hold_altitude(0.0, 1_000 * FOOT_PER_MINUTE)
+    aircraft.en_route.hold_altitude(0.0, 1_000 * FOOT_PER_MINUTE)
     for state in states(aircraft, 60):
         assert state.height_agl_m > 0.0
     assert aircraft.ended == "ground_contact"

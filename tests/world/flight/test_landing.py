@@ -26,7 +26,7 @@ class Landing:
 
     def __init__(self, aircraft, runway, states, exit_path=()):
         final = Final(runway, aircraft.kind)
-        aircraft.land(runway, exit_path)
+        aircraft.procedures.land(runway, exit_path)
         self.phases = [aircraft.phase]
         self.touchdown = None
         sink_m_s = 0.0
@@ -127,9 +127,9 @@ def test_it_joins_the_final_approach_from_the_side_clean_and_fast(name, on_final
 
 def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(on_final, runway, states):
     aircraft = on_final("737")
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
-    aircraft.hold_altitude(900.0)
+    aircraft.en_route.hold_altitude(900.0)
     assert aircraft.phase == "en_route"
     *_, state = states(aircraft, 150)
     assert state.altitude_m == pytest.approx(900.0, abs=10.0)
@@ -139,27 +139,27 @@ def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(on_final, run
 def test_a_runway_that_cannot_be_reached_is_refused(on_final, runway):
     aside = on_final("737", offset_m=9_000.0)
     with pytest.raises(ValueError, match="68 degrees off the final approach course of runway 01"):
-        aside.land(runway)
+        aside.procedures.land(runway)
     beyond = on_final("737", distance_nm=-2.0, altitude_m=500.0)
     with pytest.raises(ValueError, match="threshold of runway 01 is 3704 m behind"):
-        beyond.land(runway)
+        beyond.procedures.land(runway)
     far = on_final("737", distance_nm=40.0, altitude_m=3_000.0)
     with pytest.raises(ValueError, match="40 NM away"):
-        far.land(runway)
+        far.procedures.land(runway)
     away = on_final("737", track_deg=190.0)
     with pytest.raises(ValueError, match="flies away from runway 01"):
-        away.land(runway)
+        away.procedures.land(runway)
 
 
 def test_on_the_ground_no_en_route_command_is_taken(on_final, runway, states):
     aircraft = on_final("c172p", distance_nm=1.0)
     Landing(aircraft, runway, states)
     for command in (
-        lambda: aircraft.hold_altitude(500.0),
-        lambda: aircraft.hold_track(1.0),
-        lambda: aircraft.hold_speed(50.0),
-        lambda: aircraft.land(runway),
-        lambda: aircraft.go_around(500.0),
+        lambda: aircraft.en_route.hold_altitude(500.0),
+        lambda: aircraft.en_route.hold_track(1.0),
+        lambda: aircraft.en_route.hold_speed(50.0),
+        lambda: aircraft.procedures.land(runway),
+        lambda: aircraft.procedures.go_around(500.0),
     ):
         with pytest.raises(ValueError, match=r"in phase standing"):
             command()
@@ -167,9 +167,9 @@ def test_on_the_ground_no_en_route_command_is_taken(on_final, runway, states):
 
 def test_side_stepping_it_lands_on_the_parallel_runway(on_final, runway, parallel_runway, states):
     aircraft = on_final("737", distance_nm=5.0)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
-    aircraft.side_step(parallel_runway)
+    aircraft.procedures.side_step(parallel_runway)
     landing = Landing(aircraft, parallel_runway, states)
     assert landing.ended is None
     assert landing.sink_fpm < SOFT_FPM["737"]
@@ -178,12 +178,12 @@ def test_side_stepping_it_lands_on_the_parallel_runway(on_final, runway, paralle
 
 def test_a_side_step_too_late_or_too_wide_is_refused(on_final, runway, parallel_runway, states):
     aircraft = on_final("737", distance_nm=0.6)
-    aircraft.land(runway)
+    aircraft.procedures.land(runway)
     with pytest.raises(ValueError, match="expected at least 300 ft"):
-        aircraft.side_step(parallel_runway)
+        aircraft.procedures.side_step(parallel_runway)
     near = on_final("737", distance_nm=1.2)
-    near.land(runway)
+    near.procedures.land(runway)
     with pytest.raises(ValueError, match="left to join it"):
-        near.side_step(parallel_runway)
+        near.procedures.side_step(parallel_runway)
     with pytest.raises(ValueError, match="side_step in phase en_route; expected glide"):
-        on_final("737").side_step(parallel_runway)
+        on_final("737").procedures.side_step(parallel_runway)

@@ -19,7 +19,7 @@ def test_it_changes_level_and_levels_off_without_overshoot(name, sign, in_cruise
     aircraft = in_cruise(name)
     start = aircraft.state.altitude_m
     target = start + sign * feet * FOOT
-    aircraft.hold_altitude(target, rate_fpm * FOOT_PER_MINUTE)
+    aircraft.en_route.hold_altitude(target, rate_fpm * FOOT_PER_MINUTE)
     assert aircraft.target_altitude_m == target
     flown = list(states(aircraft, feet / rate_fpm * 60 + 45))
     assert max(sign * (state.altitude_m - target) for state in flown) < 50 * FOOT
@@ -34,7 +34,7 @@ def test_it_changes_level_and_levels_off_without_overshoot(name, sign, in_cruise
 def test_an_avoidance_climb_is_established_within_7_seconds(name, sign, in_cruise, states):
     aircraft = in_cruise(name)
     rate = 1_500 * FOOT_PER_MINUTE
-    aircraft.hold_altitude(aircraft.state.altitude_m + sign * 1_000 * FOOT, rate)
+    aircraft.en_route.hold_altitude(aircraft.state.altitude_m + sign * 1_000 * FOOT, rate)
     reached = next(
         tick / 20
         for tick, state in enumerate(states(aircraft, 20))
@@ -47,7 +47,7 @@ def test_an_avoidance_climb_is_established_within_7_seconds(name, sign, in_cruis
 def test_it_turns_by_an_angle(name, angle_deg, in_cruise, states):
     aircraft = in_cruise(name)
     altitude = aircraft.state.altitude_m
-    aircraft.turn_by(angle_deg * DEGREE)
+    aircraft.en_route.turn_by(angle_deg * DEGREE)
     flown = list(states(aircraft, 60))
     target = (60 + angle_deg) * DEGREE
     assert abs(wrap_angle(flown[-1].track_rad - target)) < 0.3 * DEGREE
@@ -59,7 +59,7 @@ def test_it_turns_by_an_angle(name, angle_deg, in_cruise, states):
 
 def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(in_cruise, states):
     aircraft = in_cruise("c172p")
-    aircraft.turn_by(-270 * DEGREE)
+    aircraft.en_route.turn_by(-270 * DEGREE)
     flown = list(states(aircraft, 110))
     assert abs(wrap_angle(flown[-1].track_rad - 150 * DEGREE)) < 1 * DEGREE
     assert flown[200].roll_rad < -15 * DEGREE
@@ -68,7 +68,7 @@ def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(in_cruise, s
 
 def test_it_holds_a_heading_in_wind(in_cruise, states):
     aircraft = in_cruise("c172p", atmosphere=Atmosphere(wind_east_m_s=12.0))
-    aircraft.hold_heading(0.0)
+    aircraft.en_route.hold_heading(0.0)
     *_, state = states(aircraft, 60)
     assert abs(wrap_angle(state.heading_rad)) < 1 * DEGREE
     assert state.track_rad > 10 * DEGREE
@@ -78,7 +78,7 @@ def test_it_holds_a_heading_in_wind(in_cruise, states):
 def test_it_changes_speed(name, change_kt, in_cruise, states):
     aircraft = in_cruise(name, airspeed_kt={"c310": 140}.get(name))
     altitude = aircraft.state.altitude_m
-    target = aircraft.hold_speed(aircraft.target_speed_m_s + change_kt * KNOT)
+    target = aircraft.en_route.hold_speed(aircraft.target_speed_m_s + change_kt * KNOT)
     flown = list(states(aircraft, 120))
     assert flown[-1].calibrated_airspeed_m_s == pytest.approx(target, abs=2 * KNOT)
     side = math.copysign(1.0, change_kt)
@@ -89,7 +89,7 @@ def test_it_changes_speed(name, change_kt, in_cruise, states):
 
 def test_a_climb_that_the_engines_cannot_keep_gives_way_before_the_airspeed(in_cruise, states):
     aircraft = in_cruise("737")
-    aircraft.hold_altitude(40_000 * FOOT, 4_000 * FOOT_PER_MINUTE)
+    aircraft.en_route.hold_altitude(40_000 * FOOT, 4_000 * FOOT_PER_MINUTE)
     flown = list(states(aircraft, 200))
     assert aircraft.ended is None
     assert min(state.calibrated_airspeed_m_s for state in flown) > 220 * KNOT
@@ -101,7 +101,7 @@ def test_in_a_long_climb_the_mach_limit_takes_over_from_the_airspeed(
     name, speed_kt, in_cruise, states
 ):
     aircraft = in_cruise(name, altitude_ft=22_000, airspeed_kt=speed_kt)
-    aircraft.hold_altitude(33_000 * FOOT, 2_500 * FOOT_PER_MINUTE)
+    aircraft.en_route.hold_altitude(33_000 * FOOT, 2_500 * FOOT_PER_MINUTE)
     flown = list(states(aircraft, 330))
     assert aircraft.ended is None
     assert max(state.mach for state in flown) < aircraft.kind.speeds.maximum_mach + 0.02
@@ -110,32 +110,32 @@ def test_in_a_long_climb_the_mach_limit_takes_over_from_the_airspeed(
 
 def test_commands_beyond_the_envelope_are_brought_into_it_and_told_back(in_cruise):
     aircraft = in_cruise("737")
-    accepted = aircraft.hold_altitude(50_000 * FOOT, 9_000 * FOOT_PER_MINUTE)
+    accepted = aircraft.en_route.hold_altitude(50_000 * FOOT, 9_000 * FOOT_PER_MINUTE)
     assert accepted.altitude_m == 41_000 * FOOT
     assert accepted.vertical_rate_m_s == pytest.approx(4_000 * FOOT_PER_MINUTE)
-    assert aircraft.hold_speed(50 * KNOT) == 200 * KNOT
+    assert aircraft.en_route.hold_speed(50 * KNOT) == 200 * KNOT
     # At FL350 the Mach limit is the lower one: M 0.82 is about 280 kt.
-    assert aircraft.hold_speed(400 * KNOT) == pytest.approx(280 * KNOT, abs=5 * KNOT)
+    assert aircraft.en_route.hold_speed(400 * KNOT) == pytest.approx(280 * KNOT, abs=5 * KNOT)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 def test_a_command_that_is_not_finite_is_refused(bad, in_cruise):
     aircraft = in_cruise("c172p")
     for command in (
-        aircraft.hold_track,
-        aircraft.hold_heading,
-        aircraft.turn_by,
-        aircraft.hold_altitude,
-        aircraft.hold_speed,
+        aircraft.en_route.hold_track,
+        aircraft.en_route.hold_heading,
+        aircraft.en_route.turn_by,
+        aircraft.en_route.hold_altitude,
+        aircraft.en_route.hold_speed,
     ):
         with pytest.raises(ValueError, match="expected a finite number"):
             command(bad)
     with pytest.raises(ValueError, match="vertical_rate_m_s"):
-        aircraft.hold_altitude(1_000.0, bad)
+        aircraft.en_route.hold_altitude(1_000.0, bad)
     with pytest.raises(ValueError, match="finite"):
-        aircraft.fly_route([(bad, 0.1)])
+        aircraft.en_route.fly_route([(bad, 0.1)])
     with pytest.raises(ValueError, match="leads nowhere"):
-        aircraft.fly_route([])
+        aircraft.en_route.fly_route([])
 
 
 @settings(
@@ -154,8 +154,8 @@ def test_no_sequence_of_commands_throws_it_out_of_the_air(
     altitude_m, rate_m_s, speed_m_s, turn_rad, in_cruise, states
 ):
     aircraft = in_cruise("c172p")
-    aircraft.hold_altitude(altitude_m, rate_m_s)
-    aircraft.hold_speed(speed_m_s)
-    aircraft.turn_by(turn_rad)
+    aircraft.en_route.hold_altitude(altitude_m, rate_m_s)
+    aircraft.en_route.hold_speed(speed_m_s)
+    aircraft.en_route.turn_by(turn_rad)
     for _ in states(aircraft, 30):
         assert aircraft.ended is None

@@ -26,9 +26,9 @@ def roll_to(aircraft, airspeed_kt, states):
 def test_it_stops_within_3000_ft_on_the_centre_line(air, name, on_the_ground, runway, states):
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
     line = Final(runway, aircraft.kind)
-    aircraft.take_off(runway, 500.0)
+    aircraft.procedures.take_off(runway, 500.0)
     rejected_m = line.along_m(roll_to(aircraft, REJECTED_AT_KT[name], states))
-    aircraft.reject_takeoff()
+    aircraft.procedures.reject_takeoff()
     assert aircraft.phase == "rejected_takeoff"
     for state in states(aircraft, 60):
         assert abs(line.cross_track_m(state)) < 20 * FOOT
@@ -39,12 +39,12 @@ def test_it_stops_within_3000_ft_on_the_centre_line(air, name, on_the_ground, ru
 
 def test_it_can_take_off_after_all(on_the_ground, runway, states):
     aircraft = on_the_ground("c172p")
-    aircraft.take_off(runway, 100.0)
+    aircraft.procedures.take_off(runway, 100.0)
     roll_to(aircraft, 30, states)
-    aircraft.reject_takeoff()
+    aircraft.procedures.reject_takeoff()
     for _ in states(aircraft, 30):
         pass
-    aircraft.take_off(runway, 100.0)
+    aircraft.procedures.take_off(runway, 100.0)
     for _ in states(aircraft, 60):
         pass
     assert aircraft.phase == "en_route"
@@ -53,8 +53,8 @@ def test_it_can_take_off_after_all(on_the_ground, runway, states):
 def test_only_a_takeoff_roll_is_rejected(on_the_ground, runway, states):
     aircraft = on_the_ground("c172p")
     with pytest.raises(ValueError, match="reject_takeoff in phase lined_up; expected takeoff_roll"):
-        aircraft.reject_takeoff()
-    aircraft.take_off(runway, 500.0)
+        aircraft.procedures.reject_takeoff()
+    aircraft.procedures.take_off(runway, 500.0)
     roll_to(aircraft, aircraft.kind.speeds.rotate_kt + 2, states)
     with pytest.raises(ValueError, match="expected takeoff_roll"):
-        aircraft.reject_takeoff()
+        aircraft.procedures.reject_takeoff()

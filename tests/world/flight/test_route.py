@@ -82,7 +82,7 @@ def test_it_follows_a_route_with_a_turn(name, air, in_cruise, states):
     start = (47.0, 8.0)
     corner = place(start, 60.0, length)
     end = place(corner, 130.0, length)
-    aircraft.fly_route([radians(corner), radians(end)])
+    aircraft.en_route.fly_route([radians(corner), radians(end)])
     worst, bank = {"before": 0.0, "after": 0.0}, 0.0
     for tick, state in enumerate(states(aircraft, 300)):
         bank = max(bank, abs(state.roll_rad))
@@ -100,7 +100,7 @@ def test_it_follows_a_route_with_a_turn(name, air, in_cruise, states):
 def test_beyond_the_last_waypoint_it_holds_the_last_track(in_cruise, states):
     aircraft = in_cruise("c172p")
     end = place((47.0, 8.0), 60.0, 1_500.0)
-    aircraft.fly_route([radians(end)])
+    aircraft.en_route.fly_route([radians(end)])
     *_, state = states(aircraft, 60)
     course = EARTH.Inverse(47.0, 8.0, *end)["azi2"]
     assert abs(wrap_angle(state.track_rad - course * DEGREE)) < 0.1 * DEGREE
@@ -109,13 +109,13 @@ def test_beyond_the_last_waypoint_it_holds_the_last_track(in_cruise, states):
 def test_it_resumes_a_route_that_it_left(in_cruise, states):
     aircraft = in_cruise("737")
     end = place((47.0, 8.0), 60.0, 120_000.0)
-    aircraft.fly_route([radians(end)])
+    aircraft.en_route.fly_route([radians(end)])
     *_, _ = states(aircraft, 20)
-    aircraft.turn_by(30 * DEGREE)
+    aircraft.en_route.turn_by(30 * DEGREE)
     *_, away = states(aircraft, 40)
     position = (away.latitude_rad / DEGREE, away.longitude_rad / DEGREE)
     assert cross_track_m(position, (47.0, 8.0), end) > 1_500.0
-    aircraft.resume_route()
+    aircraft.en_route.resume_route()
     *_, back = states(aircraft, 150)
     position = (back.latitude_rad / DEGREE, back.longitude_rad / DEGREE)
     assert abs(cross_track_m(position, (47.0, 8.0), end)) < 15.0
@@ -123,4 +123,4 @@ def test_it_resumes_a_route_that_it_left(in_cruise, states):
 
 def test_without_a_route_there_is_none_to_resume(in_cruise):
     with pytest.raises(ValueError, match="no route to resume"):
-        in_cruise("c172p").resume_route()
+        in_cruise("c172p").en_route.resume_route()

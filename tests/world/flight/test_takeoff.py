@@ -45,7 +45,7 @@ class Takeoff:
 )
 def test_it_keeps_to_the_centre_line_and_strikes_nothing(air, name, on_the_ground, runway, states):
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
-    aircraft.take_off(runway, CLIMB_TO_M)
+    aircraft.procedures.take_off(runway, CLIMB_TO_M)
     takeoff = Takeoff(aircraft, runway, states)
     assert takeoff.phases == ["takeoff_roll", "rotate", "climb_out", "en_route"]
     assert takeoff.off_centre_m < 20 * FOOT
@@ -55,7 +55,7 @@ def test_it_keeps_to_the_centre_line_and_strikes_nothing(air, name, on_the_groun
 
 def test_it_levels_off_clean_on_the_runway_track(name, on_the_ground, runway, states):
     aircraft = on_the_ground(name)
-    aircraft.take_off(runway, CLIMB_TO_M)
+    aircraft.procedures.take_off(runway, CLIMB_TO_M)
     speeds = aircraft.kind.speeds
     *_, state = states(aircraft, 240)
     assert aircraft.phase == "en_route"
@@ -73,13 +73,13 @@ def test_it_takes_off_after_lining_up(on_the_ground, along_runway, runway, state
         for a in (math.pi / 2.0 * step / 12 for step in range(13))
     ]
     points = [(30.0, 80.0), *bend, (110.0, 0.0)]
-    aircraft.taxi([along_runway(*point) for point in points], then="lined_up")
+    aircraft.procedures.taxi([along_runway(*point) for point in points], then="lined_up")
     with pytest.raises(ValueError, match="expected lined up"):
-        aircraft.take_off(runway, CLIMB_TO_M)
+        aircraft.procedures.take_off(runway, CLIMB_TO_M)
     for _ in states(aircraft, 90):
         if aircraft.phase == "lined_up":
             break
-    aircraft.take_off(runway, CLIMB_TO_M)
+    aircraft.procedures.take_off(runway, CLIMB_TO_M)
     takeoff = Takeoff(aircraft, runway, states)
     assert takeoff.phases[-1] == "en_route"
     assert takeoff.off_centre_m < 20 * FOOT
@@ -87,10 +87,10 @@ def test_it_takes_off_after_lining_up(on_the_ground, along_runway, runway, state
 
 def test_it_takes_off_rolling(on_the_ground, along_runway, runway, states):
     aircraft = on_the_ground("737")
-    aircraft.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
+    aircraft.procedures.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
     *_, state = states(aircraft, 20)
     assert state.ground_speed_m_s > 5.0
-    aircraft.take_off(runway, CLIMB_TO_M)
+    aircraft.procedures.take_off(runway, CLIMB_TO_M)
     slowest = min(state.ground_speed_m_s for state in states(aircraft, 10))
     assert slowest > 5.0
     assert Takeoff(aircraft, runway, states).phases[-1] == "en_route"
@@ -98,12 +98,12 @@ def test_it_takes_off_rolling(on_the_ground, along_runway, runway, states):
 
 def test_commands_in_the_climb_are_flown_above_400_ft(on_the_ground, runway, states):
     aircraft = on_the_ground("737")
-    aircraft.take_off(runway, 1_500.0)
+    aircraft.procedures.take_off(runway, 1_500.0)
     for _ in states(aircraft, 60):
         if aircraft.phase == "climb_out":
             break
-    aircraft.hold_track((COURSE + 40.0) * DEGREE)
-    aircraft.hold_altitude(600.0)
+    aircraft.en_route.hold_track((COURSE + 40.0) * DEGREE)
+    aircraft.en_route.hold_altitude(600.0)
     for state in states(aircraft, 120):
         if state.height_agl_m < 350 * FOOT:
             assert abs(state.roll_rad) < 5.0 * DEGREE
@@ -114,23 +114,25 @@ def test_commands_in_the_climb_are_flown_above_400_ft(on_the_ground, runway, sta
 
 def test_a_takeoff_that_cannot_be_is_refused(in_cruise, on_the_ground, runway):
     with pytest.raises(ValueError, match="take_off in phase en_route in the air"):
-        in_cruise("737").take_off(runway, CLIMB_TO_M)
+        in_cruise("737").procedures.take_off(runway, CLIMB_TO_M)
     with pytest.raises(ValueError, match="60 m beside the centre line of runway 01"):
-        on_the_ground("737", right_m=60.0).take_off(runway, CLIMB_TO_M)
+        on_the_ground("737", right_m=60.0).procedures.take_off(runway, CLIMB_TO_M)
     with pytest.raises(ValueError, match="90 degrees off its course"):
-        on_the_ground("737", heading_deg=COURSE + 90.0).take_off(runway, CLIMB_TO_M)
+        on_the_ground("737", heading_deg=COURSE + 90.0).procedures.take_off(runway, CLIMB_TO_M)
     with pytest.raises(ValueError, match="2300 m beyond the beginning of runway 01"):
-        on_the_ground("737", along_m=runway.length_m + 100.0).take_off(runway, CLIMB_TO_M)
+        on_the_ground("737", along_m=runway.length_m + 100.0).procedures.take_off(
+            runway, CLIMB_TO_M
+        )
     with pytest.raises(ValueError, match="climb_to_m"):
-        on_the_ground("737").take_off(runway, 0.0)
+        on_the_ground("737").procedures.take_off(runway, 0.0)
     with pytest.raises(ValueError, match="climb_to_m"):
-        on_the_ground("737").take_off(runway, math.nan)
+        on_the_ground("737").procedures.take_off(runway, math.nan)
 
 
 def test_the_same_seed_gives_the_same_takeoff(name, on_the_ground, runway, states):
     def flown(seed):
         aircraft = on_the_ground(name, seed=seed, atmosphere=TURBULENCE)
-        aircraft.take_off(runway, CLIMB_TO_M)
+        aircraft.procedures.take_off(runway, CLIMB_TO_M)
         *_, last = states(aircraft, 40)
         return tuple(last)
 

@@ -49,7 +49,7 @@ def place_of(state):
 def test_it_follows_the_path_and_stops_at_its_end(wind, name, on_the_ground, along_runway, states):
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind)
     path = corner(along_runway)
-    aircraft.taxi(path)
+    aircraft.procedures.taxi(path)
     assert aircraft.phase == "taxi"
     flown = []
     for state in states(aircraft, 120):
@@ -73,7 +73,7 @@ def test_it_follows_the_path_and_stops_at_its_end(wind, name, on_the_ground, alo
 
 def test_it_slows_down_for_a_bend(on_the_ground, along_runway, states):
     aircraft = on_the_ground("737", along_m=0.0)
-    aircraft.taxi(corner(along_runway), 20 * KNOT)
+    aircraft.procedures.taxi(corner(along_runway), 20 * KNOT)
     fastest = sideways = 0.0
     turned = COURSE * DEGREE
     for state in states(aircraft, 60):
@@ -86,16 +86,16 @@ def test_it_slows_down_for_a_bend(on_the_ground, along_runway, states):
 
 def test_it_holds_its_position_and_goes_on(name, on_the_ground, along_runway, states):
     aircraft = on_the_ground(name, along_m=0.0)
-    aircraft.taxi([along_runway(0.0), along_runway(200.0)])
+    aircraft.procedures.taxi([along_runway(0.0), along_runway(200.0)])
     *_, moving = states(aircraft, 20)
-    aircraft.hold_position()
+    aircraft.procedures.hold_position()
     *_, held = states(aircraft, 15)
     needed = distances_to([place_of(moving)] * 2, [place_of(held)])[0]
     assert needed < 0.5 * moving.ground_speed_m_s**2 / 1.0
     *_, later = states(aircraft, 60)
     assert distances_to([place_of(held)] * 2, [place_of(later)])[0] < 0.01
     assert aircraft.phase == "standing"
-    aircraft.resume_taxi()
+    aircraft.procedures.resume_taxi()
     for _ in states(aircraft, 10):
         pass
     assert aircraft.phase == "taxi"
@@ -119,7 +119,7 @@ def test_it_stands_still_in_any_wind(from_deg, name, on_the_ground, states):
 def test_no_wind_tips_it_over(from_deg, name, on_the_ground, along_runway, states):
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind_from(COURSE + from_deg, 25.0))
     standing = aircraft.state.pitch_rad
-    aircraft.taxi(corner(along_runway))
+    aircraft.procedures.taxi(corner(along_runway))
     for state in states(aircraft, 60):
         assert abs(state.pitch_rad - standing) < 3.0 * DEGREE
         assert abs(state.roll_rad) < 3.0 * DEGREE
@@ -129,7 +129,7 @@ def test_no_wind_tips_it_over(from_deg, name, on_the_ground, along_runway, state
 def test_it_lines_up_when_told_so(on_the_ground, along_runway, states):
     aircraft = on_the_ground("c172p", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
     lead_in = [(30.0, 80.0), (30.0, 30.0), (39.0, 9.0), (60.0, 0.0), (120.0, 0.0)]
-    aircraft.taxi([along_runway(*point) for point in lead_in], then="lined_up")
+    aircraft.procedures.taxi([along_runway(*point) for point in lead_in], then="lined_up")
     assert aircraft.phase == "line_up"
     for _ in states(aircraft, 90):
         pass
@@ -140,18 +140,18 @@ def test_it_lines_up_when_told_so(on_the_ground, along_runway, states):
 def test_what_belongs_to_the_ground_is_refused_in_the_air(in_cruise, along_runway):
     aircraft = in_cruise("c172p")
     with pytest.raises(ValueError, match="taxi in phase en_route in the air"):
-        aircraft.taxi([along_runway(0.0), along_runway(100.0)])
+        aircraft.procedures.taxi([along_runway(0.0), along_runway(100.0)])
     with pytest.raises(ValueError, match="hold_position in phase en_route; expected taxi"):
-        aircraft.hold_position()
+        aircraft.procedures.hold_position()
 
 
 def test_what_belongs_to_the_air_is_refused_on_the_ground(on_the_ground):
     aircraft = on_the_ground("c172p")
     for command in (
-        lambda: aircraft.hold_altitude(1_000.0),
-        lambda: aircraft.hold_track(0.0),
-        lambda: aircraft.turn_by(1.0),
-        lambda: aircraft.hold_speed(40.0),
+        lambda: aircraft.en_route.hold_altitude(1_000.0),
+        lambda: aircraft.en_route.hold_track(0.0),
+        lambda: aircraft.en_route.turn_by(1.0),
+        lambda: aircraft.en_route.hold_speed(40.0),
     ):
         with pytest.raises(ValueError, match="on the ground"):
             command()
@@ -160,4 +160,4 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(on_the_ground):
 
 def test_a_path_needs_places(on_the_ground):
     with pytest.raises(ValueError, match="path"):
-        on_the_ground("c172p").taxi([])
+        on_the_ground("c172p").procedures.taxi([])

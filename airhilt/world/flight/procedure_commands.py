@@ -1,0 +1,250 @@
+"""Commands to an aircraft that begin a procedure, from taxi and takeoff to landing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from airhilt.geodesy.wgs84 import Place
+from airhilt.units import KNOT
+from airhilt.world.flight.control import FlightControl
+from airhilt.world.flight.procedures.approach import Glide
+from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
+from airhilt.world.flight.procedures.en_route import EnRoute
+from airhilt.world.flight.procedures.engine_failure import DriftDown
+from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.go_around import GoAround
+from airhilt.world.flight.procedures.landing import Flare
+from airhilt.world.flight.procedures.side_step import require_side_step
+from airhilt.world.flight.procedures.takeoff import RejectedTakeoff, TakeoffRoll, require_lined_up
+from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
+from airhilt.world.flight.state import require_finite
+from airhilt.world.flight.taxi_path import TaxiPath
+from airhilt.world.surface.runway import RunwayEnd
+
+FASTEST_TAXI_M_S = 20.0
+"""Ground speed up to which a taxi or a takeoff may begin, in m/s."""
+BELOW_ALL_TERRAIN_M = -1000.0
+"""Altitude that a drift-down without a clearance descends to, in m; it levels long before."""
+
+
+class ProcedureCommands:
+    """Begins and ends the procedures of one aircraft."""
+
+    def __init__(self, control: FlightControl) -> None:
+        self._control = control
+
+    # --- on the ground ----------------------------------------------------------------------
+
+    def taxi(
+        self, path: Sequence[Place], speed_m_s: float | None = None, *, then: Stand = "standing"
+    ) -> None:
+        """Taxi along a path from here, and stand at its end.
+
+        Parameters
+        ----------
+        path
+            Places to pass, in order.
+        speed_m_s
+            Greatest speed; by default the type's taxi speed.
+        then
+            Name of standing at the end: ``lined_up`` on a runway.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is in the air or too fast, or there is no path.
+        """
+        control = self._control
+        control.require_on_ground("taxi", FASTEST_TAXI_M_S)
+        if not path:
+            raise ValueError("the path is empty; expected a place to taxi to")
+        ground, state = control.cockpit.kind.ground, control.state
+        speed = ground.taxi_speed_kt * KNOT if speed_m_s is None else speed_m_s
+        here = (state.latitude_rad, state.longitude_rad)
+        track = TaxiPath([here, *path], speed, ground.look_ahead_m)
+        called: Way = "line_up" if then == "lined_up" else "taxi"
+        control.phase = Taxi(control.cockpit, track, called, then)
+
+    def hold_position(self) -> None:
+        """Stop on the way, and stay until `resume_taxi`; where it stands already, it stays.
+
+        Raises
+        ------
+        ValueError
+            The aircraft does not taxi.
+        """
+        phase = self._control.phase
+        if isinstance(phase, Standing):
+            return
+        if not isinstance(phase, Taxi):
+            raise ValueError(f"hold_position in phase {phase.name}; expected taxi")
+        phase.hold()
+
+    def resume_taxi(self) -> None:
+        """Go on after `hold_position`.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is not holding its position on a way.
+        """
+        phase = self._control.phase
+        if not isinstance(phase, Taxi):
+            raise ValueError(f"resume_taxi in phase {phase.name}; expected a taxi that was held")
+        phase.resume()
+
+    # --- takeoff ----------------------------------------------------------------------------
+
+    def take_off(self, runway: RunwayEnd, climb_to_m: float) -> None:
+        """Take off from where the aircraft is, climb on the runway's course, and level off.
+
+        Parameters
+        ----------
+        runway
+            Runway on which the aircraft stands or taxies, in its direction.
+        climb_to_m
+            Altitude to level off at.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is in the air or not lined up, or the altitude is not finite or not above.
+        """
+        control = self._control
+        require_finite("climb_to_m", climb_to_m)
+        control.require_on_ground("take_off", FASTEST_TAXI_M_S)
+        line = Final(runway, control.cockpit.kind)
+        require_lined_up(control.state, line)
+        control.require_climb(climb_to_m)
+        control.en_route = control.climb_on(line, climb_to_m)
+        control.phase = TakeoffRoll(control.cockpit, line, control.en_route)
+
+    def reject_takeoff(self) -> None:
+        """Stop on the runway.
+
+        Raises
+        ------
+        ValueError
+            The aircraft does not roll for takeoff.
+        """
+        phase = self._control.phase
+        if not isinstance(phase, TakeoffRoll):
+            raise ValueError(f"reject_takeoff in phase {phase.name}; expected takeoff_roll")
+        self._control.phase = RejectedTakeoff(self._control.cockpit, phase.line)
+
+    # --- approach and landing ---------------------------------------------------------------
+
+    def land(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
+        """Join the final approach of a runway, land on it, and leave it.
+
+        Below the glide path the present altitude is held until the path is met.
+
+        Parameters
+        ----------
+        runway
+            Runway to land on.
+        exit_path
+            Way from the runway's centre line to where the aircraft stands at the end; without one
+            it stops on the runway.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is on the ground, or too far from the final approach to join it.
+        """
+        self._control.require_airborne("land")
+        final = Final(runway, self._control.cockpit.kind)
+        final.require_reachable(self._control.state)
+        self._approach(final, exit_path)
+
+    def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
+        """Leave the approach that is flown for that of another runway.
+
+        Parameters
+        ----------
+        runway, exit_path
+            As for `land`.
+
+        Raises
+        ------
+        ValueError
+            There is no approach, it is too late, or the other runway's approach is too far off.
+        """
+        phase = self._control.phase
+        if not isinstance(phase, Glide):
+            raise ValueError(f"side_step in phase {phase.name}; expected glide")
+        final = Final(runway, self._control.cockpit.kind)
+        require_side_step(self._control.state, final)
+        self._approach(final, exit_path)
+
+    def go_around(self, climb_to_m: float) -> None:
+        """Break off the approach: climb on the runway's course to an altitude, and level off.
+
+        Raises
+        ------
+        ValueError
+            No approach is flown, the wheels have touched, or the altitude is not finite or not
+            above.
+        """
+        control = self._control
+        require_finite("climb_to_m", climb_to_m)
+        if not isinstance(control.phase, Glide | Flare) or control.on_ground:
+            raise ValueError(f"go_around in phase {control.phase.name}; expected glide or flare")
+        control.require_climb(climb_to_m)
+        control.en_route = control.climb_on(control.phase.final, climb_to_m)
+        control.phase = GoAround(control.cockpit, control.en_route)
+
+    def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:
+        """Fly the final approach, from the present altitude."""
+        control = self._control
+        cockpit, modes = control.cockpit, control.modes
+        control.phase = Glide(cockpit, final, exit_path, control.state.altitude_m)
+        control.en_route = EnRoute(
+            cockpit,
+            final,
+            modes.altitude_at_usual_rate(final.runway.elevation_m),
+            modes.airspeed(cockpit.kind.speeds.approach_kt * KNOT),
+        )
+
+    # --- emergencies ------------------------------------------------------------------------
+
+    def drift_down(self) -> None:
+        """Descend to where the remaining engines keep the altitude at drift-down speed.
+
+        The track or the route goes on. A turn commanded meanwhile is flown; the aircraft does not
+        go below an altitude commanded meanwhile.
+
+        Raises
+        ------
+        ValueError
+            The aircraft is on the ground.
+        """
+        control = self._control
+        control.require_airborne("drift_down")
+        en_route = control.commanded()
+        control.cockpit.airframe.clean_up()
+        en_route.vertical = control.modes.steepest_descent(BELOW_ALL_TERRAIN_M)
+        drift_down_kt = control.cockpit.kind.speeds.drift_down_kt
+        en_route.speed = control.modes.airspeed(drift_down_kt * KNOT)
+        control.phase = DriftDown(control.cockpit, en_route)
+
+    def emergency_descent(self, altitude_m: float) -> None:
+        """Descend as fast as the type safely can, and level off at an altitude.
+
+        Raises
+        ------
+        ValueError
+            The altitude is not finite or not below, or the aircraft is on the ground.
+        """
+        control = self._control
+        control.require_airborne("emergency_descent")
+        require_finite("altitude_m", altitude_m)
+        if altitude_m >= control.state.altitude_m:
+            raise ValueError(
+                f"altitude_m is {altitude_m:.0f}; expected less than the altitude now, "
+                f"{control.state.altitude_m:.0f}"
+            )
+        en_route = control.commanded()
+        control.cockpit.airframe.clean_up()
+        en_route.vertical = control.modes.steepest_descent(altitude_m)
+        control.phase = EmergencyDescent(control.cockpit, en_route)
