@@ -183,6 +183,52 @@ class AdsbReport(Message):
     t_adsb_out_ns: Nanoseconds = Field(description="the receiver gave out the report")
 
 
+RadarKind = Literal["terminal", "en_route"]
+PlotKind = Literal["primary", "secondary", "combined"]
+
+
+class RadarInfo(Message):
+    """``radar/<site>/info``: what never changes about a radar, once before its plots."""
+
+    site: str
+    kind: RadarKind
+    latitude_deg: float = Field(ge=-90.0, le=90.0, description="of the antenna")
+    longitude_deg: float = Field(ge=-180.0, le=180.0, description="of the antenna")
+    altitude_m: float = Field(description="of the antenna, above WGS84 as all altitudes are")
+    rotation_s: float = Field(gt=0.0, description="time of one turn of the antenna")
+    primary_range_m: float = Field(gt=0.0, description="greatest slant range of primary plots")
+    secondary_range_m: float = Field(gt=0.0, description="greatest slant range of replies")
+
+
+class RadarPlot(Message):
+    """``radar/<site>``: one target as one turn of a surveillance radar's antenna found it.
+
+    ``t_ns`` is the end of the sector (1/32 of a turn) in which the beam passed the target. A plot
+    does not say what it is of: one aircraft's plots of two turns are connected by nothing but their
+    places and, if it has a transponder, its code. The range is a slant range, so the place on the
+    ground needs an altitude: that of Mode C, or an assumed one for a primary plot.
+    """
+
+    site: str
+    kind: PlotKind = Field(
+        description="primary: an echo of the skin; secondary: a transponder's reply; combined: "
+        "both, at the place of the reply, which is more exact"
+    )
+    t_plot_ns: Nanoseconds = Field(description="the beam passed the target")
+    range_m: float = Field(ge=0.0, description="slant range from the antenna")
+    azimuth_deg: float = Field(ge=0.0, lt=360.0, description="from true north at the antenna")
+    mode_a: str | None = Field(
+        default=None,
+        pattern=r"^[0-7]{4}$",
+        description="Mode A code (squawk), octal; null in a primary plot, or if it was not valid",
+    )
+    mode_c_ft: int | None = Field(
+        default=None,
+        description="pressure altitude in steps of 100 ft; null in a primary plot, or if it was "
+        "not valid",
+    )
+
+
 VisibleClass = Literal["airplane", "truck", "bird", "deer", "coyote"]
 """Classes of what cameras see, by the names that COCO has where it has one."""
 
@@ -675,6 +721,8 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "camera/{camera}/info": CameraInfo,
     "camera/{camera}/frame": CameraFrame,
     "adsb/{icao24}": AdsbReport,
+    "radar/{site}/info": RadarInfo,
+    "radar/{site}": RadarPlot,
     "asr/{frequency_khz}": Transcript,
     "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,

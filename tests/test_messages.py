@@ -18,6 +18,7 @@ from airhilt.messages import (
     Detection,
     Event,
     MaintainLevel,
+    RadarPlot,
     Recommendation,
     Severity,
     Transcript,
@@ -67,6 +68,15 @@ EXAMPLES = {
         "altitude_ft": 35000.0, "ground_speed_kt": 450.0, "track_deg": 359.5,
         "vertical_rate_fpm": -64.0, "nacp": 9, "nacv": 2, "receiver": "r",
         "t_adsb_in_ns": 1, "t_adsb_out_ns": 2,
+    },
+    "RadarInfo": {
+        "site": "KDCA", "kind": "terminal", "latitude_deg": 38.9, "longitude_deg": -77.0,
+        "altitude_m": 27.5, "rotation_s": 4.8, "primary_range_m": 111120.0,
+        "secondary_range_m": 222240.0,
+    },
+    "RadarPlot": {
+        "site": "KDCA", "kind": "combined", "t_plot_ns": 1, "range_m": 9000.5,
+        "azimuth_deg": 359.5, "mode_a": "1200", "mode_c_ft": -100,
     },
     "Transcript": {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "text": "climb",
@@ -211,6 +221,8 @@ def test_severities_rise_from_info_to_warning():
         (AdsbReport, "track_deg", 360.0),
         (AdsbReport, "nacp", 12),
         (AdsbReport, "latitude_deg", 90.5),
+        (RadarPlot, "mode_a", "1280"),
+        (RadarPlot, "azimuth_deg", 360.0),
         (Transcript, "confidence", 1.1),
         (Advisory, "severity", "PANIC"),
         (Advisory, "revision", -1),

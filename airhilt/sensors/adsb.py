@@ -9,11 +9,11 @@ completes it.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from airhilt.geodesy.positions import RelativePosition
-from airhilt.messages import AdsbReport, DeclaredLatency
+from airhilt.messages import AdsbReport, DeclaredLatency, Message
 from airhilt.scenario.models import (
     AdsbReceiver,
     AircraftSpec,
@@ -52,7 +52,7 @@ class AdsbType:
     """The ADS-B receivers of a scenario; they are there if any actor has a transponder."""
 
     name = "adsb"
-    messages = {"adsb/{icao24}": AdsbReport}  # noqa: RUF012
+    messages: Mapping[str, type[Message]] = {"adsb/{icao24}": AdsbReport}
 
     def create(self, context: SensorContext) -> AdsbSensor | None:
         """Return the sensor of a run; None if no actor has a transponder."""

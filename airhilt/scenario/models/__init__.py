@@ -56,6 +56,7 @@ from airhilt.scenario.models.failures import (
     StuckMicrophone,
 )
 from airhilt.scenario.models.perturbations import Normal, Perturbation, Uniform
+from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, Topology
 from airhilt.scenario.models.scenario import Scenario
 from airhilt.scenario.models.scene import AirportScene, EnRouteScene, Scene
@@ -108,6 +109,7 @@ __all__ = [
     "Perturbation",
     "PlannedAction",
     "PredictedLossOfSeparation",
+    "Radar",
     "Radio",
     "RadioLine",
     "Reactions",

@@ -77,11 +77,16 @@ class Reactions(Model):
 
 
 class Transponder(Model):
-    """ADS-B transmitter of an actor, and the accuracy categories that it reports."""
+    """Transponder of an actor: it answers radars, and it transmits ADS-B."""
 
     equipped: bool = True
-    nacp: int = Field(default=9, ge=0, le=11)
-    nacv: int = Field(default=2, ge=0, le=4)
+    nacp: int = Field(default=9, ge=0, le=11, description="ADS-B accuracy category for position")
+    nacv: int = Field(default=2, ge=0, le=4, description="ADS-B accuracy category for velocity")
+    squawk: str | None = Field(
+        default=None,
+        pattern=r"^[0-7]{4}$",
+        description="Mode A code, octal; null: a discrete code made from the icao24",
+    )
 
 
 AircraftAction = Annotated[AircraftCommand, Field(discriminator="action")]

@@ -14,6 +14,7 @@ from airhilt.scenario.models.conditions import Condition
 from airhilt.scenario.models.conflict import Conflict, Separation
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.perturbations import Perturbation
+from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio
 from airhilt.scenario.models.scene import Scene
 from airhilt.scenario.models.weather import Daylight, Weather
@@ -38,6 +39,7 @@ class Scenario(Model):
     radio: Radio = Radio()
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
+    radars: tuple[Radar, ...] = Field(default=(), max_length=20)
     sensors: dict[Identifier, dict[str, JsonValue]] = Field(
         default={}, description="settings of sensors from other packages, by the sensor's name"
     )

@@ -44,6 +44,9 @@ class VehicleKind(BaseModel):
     """Least, of the path of its middle."""
     emitter_category: Literal["C1", "C2"] = Field(default="C2")
     """DO-260B, 2.2.3.2.5.2: surface emergency or surface service vehicle."""
+    radar_cross_section_m2: PositiveFloat = 200.0
+    """Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to Radar
+    Systems, 3rd edition, table 2.2)."""
 
     def create(
         self,

@@ -97,6 +97,8 @@ class AnimalKind(BaseModel):
     flees_for_m: PositiveFloat
     flight: Flight | None = None
     """None if it does not fly."""
+    radar_cross_section_m2: PositiveFloat
+    """Radar cross section of all that move as one."""
 
     def create(
         self,

@@ -11,7 +11,9 @@ KIND = AnimalKind(
     source=(
         "Listed as hazardous to aircraft: FAA AC 150/5200-33C, table 1. 40 mph running: National "
         "Geographic, animal reference. 1.2 m long with its tail, 0.6 m high at the shoulder. "
-        "Accelerations, walking and the flight from danger are estimates."
+        "Accelerations, walking and the flight from danger are estimates. "
+        "Radar cross section: that of a person (1 square metre; M. Skolnik, Introduction to "
+        "Radar Systems, 3rd edition, table 2.2), by the 2/3 power of the mass."
     ),
     dimensions=Dimensions(length_m=1.2, span_m=0.3, height_m=0.7),
     walk_m_s=1.6,
@@ -21,4 +23,5 @@ KIND = AnimalKind(
     wander_rad=0.3,
     reaction_s=0.7,
     flees_for_m=120.0,
+    radar_cross_section_m2=0.3,
 )

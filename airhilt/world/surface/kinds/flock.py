@@ -15,7 +15,9 @@ KIND = AnimalKind(
         "European starlings have cost the most lives: FAA AC 150/5200-32B, section 4. Size of a "
         "bird: Cornell Lab of Ornithology, All About Birds. Shape of the flock, and birds about "
         "1 m apart in the air: M. Ballerini et al., Animal Behaviour 76 (2008) 201-215. Speeds, "
-        "accelerations, and 0.5 m apart on the ground are estimates."
+        "accelerations, and 0.5 m apart on the ground are estimates. "
+        "Radar cross section of a bird: that of the standard avian target (0.025 square metres,"
+        " 0.5 kg; FAA AC 150/5220-25), by the 2/3 power of the mass."
     ),
     count=COUNT,
     dimensions=flock_on_the_ground(BIRD, COUNT, spacing_m=0.5),
@@ -26,6 +28,7 @@ KIND = AnimalKind(
     wander_rad=0.25,
     reaction_s=0.5,
     flees_for_m=400.0,
+    radar_cross_section_m2=COUNT * 0.007,
     flight=Flight(
         dimensions=flock_aloft(BIRD, COUNT, spacing_m=1.0),
         speed_m_s=17.0,

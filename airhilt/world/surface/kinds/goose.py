@@ -13,7 +13,9 @@ KIND = AnimalKind(
         "Cornell Lab of Ornithology, All About Birds. 17.3 m/s is the airspeed of brent geese in "
         "autumn: M. Green and T. Alerstam, Journal of Avian Biology 31 (2000) 215-225. Geese climb "
         "less than 1 m/s for long (A. Hedenström and T. Alerstam, Journal of Experimental Biology "
-        "164 (1992) 19-38); 1.5 m/s for the short flights here, and all else, are estimates."
+        "164 (1992) 19-38); 1.5 m/s for the short flights here, and all else, are estimates. "
+        "Radar cross section: that of the standard avian target (0.025 square metres, 0.5 kg; "
+        "FAA AC 150/5220-25), by the 2/3 power of the mass."
     ),
     dimensions=Dimensions(length_m=1.0, span_m=0.4, height_m=0.9),
     walk_m_s=0.8,
@@ -23,6 +25,7 @@ KIND = AnimalKind(
     wander_rad=0.15,
     reaction_s=1.0,
     flees_for_m=300.0,
+    radar_cross_section_m2=0.1,
     flight=Flight(
         dimensions=Dimensions(length_m=1.0, span_m=1.6, height_m=0.5),
         speed_m_s=17.3,

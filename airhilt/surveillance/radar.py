@@ -1,0 +1,218 @@
+"""Surveillance radar: what an antenna that turns can see, how surely, and how exactly.
+
+A primary radar measures the echo of a skin, a monopulse secondary radar on the same antenna the
+reply of a transponder. Range is the slant range, azimuth the true bearing from the antenna.
+
+Sources
+-------
+STUDY
+    Next Generation Airport Surveillance Radar Definition Study, FAA, 1974 (DTIC ADA072691): an
+    aircraft of 1 square metre out to 40 NM, elevation angles to 30 degrees, instrumented to 60 NM.
+STANDARD
+    EUROCONTROL Standard Document for Radar Surveillance in En-Route Airspace and Major Terminal
+    Areas, SUR.ET1.ST01.1000-STD-01-01, edition 1.0, 1997: least detection and greatest random
+    errors of primary and monopulse secondary radar. Its limits are taken as the values.
+SKOLNIK
+    M. Skolnik, "Radar", Encyclopaedia Britannica, and Introduction to Radar Systems, 3rd edition,
+    table 2.2: radar cross sections; 2 square metres is the least that air traffic control asks for.
+
+Left out: systematic errors of range and north, false plots, reflections, garbled replies, weather,
+terrain, and the sensitivity that radars give up at short range against birds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from airhilt.geodesy.relative_motion import Kinematics
+from airhilt.geodesy.wgs84 import Vector, earth_centred, vertical
+from airhilt.messages import EmitterCategory, RadarKind
+from airhilt.surveillance.squitters import quantise
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+
+FALSE_ALARM_PROBABILITY = 1e-6
+"""Probability of a false alarm in one resolution cell, a usual design value (SKOLNIK)."""
+RANGE_STEP_M = NAUTICAL_MILE / 256.0
+"""Resolution of a plot's range, in m (EUROCONTROL ASTERIX category 048, item I048/040)."""
+AZIMUTH_STEP_DEG = 360.0 / 65536.0
+"""Resolution of a plot's azimuth, in degrees (EUROCONTROL ASTERIX category 048, item I048/040)."""
+MODE_C_STEP_FT = 100.0
+"""Resolution of the altitude in a Mode C reply, in ft (ICAO Annex 10, volume IV)."""
+
+AIRCRAFT_CROSS_SECTION_M2: dict[EmitterCategory, float] = {
+    "A0": 2.0,
+    "A1": 1.0,
+    "A2": 2.0,
+    "A3": 20.0,
+    "A5": 100.0,
+}
+"""Radar cross section of aircraft by emitter category, in square metres (SKOLNIK, table 2.2).
+
+A1 is a small single-engine aircraft, A2 a four-passenger jet, A3 a medium airliner, A5 a jumbo jet.
+A0, no information, is the least that radars must detect.
+"""
+
+
+class Accuracy(NamedTuple):
+    """Standard deviations of the random errors of a plot."""
+
+    range_m: float
+    azimuth_deg: float
+
+
+PRIMARY_ACCURACY = Accuracy(120.0, 0.15)
+"""Random errors of a primary radar (STANDARD)."""
+SECONDARY_ACCURACY = Accuracy(70.0, 0.08)
+"""Random errors of a monopulse secondary radar (STANDARD)."""
+MAXIMUM_ELEVATION_RAD = 30.0 * DEGREE
+"""Elevation above which a radar sees nothing, its cone of silence, in rad (STUDY)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RadarModel:
+    """Performance of one kind of radar.
+
+    Attributes
+    ----------
+    rotation_s
+        Time of one turn of the antenna.
+    minimum_range_m, primary_range_m, secondary_range_m
+        Slant ranges between which there are plots.
+    maximum_elevation_rad
+        Elevation above which there are none: the cone of silence.
+    reference_cross_section_m2, reference_range_m, reference_probability
+        Design point of the primary radar: probability of detection in one turn of such a target at
+        such a range.
+    clutter_speed_m_s
+        Radial speed below which the primary radar takes a target for the ground, where it sees the
+        ground: one Doppler filter of eight, wavelength times pulse rate over 16.
+    """
+
+    rotation_s: float
+    minimum_range_m: float
+    primary_range_m: float
+    secondary_range_m: float
+    maximum_elevation_rad: float = MAXIMUM_ELEVATION_RAD
+    reference_cross_section_m2: float
+    reference_range_m: float
+    reference_probability: float = 0.90
+    """STANDARD, primary radar."""
+    clutter_speed_m_s: float
+    primary_accuracy: Accuracy = PRIMARY_ACCURACY
+    secondary_accuracy: Accuracy = SECONDARY_ACCURACY
+    secondary_probability: float = 0.97
+    """Probability of detecting a transponder in one turn (STANDARD)."""
+    mode_a_probability: float = 0.98
+    """Probability that a detected transponder's Mode A code is valid (STANDARD)."""
+    mode_c_probability: float = 0.96
+    """Probability that a detected transponder's Mode C altitude is valid (STANDARD)."""
+
+    def detection_probability(self, cross_section_m2: float, range_m: float) -> float:
+        """Return the probability that the primary radar detects a target in one turn.
+
+        The radar equation gives the signal-to-noise ratio from that of the design point; the target
+        fluctuates from turn to turn (Swerling case 1; SKOLNIK, section 2.8), for which the
+        probability is that of a false alarm to the power of 1 / (1 + ratio).
+        """
+        false_alarm = math.log(FALSE_ALARM_PROBABILITY)
+        reference = false_alarm / math.log(self.reference_probability) - 1.0
+        size = cross_section_m2 / self.reference_cross_section_m2
+        ratio = reference * size * (self.reference_range_m / range_m) ** 4
+        return math.exp(false_alarm / (1.0 + ratio))
+
+
+RADARS: dict[RadarKind, RadarModel] = {
+    # Rotation and ranges: FAA, ASR-11 (12.5 turns a minute; primary 60 NM, secondary 120 NM).
+    # 0.107 m at 1200 pulses a second.
+    "terminal": RadarModel(
+        rotation_s=4.8,
+        minimum_range_m=0.5 * NAUTICAL_MILE,
+        primary_range_m=60.0 * NAUTICAL_MILE,
+        secondary_range_m=120.0 * NAUTICAL_MILE,
+        reference_cross_section_m2=1.0,
+        reference_range_m=40.0 * NAUTICAL_MILE,
+        clutter_speed_m_s=8.0,
+    ),
+    # Rotation and ranges: FAA, ARSR-4 (5 turns a minute, 5 to 250 NM). 0.23 m at 340 pulses a
+    # second, as ARSR-3 (radartutorial.eu). The design point is the least target of SKOLNIK at the
+    # 200 NM that long-range radars reach at least.
+    "en_route": RadarModel(
+        rotation_s=12.0,
+        minimum_range_m=5.0 * NAUTICAL_MILE,
+        primary_range_m=250.0 * NAUTICAL_MILE,
+        secondary_range_m=250.0 * NAUTICAL_MILE,
+        reference_cross_section_m2=2.0,
+        reference_range_m=200.0 * NAUTICAL_MILE,
+        clutter_speed_m_s=5.0,
+    ),
+}
+"""Performance of each kind of radar."""
+
+
+class LineOfSight(NamedTuple):
+    """Direction and distance of a target from an antenna."""
+
+    range_m: float
+    """Slant range."""
+    azimuth_rad: float
+    """True azimuth, in [0, 2 pi)."""
+    elevation_rad: float
+    """Elevation above the antenna's horizontal plane, without refraction."""
+
+    @property
+    def horizontal_m(self) -> float:
+        """Distance in the antenna's horizontal plane."""
+        return self.range_m * math.cos(self.elevation_rad)
+
+
+class Antenna:
+    """The place of a radar's antenna, and the directions seen from it."""
+
+    def __init__(self, latitude_rad: float, longitude_rad: float, altitude_m: float) -> None:
+        self.latitude_rad = latitude_rad
+        self.longitude_rad = longitude_rad
+        self.altitude_m = altitude_m
+        self._place = _place(latitude_rad, longitude_rad, altitude_m)
+        sin_lat, cos_lat = math.sin(latitude_rad), math.cos(latitude_rad)
+        sin_lon, cos_lon = math.sin(longitude_rad), math.cos(longitude_rad)
+        self._east = (-sin_lon, cos_lon, 0.0)
+        self._north = (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
+        self._up = vertical((latitude_rad, longitude_rad))
+
+    def to(self, target: Kinematics) -> LineOfSight:
+        """Return the line of sight to a target."""
+        x, y, z = _place(target.latitude_rad, target.longitude_rad, target.altitude_m)
+        line = (x - self._place[0], y - self._place[1], z - self._place[2])
+        east, north, up = (_dot(line, axis) for axis in (self._east, self._north, self._up))
+        return LineOfSight(
+            math.hypot(east, north, up),
+            math.atan2(east, north) % math.tau,
+            math.atan2(up, math.hypot(east, north)),
+        )
+
+
+def _place(latitude_rad: float, longitude_rad: float, altitude_m: float) -> Vector:
+    place = (latitude_rad, longitude_rad)
+    x, y, z = earth_centred(place)
+    up_x, up_y, up_z = vertical(place)
+    return x + altitude_m * up_x, y + altitude_m * up_y, z + altitude_m * up_z
+
+
+def _dot(one: Vector, other: Vector) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+def mode_c_ft(altitude_m: float) -> int:
+    """Return the pressure altitude as a Mode C reply has it, in ft."""
+    return round(quantise(altitude_m / FOOT, MODE_C_STEP_FT))
+
+
+def discrete_code(icao24: str) -> str:
+    """Return a Mode A code for an aircraft to which the scenario gives none.
+
+    It is a discrete code (not ending in 00) below 7000, so none of those with a meaning.
+    """
+    number = int(icao24, 16)
+    return f"{0o10 + number % 48:02o}{1 + number // 48 % 63:02o}"

@@ -1,0 +1,335 @@
+"""Surveillance radar in a run: when the beam passes, what is detected, and how exactly."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter
+
+from airhilt import load
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import run
+from airhilt.geodesy.positions import Position
+from airhilt.messages import RadarInfo, RadarPlot
+from airhilt.options import Options
+from airhilt.record import read_log
+from airhilt.scenario import Scenario
+from airhilt.sensors.base import SensorContext
+from airhilt.sensors.radar import SENSOR
+from airhilt.shapes.sizes import Dimensions
+from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.surveillance.radar import RADARS, Antenna
+from airhilt.units import DEGREE, FOOT, SECOND_NS
+from airhilt.world.mover import SurfaceState, carried_on
+from airhilt.world.site import ScenarioSite
+
+CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
+TURN_S = {"terminal": 4.8, "en_route": 12.0}
+TICK_NS = SECOND_NS // 20
+
+
+@dataclass
+class Body:
+    """All that a radar reads of what moves."""
+
+    state: SurfaceState
+    ended: str | None = None
+    on_ground: bool = False
+    dimensions: Dimensions = field(default=Dimensions(length_m=39.5, span_m=34.0, height_m=12.5))
+
+
+@dataclass
+class Acting:
+    """All that a radar reads of an actor."""
+
+    spec: Any
+    body: Body
+    emitter_category: str = "A3"
+
+
+def state(
+    site: ScenarioSite,
+    bearing_deg: float,
+    distance_nm: float,
+    altitude_ft: float,
+    speed_m_s: float = 230.0,
+    track_deg: float = 0.0,
+) -> SurfaceState:
+    position = {"type": "from_centre", "bearing_deg": bearing_deg, "distance_nm": distance_nm}
+    latitude, longitude = site.place(TypeAdapter(Position).validate_python(position))
+    altitude_m = altitude_ft * FOOT
+    return SurfaceState(
+        latitude, longitude, altitude_m, altitude_m - site.ground_m,
+        speed_m_s * math.cos(track_deg * DEGREE), speed_m_s * math.sin(track_deg * DEGREE), 0.0,
+        track_deg * DEGREE,
+    )  # fmt: skip
+
+
+class Watch:
+    """A radar with targets that fly straight on."""
+
+    def __init__(self, kind: str = "terminal", seed: int = 1, count: int = 2, **radar: Any) -> None:
+        document = load("s02a_headon").model_dump(mode="json")
+        document |= {
+            "actors": document["actors"][:count], "conflict": None, "end_when": [],
+            "perturbations": [], "radio": {}, "cameras": [],
+            "radars": [{"name": "R1", "kind": kind, "position": CENTRE} | radar],
+        }  # fmt: skip
+        self.scenario = Scenario.model_validate(document)
+        self.site = ScenarioSite.of(self.scenario)
+        self.director = Director(Virtual())
+        self.seed = seed
+        self.actors: dict[str, Acting] = {}
+        self.info: list[RadarInfo] = []
+        self.plots: list[RadarPlot] = []
+        self.keys: set[str] = set()
+        self.ticked_ns = 0
+
+    def add(self, *where: float, index: int = 0, equipped: bool = True, **rest: Any) -> Acting:
+        spec = self.scenario.actors[index]
+        spec = spec.model_copy(
+            update={"transponder": spec.transponder.model_copy(update={"equipped": equipped})}
+        )
+        body = {key: rest.pop(key) for key in ("on_ground", "dimensions") if key in rest}
+        category = rest.pop("category", "A3")
+        acting = Acting(spec, Body(state(self.site, *where, **rest), **body), category)
+        self.actors[spec.callsign] = acting
+        return acting
+
+    def publish(self, key: str, message: Any, *, raw: bytes | None = None) -> None:
+        assert raw is None
+        self.keys.add(key)
+        (self.info if isinstance(message, RadarInfo) else self.plots).append(message)
+
+    def go(self, seconds: float) -> Watch:
+        context = SensorContext(
+            director=self.director,
+            scenario=self.scenario,
+            site=self.site,
+            actors=self.actors,  # type: ignore[arg-type]
+            latency=parse_latency("fixed"),
+            seed=self.seed,
+            state_at_ns=lambda: self.ticked_ns,
+            publish=self.publish,
+            step_done=lambda _: None,
+        )
+        sensor = SENSOR.create(context)
+        assert sensor is not None
+        sensor.start()
+        self.director.every(TICK_NS, self.tick, Priority.PHYSICS, first_ns=TICK_NS)
+        self.director.at(round(seconds * SECOND_NS), self.director.stop, Priority.OBSERVE)
+        self.director.run()
+        return self
+
+    def tick(self) -> None:
+        for acting in self.actors.values():
+            acting.body.state = carried_on(acting.body.state, 0.05)
+        self.ticked_ns = self.director.now_ns
+
+    def antenna(self) -> Antenna:
+        info = self.info[0]
+        return Antenna(info.latitude_deg * DEGREE, info.longitude_deg * DEGREE, info.altitude_m)
+
+
+def turn(degrees: float) -> float:
+    return (degrees + 180.0) % 360.0 - 180.0
+
+
+@pytest.mark.parametrize("kind", ["terminal", "en_route"])
+def test_a_target_is_plotted_once_a_turn(kind: str) -> None:
+    watch = Watch(kind)
+    watch.add(40.0, 50.0, 35_000.0, speed_m_s=0.001)
+    watch.go(50 * TURN_S[kind])
+    times = [plot.t_plot_ns / SECOND_NS for plot in watch.plots]
+    turns = [(b - a) / TURN_S[kind] for a, b in itertools.pairwise(times)]
+    assert len(times) > 45
+    assert all(each == pytest.approx(round(each), abs=1e-6) for each in turns)
+    assert watch.keys == {"radar/R1", "radar/R1/info"}
+
+
+def test_the_beam_passes_targets_in_the_order_of_their_azimuths() -> None:
+    watch = Watch()
+    for index, bearing in enumerate((10.0, 100.0)):
+        watch.add(bearing, 30.0, 20_000.0, index=index, speed_m_s=0.001)
+    watch.go(60.0)
+    passed = sorted((plot.t_plot_ns, plot.azimuth_deg) for plot in watch.plots)
+    for (early_ns, early_deg), (late_ns, late_deg) in itertools.pairwise(passed):
+        elapsed = (late_ns - early_ns) / SECOND_NS / 4.8
+        turned = (elapsed - (late_deg - early_deg) / 360.0) % 1.0
+        assert min(turned, 1.0 - turned) < 0.01
+    published = [plot.t_ns for plot in watch.plots]
+    assert published == sorted(published)
+    for plot in watch.plots:
+        assert 0 <= plot.t_ns - plot.t_plot_ns <= 150_000_000
+
+
+def test_a_moving_target_is_measured_at_the_instant_at_which_the_beam_passes() -> None:
+    watch = Watch()
+    acting = watch.add(90.0, 30.0, 30_000.0, speed_m_s=250.0, track_deg=350.0)
+    start = acting.body.state
+    watch.go(300.0)
+    antenna = watch.antenna()
+    errors_m, errors_deg = [], []
+    for plot in watch.plots:
+        truth = antenna.to(carried_on(start, plot.t_plot_ns / SECOND_NS))
+        errors_m.append(plot.range_m - truth.range_m)
+        errors_deg.append(turn(plot.azimuth_deg - truth.azimuth_rad / DEGREE))
+    # carried_on follows one step here and thousands of steps in the run, so allow for 100 m.
+    assert abs(np.mean(errors_m)) < 100.0
+    assert abs(np.mean(errors_deg)) < 0.1
+
+
+@pytest.mark.parametrize(
+    ("equipped", "range_m", "azimuth_deg"), [(True, 70.0, 0.08), (False, 120.0, 0.15)]
+)
+def test_errors_have_the_declared_size(equipped: bool, range_m: float, azimuth_deg: float) -> None:
+    watch = Watch()
+    acting = watch.add(200.0, 25.0, 25_000.0, speed_m_s=0.0, equipped=equipped)
+    watch.go(4.8 * 1200)
+    truth = watch.antenna().to(acting.body.state)
+    errors_m = [plot.range_m - truth.range_m for plot in watch.plots]
+    errors_deg = [turn(plot.azimuth_deg - truth.azimuth_rad / DEGREE) for plot in watch.plots]
+    assert np.std(errors_m) == pytest.approx(range_m, rel=0.1)
+    assert np.std(errors_deg) == pytest.approx(azimuth_deg, rel=0.1)
+    assert abs(np.mean(errors_m)) < 0.15 * range_m
+    assert abs(np.mean(errors_deg)) < 0.15 * azimuth_deg
+
+
+def test_detection_converges_to_its_probability() -> None:
+    watch = Watch()
+    acting = watch.add(300.0, 55.0, 25_000.0, speed_m_s=0.0, equipped=False, category="A1")
+    turns = 1500
+    watch.go(4.8 * turns)
+    range_m = watch.antenna().to(acting.body.state).range_m
+    expected = RADARS["terminal"].detection_probability(1.0, range_m)
+    assert 0.5 < expected < 0.9
+    assert len(watch.plots) / turns == pytest.approx(expected, abs=0.04)
+
+
+def test_replies_are_as_probable_as_declared() -> None:
+    watch = Watch()
+    watch.add(300.0, 100.0, 35_000.0, speed_m_s=0.0)  # Beyond the primary radar.
+    turns = 1500
+    plots = watch.go(4.8 * turns).plots
+    assert {plot.kind for plot in plots} == {"secondary"}
+    assert len(plots) / turns == pytest.approx(0.97, abs=0.02)
+    for name, probability in (("mode_a", 0.98), ("mode_c_ft", 0.96)):
+        valid = [plot for plot in plots if getattr(plot, name) is not None]
+        assert len(valid) / len(plots) == pytest.approx(probability, abs=0.02)
+
+
+def test_an_aircraft_without_a_transponder_is_a_primary_plot_without_code_and_altitude() -> None:
+    watch = Watch()
+    watch.add(120.0, 20.0, 10_000.0, equipped=False)
+    plots = watch.go(60.0).plots
+    assert plots
+    assert all((p.kind, p.mode_a, p.mode_c_ft) == ("primary", None, None) for p in plots)
+
+
+def test_an_aircraft_with_a_transponder_is_known_by_its_code_and_level() -> None:
+    watch = Watch()
+    watch.add(120.0, 20.0, 10_040.0)
+    plots = watch.go(120.0).plots
+    assert {plot.mode_c_ft for plot in plots} <= {None, 10_000}
+    assert len({plot.mode_a for plot in plots} - {None}) == 1
+    assert "combined" in {plot.kind for plot in plots}
+
+
+@pytest.mark.parametrize(
+    ("where", "why"),
+    [
+        ((90.0, 50.0, 500.0), "below the horizon"),
+        ((90.0, 2.0, 20_000.0), "in the cone of silence"),
+        ((90.0, 0.3, 200.0), "nearer than the least range"),
+        ((90.0, 130.0, 40_000.0), "beyond the range"),
+    ],
+)
+def test_what_the_radar_cannot_see_is_not_plotted(
+    where: tuple[float, float, float], why: str
+) -> None:
+    watch = Watch()
+    watch.add(*where, speed_m_s=12.0)
+    assert watch.go(30.0).plots == [], why
+
+
+def test_what_stands_on_the_ground_is_taken_for_ground() -> None:
+    still, moving = Watch(), Watch()
+    still.add(0.0, 1.5, 0.0, speed_m_s=0.0, on_ground=True)
+    moving.add(0.0, 1.5, 0.0, speed_m_s=60.0, on_ground=True)
+    assert still.go(60.0).plots == []
+    assert {plot.kind for plot in moving.go(60.0).plots} == {"primary"}  # It does not reply there.
+
+
+def test_what_crosses_the_line_of_sight_near_the_radar_is_taken_for_ground_by_primary() -> None:
+    watch = Watch()
+    watch.add(90.0, 8.0, 5_000.0, speed_m_s=3.0, track_deg=0.0)
+    assert {plot.kind for plot in watch.go(60.0).plots} == {"secondary"}
+
+
+def test_one_target_more_changes_nothing_in_the_plots_of_another() -> None:
+    alone, together = Watch(), Watch()
+    alone.add(90.0, 30.0, 30_000.0)
+    together.add(90.0, 30.0, 30_000.0)
+    together.add(270.0, 30.0, 30_000.0, index=1)
+    plots = alone.go(60.0).plots
+    assert plots
+    assert plots == [plot for plot in together.go(60.0).plots if plot.azimuth_deg < 180.0]
+
+
+def test_another_seed_draws_other_plots() -> None:
+    first, again, other = (Watch(seed=seed) for seed in (1, 1, 2))
+    for watch in (first, again, other):
+        watch.add(90.0, 30.0, 30_000.0)
+        watch.go(30.0)
+    assert first.plots == again.plots
+    assert first.plots != other.plots
+
+
+# --- in a run -------------------------------------------------------------------------------
+
+
+def radar_messages(folder: Path) -> list[RadarPlot]:
+    log = read_log(folder / "log.mcap")
+    return [RadarPlot.model_validate_json(m.data) for m in log if m.key == "radar/R1"]
+
+
+@pytest.fixture(scope="module")
+def intruder_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Forty seconds of an intruder without a transponder, watched by a terminal radar."""
+    document = load("s02c_intruder_crossing").model_dump(mode="json") | {"duration_s": 40.0}
+    document["cameras"] = []
+    document["radars"] = [
+        {
+            "name": "R1",
+            "position": {"type": "from_centre", "bearing_deg": 270.0, "distance_nm": 30.0},
+        }
+    ]
+    folder = tmp_path_factory.mktemp("intruder") / "run"
+    options = Options(out=folder, latency="fixed", speech=False, cameras=False)
+    run(Scenario.model_validate(document), options)
+    return folder
+
+
+def test_the_intruder_of_s02c_is_seen_as_primary_only(intruder_run: Path) -> None:
+    plots = radar_messages(intruder_run)
+    squawking = [plot for plot in plots if plot.kind != "primary"]
+    scenario = load("s02c_intruder_crossing")
+    equipped = [actor for actor in scenario.actors if actor.transponder.equipped]  # type: ignore[union-attr]
+    assert len({plot.mode_a for plot in squawking} - {None}) == len(equipped) < len(scenario.actors)
+    assert len([plot for plot in plots if plot.kind == "primary"]) >= 4
+
+
+def test_a_replay_gives_the_same_plots(intruder_run: Path) -> None:
+    assert replay(intruder_run).identical
+
+
+def test_there_is_no_radar_unless_it_is_asked_for(encounter: Scenario, tmp_path: Path) -> None:
+    short = encounter.model_copy(update={"duration_s": 6.0})
+    run(short, Options(out=tmp_path / "run", latency="fixed", speech=False))
+    assert not [m for m in read_log(tmp_path / "run" / "log.mcap") if m.key.startswith("radar/")]

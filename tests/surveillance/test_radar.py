@@ -1,0 +1,80 @@
+"""Radar: geometry of lines of sight, probability of detection, codes and altitudes of replies."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from geographiclib.geodesic import Geodesic
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt.surveillance.radar import RADARS, Antenna, discrete_code, mode_c_ft
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+from airhilt.world.site import FixedSite
+
+ANTENNA = Antenna(38.85 * DEGREE, -77.04 * DEGREE, 30.0)
+
+
+def at(bearing_deg: float, distance_m: float, altitude_m: float) -> FixedSite:
+    line = Geodesic.WGS84.Direct(38.85, -77.04, bearing_deg, distance_m)
+    return FixedSite(line["lat2"] * DEGREE, line["lon2"] * DEGREE, altitude_m)
+
+
+@given(st.floats(0.0, 359.9), st.floats(1_000.0, 400_000.0), st.floats(0.0, 15_000.0))
+def test_azimuth_is_that_of_the_geodesic(bearing: float, distance: float, altitude: float) -> None:
+    seen = ANTENNA.to(at(bearing, distance, altitude))
+    away = abs(seen.azimuth_rad / DEGREE - bearing) % 360.0
+    assert min(away, 360.0 - away) < 0.01
+
+
+@given(st.floats(0.0, 359.9), st.floats(1_000.0, 50_000.0), st.floats(0.0, 15_000.0))
+def test_range_is_the_straight_line(bearing: float, distance: float, altitude: float) -> None:
+    seen = ANTENNA.to(at(bearing, distance, altitude))
+    # Over this distance the Earth's curvature and the height change the chord by less than 0.4 %.
+    assert seen.range_m == pytest.approx(math.hypot(distance, altitude - 30.0), rel=4e-3)
+
+
+def test_the_round_earth_takes_a_far_target_below_the_horizontal_plane() -> None:
+    assert ANTENNA.to(at(90.0, 100_000.0, 30.0)).elevation_rad < 0.0
+    assert ANTENNA.to(at(90.0, 1.0, 10_000.0)).elevation_rad == pytest.approx(math.pi / 2, abs=1e-3)
+
+
+def test_the_design_point_is_met() -> None:
+    terminal, en_route = RADARS["terminal"], RADARS["en_route"]
+    assert terminal.detection_probability(1.0, 40.0 * NAUTICAL_MILE) == pytest.approx(0.90)
+    assert en_route.detection_probability(2.0, 200.0 * NAUTICAL_MILE) == pytest.approx(0.90)
+
+
+@given(st.sampled_from(sorted(RADARS)), st.floats(0.001, 1000.0), st.floats(1.0, 300.0))
+def test_larger_and_nearer_targets_are_detected_more_surely(
+    kind: str, cross_section: float, range_nm: float
+) -> None:
+    radar = RADARS[kind]  # type: ignore[index]
+    range_m = range_nm * NAUTICAL_MILE
+    probability = radar.detection_probability(cross_section, range_m)
+    assert 0.0 <= probability <= 1.0
+    assert radar.detection_probability(2.0 * cross_section, range_m) >= probability
+    assert radar.detection_probability(cross_section, 0.5 * range_m) >= probability
+    # Sixteen times the size at twice the range: the radar equation.
+    assert radar.detection_probability(16.0 * cross_section, 2.0 * range_m) == pytest.approx(
+        probability, rel=1e-9, abs=1e-12
+    )
+
+
+def test_mode_c_is_in_steps_of_100_ft() -> None:
+    assert mode_c_ft(10_668.0) == 35_000
+    assert mode_c_ft(10_049.0 * FOOT) == 10_000
+    assert mode_c_ft(10_051.0 * FOOT) == 10_100
+    assert mode_c_ft(-120.0 * FOOT) == -100
+
+
+@given(st.integers(0, 0xFFFFFF))
+def test_a_code_made_from_an_address_is_discrete_and_has_no_meaning_of_its_own(
+    number: int,
+) -> None:
+    code = discrete_code(f"{number:06x}")
+    assert len(code) == 4
+    assert set(code) <= set("01234567")
+    assert not code.endswith("00")
+    assert code not in {"1200", "7500", "7600", "7700", "2000", "7000"}
