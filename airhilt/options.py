@@ -9,7 +9,7 @@ from pathlib import Path
 from airhilt.assistant.reference import ASR, DETECTOR, TTS, AssistantName
 from airhilt.record import Loss
 from airhilt.scenario.models import Topology
-from airhilt.sensors.cameras import RENDERER, RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.radio.backend import RadioBackend
 from airhilt.sim import LatencySpec
 from airhilt.workers.pool import Participant
@@ -45,7 +45,8 @@ class Options:
     """Engine, as in the command line."""
     tts: str = TTS
     """Engine, as in the command line."""
-    renderer: RendererName = RENDERER
+    renderer: str = AUTO
+    """Name of what draws the pictures of cameras."""
     detector: str = DETECTOR
     """Engine, as in the command line."""
     video: bool = False

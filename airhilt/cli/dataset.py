@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.render import renderer_option
 from airhilt.errors import AirhiltError
-from airhilt.sensors.cameras import RENDERER, RENDERERS, RendererName
 
 
 @click.group()
@@ -49,7 +49,7 @@ Examples:
     show_default=True,
     help="Part of random pictures with nobody in them.",
 )
-@click.option("--renderer", type=click.Choice(RENDERERS), default=RENDERER, show_default=True)
+@renderer_option
 @click.option("--width", type=int, metavar="PIXELS", help="[default: 640, or the scenario's]")
 @click.option("--height", type=int, metavar="PIXELS", help="[default: 360, or the scenario's]")
 def export(
@@ -59,7 +59,7 @@ def export(
     airports: tuple[str, ...],
     scenario: str | None,
     empty: float,
-    renderer: RendererName,
+    renderer: str,
     width: int | None,
     height: int | None,
 ) -> None:

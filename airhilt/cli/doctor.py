@@ -13,7 +13,6 @@ from airhilt import library
 from airhilt._version import __version__
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
-from airhilt.sensors.cameras import RENDERERS, RendererName
 
 NEEDED = (
     "jsbsim",
@@ -31,9 +30,11 @@ NEEDED = (
     "espeakng-loader",
     "jiwer",
     "httpx",
+    "pillow",
 )
+EMBREE = "embree"
+"""Renderer of a plain install."""
 OPTIONAL = {
-    "pillow": "vision",
     "av": "video",
     "resvg-py": "plot",
 }
@@ -69,7 +70,7 @@ def examine() -> list[Finding]:
         *[_library(kind) for kind in ("aircraft", "scenarios")],
         _jsbsim_models(),
         *_engines(),
-        *[_renderer(name) for name in RENDERERS],
+        *_renderers(),
     ]
     return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
 
@@ -119,16 +120,23 @@ def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
     return Finding(title, f"({installed}{engine.summary})", needed)
 
 
-def _renderer(name: RendererName) -> Finding:
-    """Let a renderer of camera pictures draw something."""
+def _renderers() -> list[Finding]:
+    """Let each renderer of camera pictures draw something; the one of a plain install first."""
+    from airhilt.sensors.cameras.renderers import renderer_names
+
+    others = [name for name in renderer_names() if name != EMBREE]
+    return [_renderer(EMBREE, needed=True), *[_renderer(name, needed=False) for name in others]]
+
+
+def _renderer(name: str, *, needed: bool) -> Finding:
     from airhilt.errors import RendererError
     from airhilt.sensors.cameras.renderer_process import probe
 
     try:
         probe(name)
     except RendererError as error:
-        return Finding(f"renderer {name}", "", needed=False, remedy=str(error))
-    return Finding(f"renderer {name}", "(draws)", needed=False)
+        return Finding(f"renderer {name}", "", needed=needed, remedy=str(error))
+    return Finding(f"renderer {name}", "(draws)", needed=needed)
 
 
 def _library(kind: str) -> Finding:

@@ -15,9 +15,8 @@ from click.core import ParameterSource
 from airhilt._version import __version__
 from airhilt.cli.airport import airport
 from airhilt.cli.dataset import dataset
-from airhilt.cli.render import render
+from airhilt.cli.render import render, renderer_option
 from airhilt.errors import AirhiltError, ScenarioError
-from airhilt.sensors.cameras import RENDERER, RENDERERS
 
 
 class _Finite(click.FloatRange):
@@ -129,13 +128,7 @@ Examples:
     help="Wall time after which an attached worker that does not answer is lost.",
 )
 @click.option("--no-cameras", is_flag=True, help="Leave cameras and vision out.")
-@click.option(
-    "--renderer",
-    type=click.Choice(RENDERERS),
-    default=RENDERER,
-    show_default=True,
-    help="What draws the pictures of cameras.",
-)
+@renderer_option
 @click.option(
     "--detector",
     default="embedded",

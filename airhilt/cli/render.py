@@ -8,7 +8,16 @@ from pathlib import Path
 import click
 
 from airhilt.errors import CameraError
-from airhilt.sensors.cameras import RENDERER, RENDERERS, RendererName
+from airhilt.sensors.cameras import AUTO
+
+renderer_option = click.option(
+    "--renderer",
+    default=AUTO,
+    show_default=True,
+    metavar="NAME",
+    help="What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
+    "open3d, moderngl, or a renderer of another package.",
+)
 
 
 @click.command(
@@ -22,7 +31,7 @@ Examples:
 @click.option("--camera", required=True, help="One of the scenario or of its airport.")
 @click.option("--at", "at_s", type=float, default=0.0, show_default=True, metavar="SECONDS")
 @click.option("--seed", type=int, default=0, show_default=True)
-@click.option("--renderer", type=click.Choice(RENDERERS), default=RENDERER, show_default=True)
+@renderer_option
 @click.option("--boxes", is_flag=True, help="Draw what is really there.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE")
 def render(
@@ -30,7 +39,7 @@ def render(
     camera: str,
     at_s: float,
     seed: int,
-    renderer: RendererName,
+    renderer: str,
     boxes: bool,
     out: Path | None,
 ) -> None:

@@ -15,10 +15,10 @@ from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.metrics.collector import pair_of
-from airhilt.record.pictures import KeyPictures, require_pillow
+from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director
 
 if TYPE_CHECKING:
@@ -66,6 +66,11 @@ class Vision:
         self._notice = notice
         self._sensor: CameraSensor | None = None
         self._recorders: list[Recorder] = []
+
+    @property
+    def renderer(self) -> str:
+        """Name of the renderer that draws; empty if no pictures are drawn."""
+        return "" if self._studio is None else self._studio.renderer
 
     @property
     def state(self) -> tuple[ModalityState, str]:
@@ -149,8 +154,8 @@ def open_vision(
 
     Raises
     ------
-    CameraError
-        A camera could see nothing.
+    AirhiltError
+        There is no such renderer, or a camera could see nothing.
     RendererError
         Nothing can be drawn here of what was drawn when the run was recorded.
     RunStopped
@@ -158,6 +163,10 @@ def open_vision(
     """
     options, recorded = setup.options, setup.recorded
     studio, unavailable_reason = None, recorded.unavailable_reason
+    if options.cameras and options.renderer != AUTO and recorded.latency is None:
+        from airhilt.sensors.cameras.renderers import require_known
+
+        require_known(options.renderer)
     with ExitStack() as stack:
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
@@ -181,11 +190,10 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _open_renderer_process(scenario: Scenario, renderer: RendererName) -> RendererProcess:
+def _open_renderer_process(scenario: Scenario, renderer: str) -> RendererProcess:
     # Not at the top: a run without cameras starts without the libraries behind them.
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
-    require_pillow()  # A run with pictures keeps some.
     return RendererProcess(scenario, renderer=renderer)
 
 

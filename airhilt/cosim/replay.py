@@ -32,7 +32,7 @@ from airhilt.record.audio import recorded_pcm
 from airhilt.record.folder import RunOptions, sha256, versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RENDERER, RENDERERS, RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.radio.backend import Reception
 from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.services import is_service
@@ -105,7 +105,7 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             topology=info.options.topology,
             asr=info.options.asr,
             tts=info.options.tts,
-            renderer=_renderer(info.options.renderer),
+            renderer=info.renderer or info.options.renderer or AUTO,
             detector=info.options.detector or DETECTOR,
             run_name=info.run,
         )
@@ -168,11 +168,6 @@ def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
         for worker in info.workers
         if worker.where == "attached" or is_service(engines.get(worker.description.modality, ""))
     ]
-
-
-def _renderer(name: str) -> RendererName:
-    """Return the renderer of a run; one from before there were any has none."""
-    return next((known for known in RENDERERS if known == name), RENDERER)
 
 
 def _unavailable_reason(log: Sequence[Logged]) -> str:

@@ -65,7 +65,7 @@ class Setup:
     lines: Sequence[EffectiveLine]
     ends_ns: Mapping[str, int]
 
-    def info(self, participants: Participants, pace: Pace, endpoint: str) -> RunInfo:
+    def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it begins."""
         options = self.options
         return RunInfo(
@@ -101,6 +101,7 @@ class Setup:
             started_at=datetime.now(UTC).isoformat(timespec="seconds"),
             versions=versions(),
             platform=machine(),
+            renderer=renderer,
             models=models_of(self.scenario.radio) if options.speech else {},
         )
 

@@ -132,7 +132,7 @@ def run(
             pace = RealTime()
         vision = stack.enter_context(open_vision(setup, participants, observer.notice))
         setup.folder.create(options.overwrite)
-        info = setup.info(participants, pace, bus.endpoint)
+        info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)
         simulation = Simulation(setup, participants, pace, vision, bus, observer)
         with interruptible(simulation.interrupt):

@@ -32,6 +32,7 @@ RECORDED_VERSIONS = (
     "zstandard",
 )
 OF_EXTRAS = (
+    "embreex",
     "open3d-cpu",
     "open3d",
     "moderngl",
@@ -91,6 +92,8 @@ class RunInfo(BaseModel):
     versions: dict[str, str]
     platform: dict[str, str]
     hashes: dict[str, str] = {}
+    renderer: str = ""
+    """Renderer that drew, where the options ask for ``auto``; empty if no pictures were drawn."""
     models: dict[str, str] = {}
     """SHA-256 of each file of the user that decides what is heard, by its path."""
 

@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
-from airhilt.errors import RendererError, disk_failed
+from airhilt.errors import disk_failed
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import (
@@ -133,17 +133,11 @@ class KeyPictures:
         The pair of the conflict, or everybody.
     closest_ns
         Returns when the pair was nearest up to now; None if there is no pair.
-
-    Raises
-    ------
-    RendererError
-        As `require_pillow`.
     """
 
     def __init__(
         self, folder: Path, *, actors: Collection[str], closest_ns: Callable[[], int | None]
     ) -> None:
-        require_pillow()
         self._folder = folder
         self._actors = frozenset(actors)
         self._closest_ns = closest_ns
@@ -253,20 +247,3 @@ class KeyPictures:
             with suppress(OSError):
                 path.unlink()
             raise disk_failed(str(path), error) from None
-
-
-def require_pillow() -> None:
-    """Check that Pillow is there, without which no picture can be written.
-
-    Raises
-    ------
-    RendererError
-        It is not.
-    """
-    try:
-        import PIL  # noqa: F401
-    except ImportError:
-        raise RendererError(
-            "pictures of cameras need Pillow, which is not installed: pip install "
-            "'airhilt[vision]', or leave cameras out with --no-cameras"
-        ) from None

@@ -25,7 +25,7 @@ from airhilt.messages import (
     Status,
 )
 from airhilt.record.overlay import Overlay
-from airhilt.record.pictures import Picture, Waiting, require_pillow
+from airhilt.record.pictures import Picture, Waiting
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:
@@ -50,10 +50,7 @@ def require_video() -> None:
     ------
     VideoError
         PyAV or an H.264 encoder is not installed.
-    RendererError
-        Pillow is not.
     """
-    require_pillow()
     _encoder()
 
 

@@ -147,7 +147,7 @@ def test_a_run_looks_with_a_detector_of_another_package(
 
 @pytest.mark.usefixtures("added")
 def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor.RENDERERS", ())
+    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
     found = {one.name: one for one in examine()}
     assert found["recogniser embedded"].needed
     assert found["recogniser parrot"].found == "(hears the same in everything)"
@@ -157,7 +157,7 @@ def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatc
 
 
 def test_doctor_says_what_an_engine_lacks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor.RENDERERS", ())
+    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
     with (
         installed(tmp_path, monkeypatch, "airhilt.asr", "late", UNUSABLE),
         installed(tmp_path, monkeypatch, "airhilt.asr", "broken", BROKEN),

@@ -23,7 +23,6 @@ from airhilt.units import SECOND_NS
 from camera_run import camera_run, passing
 from oracle import BlankSceneRenderer
 
-pytest.importorskip("PIL")
 FULL = Path("/dev/full")
 
 

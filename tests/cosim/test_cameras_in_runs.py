@@ -6,7 +6,6 @@ import dataclasses
 import json
 import os
 import signal
-import sys
 from pathlib import Path
 
 import pytest
@@ -20,11 +19,9 @@ from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
 from airhilt.record import Logged, read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
 from airhilt.units import SECOND_NS
 
-pytest.importorskip("moderngl")
-SEEN = Options(renderer="moderngl", speech=False, latency="fixed")
+SEEN = Options(renderer="embree", speech=False, latency="fixed")
 
 
 @pytest.fixture
@@ -101,7 +98,6 @@ def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
     short: Scenario, tmp_path: Path
 ) -> None:
     """A replay draws all pictures again, and each header vouches for its pixels."""
-    pytest.importorskip("open3d")
     glance = short.model_copy(update={"duration_s": 0.5})
     log = log_of(glance, tmp_path / "run", renderer="open3d", latency="measured")
     assert len(messages(log, "camera/nose")) == 2 * (1 + 5)
@@ -114,7 +110,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     opened = []
     open_scene_renderer = vision._open_renderer_process
 
-    def opening(scenario: Scenario, renderer: RendererName) -> object:
+    def opening(scenario: Scenario, renderer: str) -> object:
         opened.append(open_scene_renderer(scenario, renderer))
         return opened[-1]
 
@@ -146,19 +142,6 @@ def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
     assert result.summary.outcome == "finished"
     assert any("no renderer here" in text for text in notices.told)
     assert replay(tmp_path / "run").identical
-
-
-def test_without_pillow_vision_is_not_evaluated_and_the_run_goes_on(
-    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    notices = Notices()
-    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), notices)
-    ((state, cause),) = states_of_vision(list(read_log(tmp_path / "run" / "log.mcap")))
-    assert (state, result.summary.outcome) == ("not evaluated", "finished")
-    assert "pip install 'airhilt[vision]'" in cause
-    assert "\n" not in cause
-    assert any(cause in text for text in notices.told)
 
 
 def missing(*_: object) -> None:

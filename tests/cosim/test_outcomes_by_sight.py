@@ -148,9 +148,8 @@ def has_erred(follower: Oracle) -> bool:
 
 def drawn(name: str, out: Path) -> Summary:
     """Run a scenario with its cameras, or skip the test where they cannot be drawn."""
-    pytest.importorskip("moderngl")
     pytest.importorskip("onnxruntime")
-    summary = run(load(name), out=out, latency="fixed", renderer="moderngl").summary
+    summary = run(load(name), out=out, latency="fixed", renderer="embree").summary
     if summary.modalities["vision"] == "not evaluated":
         pytest.skip("no renderer")
     return summary

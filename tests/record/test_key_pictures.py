@@ -3,18 +3,14 @@ approach."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import pytest
-
-pytest.importorskip("PIL")
-
 from PIL import Image
 
-from airhilt.errors import RendererError, RunFolderError
+from airhilt.errors import RunFolderError
 from airhilt.messages import CameraFrame, Message, SightingTruth
-from airhilt.record.pictures import KeyPictures, Picture, PictureName, Waiting, require_pillow
+from airhilt.record.pictures import KeyPictures, Picture, PictureName, Waiting
 from sightings import advisory, found, frame, pixels, seen, sighting, time_ns, truth, vision
 
 FULL = Path("/dev/full")
@@ -168,12 +164,6 @@ def test_a_full_disk_is_named_once_with_the_file(run: Run) -> None:
     assert not (run.folder / "first_warning-tower-1.png").is_symlink(), "no half a file stays"
     run.pictures.close()
     assert run.seq_of("closest_approach") is None
-
-
-def test_without_pillow_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(RendererError, match=r"Pillow.*pip install 'airhilt\[vision\]'"):
-        require_pillow()
 
 
 def test_pictures_do_not_wait_where_nobody_looks(run: Run) -> None:

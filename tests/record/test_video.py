@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip("av")
-pytest.importorskip("PIL")
 
 import av
 

@@ -20,8 +20,6 @@ from airhilt.units import SECOND_NS
 from camera_run import camera_run
 from sightings import vision
 
-pytest.importorskip("PIL")
-
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
 

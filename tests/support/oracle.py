@@ -57,6 +57,8 @@ HIDDEN_EVERY_NS, HIDDEN_NS = 10 * SECOND_NS, 3 * SECOND_NS // 2
 class BlankSceneRenderer:
     """Takes pictures without colours, with what is true of the bodies in them."""
 
+    renderer = "blank"
+
     def __init__(self, scenario: Scenario) -> None:
         site = ScenarioSite.of(scenario)
         self._models = {actor.callsign: model_of(actor) for actor in scenario.actors}

@@ -7,7 +7,6 @@ import math
 from airhilt import load
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
 from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model, aircraft_model, vehicle_model
 from airhilt.sensors.cameras.scene.builder import light_of, world_of
@@ -37,7 +36,7 @@ class LandingScene:
             Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
         ]
 
-    def renderer(self, renderer: RendererName) -> SceneRenderer:
+    def renderer(self, renderer: str) -> SceneRenderer:
         """Return a renderer with both cameras."""
         return SceneRenderer(self._world, self._light, self._models, self._cameras, renderer)
 

@@ -7,6 +7,7 @@ import re
 import tempfile
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -16,8 +17,9 @@ from airhilt import load, run
 from airhilt.assistant.vision.detector import Picture
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.gating import Gate
-from airhilt.sensors.cameras import RENDERERS
-from airhilt.sensors.cameras.renderer_process import RendererProcess
+from airhilt.errors import RendererError
+from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
+from airhilt.sensors.cameras.renderers import renderer_names
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from benchmarks.landing import LandingScene, watched_landing
 from benchmarks.rounds import ROUNDS
@@ -33,7 +35,7 @@ def render() -> dict[str, float]:
     """
     landing = LandingScene()
     numbers = np.random.default_rng(0).random((640 * 360, 6), dtype=np.float32)
-    renderers = {name: landing.renderer(name) for name in RENDERERS}
+    renderers = {name: landing.renderer(name) for name in installed()}
     measured: dict[str, list[float]] = {}
     scenes = [
         ("fixed", "runway_01", landing.bodies()),
@@ -68,7 +70,7 @@ def detection() -> dict[str, float]:
     (``gated``) as a run looks, at what has changed; and how many places are looked at twice.
     """
     landing, detector = LandingScene(), EmbeddedDetector(threads=1)
-    renderer = landing.renderer("moderngl")
+    renderer = landing.renderer("embree")
     shown = {
         camera: [renderer.shoot([camera], scene, 0)[0].colour for scene in landing.bodies()]
         for camera in ("runway_01", "nose")
@@ -103,7 +105,7 @@ def frames() -> dict[str, float]:
     scenario = load("s01b_nominal")
     scene = [[bodies[0]._replace(actor="AAL123")] for bodies in LandingScene().bodies()]
     found: dict[str, float] = {}
-    for name in ("open3d", "moderngl"):
+    for name in installed():
         with RendererProcess(scenario, ["runway_01"], name) as renderer:
             for taken in range(10_001):
                 renderer.shoot(["runway_01"], scene[taken % len(scene)], 0)
@@ -118,8 +120,9 @@ def sight() -> dict[str, float]:
     """Run s02a_headon as it comes, and a landing before four cameras, with detection."""
     measured: dict[str, float] = {}
     for name, scenario, renderer in (
-        ("headon_open3d", load("s02a_headon"), "open3d"),
-        ("four_cameras_moderngl", watched_landing(), "moderngl"),
+        (f"{kind}_{renderer}", scenario, renderer)
+        for kind, scenario in (("headon", load("s02a_headon")), ("four_cameras", watched_landing()))
+        for renderer in installed()
     ):
         factors = []
         for _ in range(2):
@@ -130,6 +133,16 @@ def sight() -> dict[str, float]:
         measured[f"{name}_real_time_factor_best"] = max(factors)
         measured[f"{name}_pictures_dropped"] = float(sum(summary.inputs_dropped.values()))
     return measured
+
+
+def installed() -> list[str]:
+    """Return the names of the renderers that can draw here."""
+    found = []
+    for name in renderer_names():
+        with suppress(RendererError):
+            probe(name)
+            found.append(name)
+    return found
 
 
 def memory_mb(process_id: int, what: str) -> float:

@@ -273,13 +273,12 @@ def _steps() -> list[float]:
 def _shoot(
     renderer: str, world: Any, light: Any, camera: Any, bodies: Callable[[float], list[Any]]
 ) -> Iterator[Any]:
-    from airhilt.sensors.cameras import RENDERERS
+
     from airhilt.sensors.cameras.scene.bodies import aircraft_model
     from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
     models = {"737": aircraft_model("737"), "own": aircraft_model("737")}
-    chosen = next(known for known in RENDERERS if known == renderer)
-    studio = SceneRenderer(world, light, models, [camera], chosen)
+    studio = SceneRenderer(world, light, models, [camera], renderer)
     try:
         for index, away in enumerate(_steps()):
             yield studio.shoot([camera.name], bodies(away), round(index / RATE_HZ * 1e9))[0]
@@ -367,7 +366,7 @@ def main() -> None:
     parser.add_argument("folders", nargs="*", type=Path, metavar="DATA")
     parser.add_argument("--engine", default="embedded", help="as for airhilt cosim --detector")
     parser.add_argument("--approaches", action="store_true", help="draw and judge approaches")
-    parser.add_argument("--renderer", choices=["open3d", "moderngl"], default="moderngl")
+    parser.add_argument("--renderer", default="moderngl")
     parser.add_argument("--json", action="store_true", dest="as_json")
     given = parser.parse_args()
     if not given.folders and not given.approaches:

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import IO, Any, cast
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +26,7 @@ import numpy.typing as npt
 from airhilt.errors import AirhiltError, CameraError, RendererError, ScenarioError
 from airhilt.imaging.masks import Mask, mask_of, runs_of
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera
 from airhilt.sensors.cameras.renderers import require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -65,6 +65,8 @@ class RendererProcess:
 
     Attributes
     ----------
+    renderer
+        Name of the renderer that draws.
     actors
         Those of the numbers in ``Frame.instance``, from 1.
     own_aircraft
@@ -83,11 +85,11 @@ class RendererProcess:
         self,
         scenario: Scenario,
         names: Sequence[str] | None = None,
-        renderer: RendererName = "open3d",
+        renderer: str = AUTO,
         supersampling: int = 1,
         patience_s: float = PATIENCE_S,
     ) -> None:
-        self._renderer = renderer
+        self.renderer = renderer
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = _cameras(scenario, wanted)
         samples = sum(_samples(camera, supersampling) for camera in self._cameras.values())
@@ -122,6 +124,7 @@ class RendererProcess:
         except BaseException:
             self.close()
             raise
+        self.renderer = opened["renderer"]
         self.actors: tuple[str, ...] = tuple(opened["actors"])
         self.own_aircraft: Mapping[str, Mask] = {
             name: _mask(runs, self._cameras[name]) for name, runs in opened["own_aircraft"].items()
@@ -229,7 +232,7 @@ class RendererProcess:
                 if left_s <= 0.0 or not selector.select(left_s):
                     self._process.kill()
                     raise RendererError(
-                        f"the renderer {self._renderer} has not answered for {patience_s:.0f} s, "
+                        f"the renderer {self.renderer} has not answered for {patience_s:.0f} s, "
                         f"with pictures of {_sizes(self._cameras.values())} pixels; no more are "
                         "drawn: take smaller ones (width_px, height_px) or another --renderer"
                     )
@@ -253,7 +256,7 @@ class RendererProcess:
         last = self._said.read().decode(errors="replace").strip().splitlines()[-1:]
         cause = f": {last[0]}" if last else ""
         return RendererError(
-            f"the process of renderer {self._renderer} has ended "
+            f"the process of renderer {self.renderer} has ended "
             f"({_how(self._process.returncode)}){cause}; no more pictures are drawn"
         )
 
@@ -339,7 +342,7 @@ def _sighting(found: Mapping[str, Any]) -> Sighting:
     return Sighting(**{**found, "box": Box(*found["box"])})
 
 
-def probe(renderer: RendererName) -> None:
+def probe(renderer: str) -> None:
     """Let a process of its own draw something.
 
     Raises
@@ -390,7 +393,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
         answer(_told(error))
         return
     own = {name: runs_of(studio.own_aircraft(name)) for name in names}
-    answer({"actors": studio.actors, "own_aircraft": own})
+    answer({"renderer": studio.renderer, "actors": studio.actors, "own_aircraft": own})
     for line in questions:
         question = json.loads(line)
         bodies = [BodyState(*body) for body in question["bodies"]]
@@ -426,7 +429,7 @@ def main(numbers: Sequence[str]) -> None:
     """Serve on the pipes and the file of these descriptors, or try the renderer of that name."""
     if len(numbers) == 1:
         try:
-            require_renderer(cast("RendererName", numbers[0]))
+            require_renderer(numbers[0])
         except RendererError as error:
             sys.exit(str(error))
         return

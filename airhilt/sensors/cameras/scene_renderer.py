@@ -18,7 +18,7 @@ import numpy.typing as npt
 from airhilt.errors import CameraError
 from airhilt.imaging.masks import Mask
 from airhilt.messages import VisibleClass
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import KEPT_PX, Background
@@ -161,6 +161,11 @@ class SceneRenderer:
     fine
         Samples along each side of a pixel, at least.
 
+    Attributes
+    ----------
+    renderer
+        Name of the renderer that draws.
+
     Raises
     ------
     CameraError
@@ -175,7 +180,7 @@ class SceneRenderer:
         light: Illumination,
         models: Mapping[str, Model],
         cameras: Iterable[Camera],
-        renderer: RendererName = "open3d",
+        renderer: str = AUTO,
         rain_mm_h: float = 0.0,
         supersampling: int = 1,
     ) -> None:
@@ -203,7 +208,7 @@ class SceneRenderer:
             for model in self._models.values()
             for name, mesh in model.far.items()
         }
-        self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
+        self.renderer, self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
         self._far = frozenset(far)
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(world.lights)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 from pathlib import Path
 
+from PIL import Image, ImageDraw
+
 from airhilt.errors import CameraError
 from airhilt.files import replace_file
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import states_of
@@ -29,7 +31,7 @@ def still(
     camera: str,
     at_s: float,
     seed: int = 0,
-    renderer: RendererName = "open3d",
+    renderer: str = AUTO,
 ) -> Frame:
     """Return what a camera sees at a time, in a run in which nothing is said.
 
@@ -61,12 +63,8 @@ def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
     Raises
     ------
     CameraError
-        Pillow is not installed, or the file cannot be written.
+        The file cannot be written.
     """
-    try:
-        from PIL import Image, ImageDraw
-    except ImportError:
-        raise CameraError("pictures need Pillow: pip install 'airhilt[vision]'") from None
     picture = Image.fromarray(frame.colour)
     if boxes:
         pen = ImageDraw.Draw(picture)

@@ -30,7 +30,6 @@ def detector() -> EmbeddedDetector:
 @pytest.fixture(scope="module")
 def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     """A 737 over open country, before a camera in the air, and its box."""
-    pytest.importorskip("moderngl")
     import datetime
 
     from airhilt.scenario.models import Daylight, Weather
@@ -47,7 +46,7 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     camera = Camera("nose", Intrinsics(636, 356, 0.7), pose)
     studio = SceneRenderer(
         open_country(light, "test", None), light, {"737": aircraft_model("737")}, [camera],
-        "moderngl",
+        "embree",
     )  # fmt: skip
     body = BodyState("737", -10.0, 150.0, 907.5, 3.1, 0.03, 0.05, "clean", True)
     frame = studio.shoot(["nose"], [body], 0)[0]

@@ -14,11 +14,9 @@ from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.report.report import write_report
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
 from camera_run import camera_run, passing
 from devtools import Page
 
-pytest.importorskip("PIL")
 pytestmark = pytest.mark.browser
 
 
@@ -117,7 +115,7 @@ def test_a_killed_run_shows_its_pictures(page: Page, folder: Path, tmp_path: Pat
 def test_why_vision_was_not_evaluated_is_shown(
     page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def missing(scenario: Scenario, renderer: RendererName) -> None:
+    def missing(scenario: Scenario, renderer: str) -> None:
         raise RendererError("no <b>EGL</b> here")
 
     with monkeypatch.context() as patch:

@@ -23,7 +23,7 @@ class Plain:
     def __init__(self) -> None:
         self.windows: list[Window] = []
 
-    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
+    def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         self.windows.append(window)
         down = view.directions(*view.sample_places(window, samples))[2]
         with np.errstate(divide="ignore"):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from airhilt.sensors.cameras.renderers import Part
-from airhilt.sensors.cameras.renderers.opengl import ModernGLRenderer
+from airhilt.sensors.cameras.renderers.moderngl import ModernGLRenderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Mesh

@@ -21,15 +21,13 @@ from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_process as remote
 from airhilt.sensors.cameras.mounts import frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
-from airhilt.sensors.cameras.renderers import raycasting, require_renderer
+from airhilt.sensors.cameras.renderers import open3d, require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
 from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.sensors.cameras.snapshot import TICK_S, still, write_png
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
-
-pytest.importorskip("moderngl")
 
 CAMERA = {
     "name": "field",
@@ -64,7 +62,7 @@ def bodies() -> list[BodyState]:
 
 @pytest.fixture(scope="module")
 def studio() -> Iterator[RendererProcess]:
-    with RendererProcess(washington(), renderer="moderngl") as opened:
+    with RendererProcess(washington(), renderer="embree") as opened:
         yield opened
 
 
@@ -108,17 +106,16 @@ def test_a_camera_that_stands_in_something_is_refused(
     changes: dict[str, object], said: str
 ) -> None:
     with pytest.raises(CameraError, match=said):
-        RendererProcess(washington(**changes), renderer="moderngl")
+        RendererProcess(washington(**changes), renderer="embree")
 
 
 def test_a_camera_that_nobody_has_declared_is_refused_with_the_nearest() -> None:
     with pytest.raises(CameraError, match="did you mean 'runway_01'"):
-        RendererProcess(washington(), ["runway_011"], "moderngl")
+        RendererProcess(washington(), ["runway_011"], "embree")
 
 
 def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
-    pytest.importorskip("PIL")
-    frame = still(washington(), "field", 1.0, renderer="moderngl")
+    frame = still(washington(), "field", 1.0, renderer="embree")
     write_png(frame, tmp_path / "still.png", boxes=True)
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
 
@@ -126,7 +123,7 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
 def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
     """As the run's own picture of that time does, which a tick is too coarse for."""
     scenario = washington()
-    early, late = (still(scenario, "field", at_s, renderer="moderngl") for at_s in (4.0, 4.04))
+    early, late = (still(scenario, "field", at_s, renderer="embree") for at_s in (4.0, 4.04))
     site = ScenarioSite.of(scenario)
     cast = build_actors(scenario, site, 0, TICK_S)
     for _ in range(80):
@@ -147,7 +144,6 @@ def blank() -> Frame:
 
 
 def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path) -> None:
-    pytest.importorskip("PIL")
     (tmp_path / "file").touch()
     with pytest.raises(CameraError, match=r"a\.png: cannot be written: Not a dir.* another --out"):
         write_png(blank(), tmp_path / "file" / "a.png")
@@ -156,7 +152,6 @@ def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path)
 def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pytest.importorskip("PIL")
     write_png(blank(), tmp_path / "a.png")
     before = (tmp_path / "a.png").read_bytes()
     monkeypatch.setattr(Path, "write_bytes", full_disk)
@@ -166,20 +161,12 @@ def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
     assert (tmp_path / "a.png").read_bytes() == before
 
 
-def test_without_pillow_a_still_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(CameraError, match=r"pip install 'airhilt\[vision\]'"):
-        write_png(blank(), tmp_path / "a.png")
-
-
 def test_a_renderer_without_room_for_its_files_says_what_to_do(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(tempfile, "TemporaryFile", full_disk)
     with pytest.raises(RendererError, match=r"No space left.*TMPDIR"):
-        RendererProcess(washington(), ["runway_01"], "moderngl")
+        RendererProcess(washington(), ["runway_01"], "embree")
 
 
 def full_disk(*_: object, **__: object) -> None:
@@ -189,6 +176,7 @@ def full_disk(*_: object, **__: object) -> None:
 def test_a_renderer_without_its_libraries_says_what_to_install(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    pytest.importorskip("moderngl")
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
     for attempt in (
         lambda: probe("moderngl"),
@@ -202,20 +190,23 @@ def test_a_renderer_without_its_libraries_says_what_to_install(
 def test_open3d_without_its_libraries_says_what_to_install(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def fail() -> None:
-        raise ImportError("libGL.so.1: cannot open shared object file")
+    monkeypatch.setattr(open3d, "_bindings", lacks_a_library)
+    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL.*--renderer embree"):
+        require_renderer("open3d")
 
-    monkeypatch.setattr(raycasting, "_bindings", fail)
-    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL.*--renderer moderngl"):
-        require_renderer("open3d")
-    monkeypatch.setitem(sys.modules, "moderngl", None)
-    with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL") as caught:
-        require_renderer("open3d")
-    assert "moderngl" not in str(caught.value), "which is not there either"
+
+def lacks_a_library() -> None:
+    raise ImportError("libGL.so.1: cannot open shared object file")
+
+
+def test_embree_without_its_package_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "embreex.rtcore", None)
+    with pytest.raises(RendererError, match="pip install embreex"):
+        require_renderer("embree")
 
 
 def test_a_renderer_that_can_draw_is_found() -> None:
-    probe("moderngl")
+    probe("embree")
 
 
 def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
@@ -223,8 +214,8 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
 ) -> None:
     (tmp_path / "json.py").write_text("raise SystemExit('a file of the user')")
     monkeypatch.chdir(tmp_path)
-    probe("moderngl")
-    with RendererProcess(washington(), renderer="moderngl") as opened:
+    probe("embree")
+    with RendererProcess(washington(), renderer="embree") as opened:
         assert opened.actors
 
 
@@ -240,7 +231,7 @@ def test_the_renderer_is_that_of_the_package_that_starts_it(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", ["", *sys.path])
     with pytest.raises(RendererError, match="the one of this path"):
-        probe("moderngl")
+        probe("embree")
 
 
 def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_told(
@@ -248,13 +239,13 @@ def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_t
 ) -> None:
     monkeypatch.setattr(remote, "STARTING_S", 0.0)
     with pytest.raises(RendererError, match="has not answered for 1 s"):
-        RendererProcess(washington(), renderer="moderngl")
+        RendererProcess(washington(), renderer="embree")
 
 
 def test_a_renderer_that_hangs_as_it_draws_is_given_up_and_says_what_to_do(
     bodies: list[BodyState],
 ) -> None:
-    with RendererProcess(washington(), renderer="moderngl", patience_s=1.0) as opened:
+    with RendererProcess(washington(), renderer="embree", patience_s=1.0) as opened:
         os.kill(opened.process_id, signal.SIGSTOP)
         with pytest.raises(RendererError, match=r"not answered for 2 s.* 160 x 90 .*smaller"):
             opened.shoot(["field"], bodies, 0)
@@ -274,7 +265,7 @@ def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.Monk
     monkeypatch.setattr(RendererProcess, "_line", note)
     for supersampling in (1, 4):
         with pytest.raises(RendererError, match="noted"):
-            RendererProcess(washington(), None, "moderngl", supersampling)
+            RendererProcess(washington(), None, "embree", supersampling)
     assert waited == [remote.STARTING_S + 9.0 * 9.0, remote.STARTING_S + 16.0 * 9.0]
 
 
@@ -338,7 +329,7 @@ def test_nothing_is_drawn_again_when_nothing_changes(studio: RendererProcess) ->
 
 def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
     mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
-    with RendererProcess(washington(mount=mount), renderer="moderngl") as opened:
+    with RendererProcess(washington(mount=mount), renderer="embree") as opened:
         mask = opened.own_aircraft["field"]
     assert mask.shape == (90, 160)
     assert 0.02 < mask.mean() < 0.8
@@ -350,6 +341,6 @@ def test_the_death_of_the_process_is_an_error_with_a_name(
 ) -> None:
     os.kill(studio.process_id, signal.SIGKILL)
     studio._process.wait()
-    with pytest.raises(RendererError, match=r"moderngl has ended \(signal 9\)"):
+    with pytest.raises(RendererError, match=r"embree has ended \(signal 9\)"):
         studio.shoot(["field"], bodies, 0)
     studio.close()  # The question that nobody took is no error of its own.

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from airhilt.sensors.cameras.renderers.tiles import Tiles
+from airhilt.sensors.cameras.opengl.tiles import Tiles
 from airhilt.sensors.cameras.view import NEAR_M, Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Floats
 

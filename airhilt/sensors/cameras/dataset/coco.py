@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
+from PIL import Image
 
 from airhilt import library
 from airhilt._version import __version__
@@ -22,7 +23,7 @@ from airhilt.files import replace_file
 from airhilt.imaging.masks import Mask, runs_of
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, cast
 from airhilt.sensors.cameras.mounts import frame_of
 from airhilt.sensors.cameras.scene.bodies import state_of
@@ -63,7 +64,7 @@ def random_pictures(
     count: int,
     seed: int = 0,
     airports: Sequence[str] = (),
-    renderer: RendererName = "open3d",
+    renderer: str = AUTO,
     size: tuple[int, int] = (640, 360),
     empty: float = 0.35,
 ) -> Iterator[Picture]:
@@ -88,7 +89,7 @@ def random_pictures(
 
 
 def _shots(
-    casting: Casting, count: int, seed: int, renderer: RendererName, empty: float
+    casting: Casting, count: int, seed: int, renderer: str, empty: float
 ) -> Iterator[Picture]:
     taken = number = 0
     while taken < count:
@@ -116,7 +117,7 @@ def _shots(
         number += 1
 
 
-def studio_of(sitting: Sitting, renderer: RendererName) -> SceneRenderer:
+def studio_of(sitting: Sitting, renderer: str) -> SceneRenderer:
     """Return the studio in which a sitting is drawn; close it."""
     return SceneRenderer(
         sitting.world,
@@ -132,7 +133,7 @@ def scenario_pictures(
     scenario: Scenario,
     count: int,
     seed: int = 0,
-    renderer: RendererName = "open3d",
+    renderer: str = AUTO,
     size: tuple[int, int] | None = None,
 ) -> Iterator[Picture]:
     """Return pictures of a scenario's own cameras while its actors move, to be taken one by one.
@@ -161,7 +162,7 @@ def scenario_pictures(
     return _moving(realised, count, seed, renderer)
 
 
-def _moving(realised: Scenario, count: int, seed: int, renderer: RendererName) -> Iterator[Picture]:
+def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterator[Picture]:
     site = ScenarioSite.of(realised)
     light, frame = light_of(realised, site), frame_of(site)
     actors = list(build_actors(realised, site, seed, TICK_S).values())
@@ -218,10 +219,6 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     AirhiltError
         The folder is not empty or cannot be written, or pictures cannot be drawn.
     """
-    try:
-        from PIL import Image
-    except ImportError:
-        raise CameraError("pictures need Pillow: pip install 'airhilt[vision]'") from None
     images: list[dict[str, Any]] = []
     annotations: list[dict[str, Any]] = []
     try:

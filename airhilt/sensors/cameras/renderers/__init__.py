@@ -1,18 +1,30 @@
-"""What draws: one protocol, two backends that agree."""
+"""What draws pictures: one file a renderer, each with its `RENDERER`.
+
+A file in this package needs no registration. A renderer outside of it is found by an entry point
+of the group ``airhilt.renderers`` that names the object, such as
+``optix = "my_package.optix:RENDERER"``, and is then taken by ``--renderer optix``. All draw
+the same picture of the same scene.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple, Protocol
+from contextlib import suppress
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.errors import RendererError
-from airhilt.sensors.cameras import RENDERERS, RendererName
+from airhilt.errors import AirhiltError, RendererError
+from airhilt.library import nearest
+from airhilt.plugins import Family
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
+
+PREFERRED = ("open3d", "embree")
+"""Renderers that ``auto`` tries, the first of which that is installed draws."""
 
 
 class Samples(NamedTuple):
@@ -48,65 +60,118 @@ class Part(NamedTuple):
 
 
 class Renderer(Protocol):
-    """Draws the still world, and each body alone.
+    """Draws the landscape, and each body alone.
 
     The samples of a window are ``samples`` squared a pixel, in the order of the picture's rows.
     """
 
-    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
-        """Return the world behind all bodies, with the sky and the air."""
+    def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
+        """Return the landscape behind all bodies, with the sky and the air."""
 
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
         """Return bodies through the air, and shadows.
 
-        Beside a body it is black and infinitely far. Of a shadow it tells no more than that: it is
+        Samples beside a body are black and infinitely far. A shadow has no colour: its distance is
         finite where the body keeps the sun from the ground.
         """
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
-        """Take in the shape of a body."""
+        """Keep the shape of a body, to draw it by this name."""
 
     def close(self) -> None:
-        """Give back what was taken."""
+        """Release memory and devices."""
+
+
+@runtime_checkable
+class RendererBackend(Protocol):
+    """A library that draws, as ``--renderer`` names it."""
+
+    @property
+    def name(self) -> str:
+        """Name of its file or entry point."""
+
+    @property
+    def needs(self) -> str:
+        """How to install what it needs, in one line."""
+
+    def open(self, landscape: Mesh, light: Illumination) -> Renderer:
+        """Return a renderer of a landscape in some light.
+
+        Raises
+        ------
+        RendererError
+            Something that it needs is missing; the text says in one line how to install it.
+        """
+
+
+FAMILY = Family(
+    "renderer", "airhilt.renderers", __name__, "RENDERER", RendererBackend, RendererError
+)
+
+
+def renderer_names() -> list[str]:
+    """Return the names of all renderers that can be asked for, sorted, without ``auto``."""
+    return FAMILY.names()
+
+
+def require_known(name: str) -> None:
+    """Complain about a name that no renderer has.
+
+    Raises
+    ------
+    AirhiltError
+        There is no renderer of that name.
+    """
+    names = [AUTO, *renderer_names()]
+    if name not in names:
+        raise AirhiltError(
+            f"no renderer named {name!r}{nearest(name, names)}; expected one of {', '.join(names)}"
+        )
 
 
 def open_renderer(
-    name: RendererName, world: Mesh, shapes: Mapping[str, Mesh], light: Illumination
-) -> Renderer:
-    """Return a backend that draws a world and bodies of some shapes.
+    name: str, landscape: Mesh, shapes: Mapping[str, Mesh], light: Illumination
+) -> tuple[str, Renderer]:
+    """Return the name of the renderer that draws, and the renderer.
+
+    Parameters
+    ----------
+    name
+        Name of a renderer; ``auto`` takes the first of `PREFERRED` that can draw here.
+    shapes
+        Shapes of the bodies, by name.
 
     Raises
     ------
     RendererError
         There is none of that name, or something that it needs is not installed.
     """
-    renderer: Renderer
-    if name == "open3d":
-        from airhilt.sensors.cameras.renderers.raycasting import Open3DRenderer
-
-        renderer = Open3DRenderer(world, light)
-    elif name == "moderngl":
-        from airhilt.sensors.cameras.renderers.opengl import ModernGLRenderer
-
-        renderer = ModernGLRenderer(world, light)
-    else:
-        raise RendererError(f"no renderer {name!r}; expected one of {', '.join(RENDERERS)}")
+    taken, renderer = _first_of(PREFERRED if name == AUTO else (name,), landscape, light)
     for shape, mesh in shapes.items():
         renderer.add_shape(shape, mesh)
-    return renderer
+    return taken, renderer
 
 
-def require_renderer(name: RendererName) -> None:
-    """Complain about a backend that cannot draw here; what it loads stays in the process.
+def _first_of(names: Sequence[str], landscape: Mesh, light: Illumination) -> tuple[str, Renderer]:
+    """Return the first renderer that can be opened; complain as the last of them does."""
+    *others, last = names
+    for name in others:
+        with suppress(RendererError):
+            return name, FAMILY.load(name).open(landscape, light)
+    return last, FAMILY.load(last).open(landscape, light)
+
+
+def require_renderer(name: str) -> None:
+    """Draw something; what the renderer loads stays in the process.
 
     Raises
     ------
     RendererError
-        Something that it needs is not installed.
+        It cannot draw here.
     """
     triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
     light = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
-    renderer = open_renderer(name, triangle, {}, light)
+    _, renderer = open_renderer(name, triangle, {}, light)
     view = View(Intrinsics(16, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
-    renderer.world(view, view.whole)
+    renderer.landscape(view, view.whole)
     renderer.close()

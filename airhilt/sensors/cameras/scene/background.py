@@ -97,7 +97,7 @@ class Background:
         for band in range(first, end, at_once):
             past = min(band + at_once, end)
             window = Window(0, band * BAND_ROWS, columns, min(past * BAND_ROWS, rows))
-            drawn = resolved(self._renderer.world(view, window, samples), samples)
+            drawn = resolved(self._renderer.landscape(view, window, samples), samples)
             self.colour[window.slices] = drawn.colour
             self.distance_m[window.slices] = drawn.distance_m
             self._views[band:past] = [view] * (past - band)

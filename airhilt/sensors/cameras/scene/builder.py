@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Airborne, Daylight, Weather
-from airhilt.sensors.cameras import RendererName
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera, frame_of
 from airhilt.sensors.cameras.scene.bodies import Model, model_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
@@ -66,7 +66,7 @@ def open_scene_renderer(
     scenario: Scenario,
     site: ScenarioSite,
     names: Sequence[str] | None = None,
-    renderer: RendererName = "open3d",
+    renderer: str = AUTO,
     supersampling: int = 1,
 ) -> SceneRenderer:
     """Return a studio with cameras of a scenario: those named, or those it declares.

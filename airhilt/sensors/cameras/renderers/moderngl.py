@@ -11,12 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import RendererError, first_line
+from airhilt.sensors.cameras.opengl.tiles import Tiles, edges
 from airhilt.sensors.cameras.renderers import Part, Samples
-from airhilt.sensors.cameras.renderers.tiles import Tiles, edges
 from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY, Illumination
 from airhilt.sensors.cameras.view import NEAR_M, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
+SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 FAR_M = 600_000.0
 WITHIN = 0.99
 """Of the depth of what is nearest: depths are rounded."""
@@ -307,8 +308,8 @@ class ModernGLRenderer:
         """Give back what was taken."""
         self._context.release()
 
-    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
-        """Return the world behind all bodies, with the sky and the air."""
+    def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
+        """Return the landscape behind all bodies, with the sky and the air."""
         context, program = self._context, self._world_program
         canvas = self._behind
         canvas.clear((window.width * samples, window.height * samples), is_filled=True)
@@ -441,8 +442,7 @@ def _columns(matrix: npt.NDArray[np.float64]) -> bytes:
 
 
 def _open_context() -> Any:
-    libraries = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
-    remedy = f"pip install 'airhilt[moderngl]' and apt install {libraries}"
+    remedy = ModernGL.needs
     try:
         import moderngl
     except ImportError:
@@ -454,3 +454,23 @@ def _open_context() -> Any:
         raise RendererError(
             f"the renderer moderngl finds no EGL: {remedy} ({first_line(error)})"
         ) from None
+
+
+class ModernGL:
+    """Draws with OpenGL."""
+
+    name = "moderngl"
+    needs = f"pip install 'airhilt[moderngl]' and apt install {SYSTEM_LIBRARIES}"
+
+    def open(self, landscape: Mesh, light: Illumination) -> ModernGLRenderer:
+        """Return a renderer of a landscape.
+
+        Raises
+        ------
+        RendererError
+            moderngl or EGL is not installed.
+        """
+        return ModernGLRenderer(landscape, light)
+
+
+RENDERER = ModernGL()

@@ -1,4 +1,4 @@
-"""Pictures by Open3D's `RaycastingScene` (Embree): no display, no graphics driver.
+"""Pictures of what rays meet: all of the drawing that does not depend on who casts the rays.
 
 The world is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel of
 every second row; where the four about a pixel meet the same piece, so does the pixel, and its
@@ -7,20 +7,15 @@ distance follows from the plane. Only the other pixels cost rays of their own.
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.machinery import PathFinder
-from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.errors import RendererError, first_line
 from airhilt.imaging.masks import Mask
+from airhilt.sensors.cameras.raycasting import RayScene, SceneBuilder
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import (
     LEVELS,
@@ -32,10 +27,6 @@ from airhilt.sensors.cameras.scene.illumination import (
 from airhilt.sensors.cameras.view import Pose, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
-BINDINGS = "open3d.cpu.pybind"
-SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
-THREADS = 2
-"""Of a cast: while pictures are drawn a run waits for them."""
 Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]
@@ -51,7 +42,7 @@ MISSED = 0
 
 @dataclass(frozen=True)
 class _Body:
-    scene: Any
+    scene: RayScene
     normals: Floats
     colours: Floats
     glow: Floats
@@ -64,19 +55,21 @@ class _Glare(NamedTuple):
     colour: Floats
 
 
-class Open3DRenderer:
+class RayRenderer:
     """Draws by casting rays.
 
-    Raises
-    ------
-    RendererError
-        Open3D is not installed, or not able to start.
+    Parameters
+    ----------
+    world
+        Mesh of all that stands still.
+    build
+        Returns the scene of triangles into which rays are cast.
     """
 
-    def __init__(self, world: Mesh, light: Illumination) -> None:
-        self._open3d = _import_open3d()
+    def __init__(self, world: Mesh, light: Illumination, build: SceneBuilder) -> None:
+        self._build = build
         self._light = light
-        self._world = self._scene(world)
+        self._world = build(world.corners)
         self._piece_of, self._normals, self._heights, colours = _pieces(world, light)
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
@@ -85,14 +78,14 @@ class Open3DRenderer:
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
         """Take in the shape of a body."""
-        self._bodies[name] = _Body(self._scene(mesh), mesh.normals, mesh.colours, mesh.glow)
+        self._bodies[name] = _Body(self._build(mesh.corners), mesh.normals, mesh.colours, mesh.glow)
 
     def close(self) -> None:
         """Give back what was taken."""
         self._bodies.clear()
 
-    def world(self, view: View, window: Window, samples: int = 1) -> Samples:
-        """Return the world behind all bodies, with the sky and the air."""
+    def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
+        """Return the landscape behind all bodies, with the sky and the air."""
         x, y = _on_focal_plane(view, *view.sample_places(window, samples))
         if samples == 1:
             pieces = self._adaptively(view, x, y)
@@ -126,13 +119,11 @@ class Open3DRenderer:
         size = directions.shape[1:]
         rotation = pose.rotation.astype(np.float32)
         origin = (np.asarray(view.pose.position_m) - np.asarray(pose.position_m)) @ pose.rotation
-        answer = self._cast(body.scene, _rays(origin, rotation.T @ directions.reshape(3, -1)))
-        distance = answer["t_hit"].numpy()
+        distance, faces, u, v = body.scene.hits(origin, rotation.T @ directions.reshape(3, -1))
         colour = np.zeros((len(distance), 3), dtype=np.uint8)
         hit = np.flatnonzero(np.isfinite(distance))
         if len(hit):
-            faces = answer["primitive_ids"].numpy()[hit]
-            u, v = answer["primitive_uvs"].numpy()[hit].T
+            faces, u, v = faces[hit], u[hit], v[hit]
             weights = np.stack((1.0 - u - v, u, v), axis=1)
             normals = np.einsum("nk,nki->ni", weights, body.normals[faces]) @ rotation.T
             normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -155,12 +146,8 @@ class Open3DRenderer:
         position = np.asarray(view.pose.position_m, dtype=np.float64)
         away = -position[2] / towards[:, 2]
         ground = position + towards * away[:, None] - np.asarray(pose.position_m)
-        sun = np.broadcast_to(
-            (self._light.sun @ pose.rotation).astype(np.float32)[:, None], (3, len(ground))
-        )
-        tensor = self._open3d.core.Tensor.from_numpy(_rays(ground @ pose.rotation, sun))
-        scene = self._bodies[shape].scene
-        hidden = scene.test_occlusions(tensor, nthreads=THREADS).numpy()
+        sun = (self._light.sun @ pose.rotation).astype(np.float32)
+        hidden = self._bodies[shape].scene.blocked(ground @ pose.rotation, sun)
         shaded[below] = np.where(hidden, np.float32(0.0), np.float32(np.inf))
         return drawn
 
@@ -191,10 +178,8 @@ class Open3DRenderer:
         eye = np.asarray(view.pose.position_m)
         # Whatever looks higher than all that stands looks into the sky.
         asked = np.flatnonzero(towards[2] <= self._highest(eye) * np.hypot(*towards[:2]))
-        answer = self._cast(self._world, _rays(eye, towards[:, asked]))
-        # Open3D marks a miss with the greatest number, which wraps to the entry before the first.
-        faces = answer["primitive_ids"].numpy().view(np.int32)
-        pieces[asked] = _of(self._piece_of, faces + 1)
+        # The first entry is that of a miss, whose number is -1.
+        pieces[asked] = _of(self._piece_of, self._world.triangles(eye, towards[:, asked]) + 1)
         return pieces.reshape(x.shape)
 
     def _highest(self, eye: Doubles) -> np.float32:
@@ -259,16 +244,6 @@ class Open3DRenderer:
             colour[..., index] = encode_levels(seen)
         return colour
 
-    def _scene(self, mesh: Mesh) -> Any:
-        scene = self._open3d.t.geometry.RaycastingScene(nthreads=THREADS)
-        corners = np.ascontiguousarray(mesh.corners.reshape(-1, 3))
-        faces = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
-        scene.add_triangles(corners, faces)
-        return scene
-
-    def _cast(self, scene: Any, rays: Floats) -> Any:
-        return scene.cast_rays(self._open3d.core.Tensor.from_numpy(rays), nthreads=THREADS)
-
 
 def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDArray[Number]:
     """Return entries of a table; clipping spares NumPy a look at each before."""
@@ -314,14 +289,6 @@ def _towards(view: View, x: Floats, y: Floats) -> Floats:
     return np.stack([x * axis[0] + y * axis[1] + axis[2] for axis in axes])
 
 
-def _rays(origin: npt.NDArray[np.floating], directions: Floats) -> Floats:
-    """Return rays as Open3D takes them; directions are of shape (3, n)."""
-    rays = np.empty((directions.shape[1], 6), dtype=np.float32)
-    rays[:, :3] = origin
-    rays[:, 3:] = directions.T
-    return rays
-
-
 def _pieces(world: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:
     """Return the piece of each triangle; normals, heights and colours of pieces in columns.
 
@@ -340,40 +307,3 @@ def _pieces(world: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles,
         np.concatenate(([1.0], heights[first])),
         np.ascontiguousarray(np.vstack((none, baked[first])).T, dtype=np.float32),
     )
-
-
-def _import_open3d() -> Any:
-    try:
-        return _bindings()
-    except ImportError as error:
-        is_alone = importlib.util.find_spec("moderngl") is None
-        other = "" if is_alone else "; or choose --renderer moderngl"
-        raise RendererError(
-            "the renderer open3d needs Open3D 0.19 and its system libraries: "
-            f"pip install 'airhilt[vision]' and apt install {SYSTEM_LIBRARIES} "
-            f"({first_line(error)}){other}"
-        ) from None
-
-
-def _bindings() -> Any:
-    """Return what of Open3D is in C++: the package about it imports tools to show things in.
-
-    Those take three times as long as this does.
-    """
-    package = importlib.util.find_spec("open3d")
-    if package is None or not package.submodule_search_locations:
-        raise ImportError("no module named 'open3d'")
-    folder = Path(package.submodule_search_locations[0]) / "cpu"
-    if BINDINGS in sys.modules:
-        return sys.modules[BINDINGS]
-    spec = PathFinder.find_spec(BINDINGS, [str(folder)])
-    if spec is None or spec.loader is None or sys.platform == "win32":
-        return importlib.import_module("open3d")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[BINDINGS] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[BINDINGS]
-        raise
-    return module

@@ -1,0 +1,1 @@
+"""What the OpenGL renderer is made of."""
