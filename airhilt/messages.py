@@ -229,6 +229,38 @@ class RadarPlot(Message):
     )
 
 
+class CockpitInstruments(Message):
+    """``cockpit/<callsign>``: what the instruments of an aircraft show its own crew.
+
+    Values are those of the aircraft's own state, rounded finer than a crew can read; errors of the
+    instruments are not simulated. The air is the standard atmosphere and altimeters are set to
+    1013.25 hPa, so the altitude is the pressure altitude.
+    """
+
+    callsign: str
+    airspeed_kt: float = Field(ge=0.0, description="calibrated, in steps of 0.1 kt")
+    mach: float = Field(ge=0.0)
+    altitude_ft: int
+    vertical_speed_fpm: int
+    north: Literal["magnetic", "true"] = Field(
+        description="of heading and track; true where the magnetic variation is not known"
+    )
+    heading_deg: float = Field(ge=0.0, lt=360.0)
+    track_deg: float = Field(ge=0.0, lt=360.0, description="over the ground")
+    ground_speed_kt: float = Field(ge=0.0)
+    pitch_deg: float = Field(description="positive nose up")
+    roll_deg: float = Field(description="positive right wing down")
+    gear: float = Field(ge=0.0, le=1.0, description="position: 0 up, 1 down and locked")
+    flaps: float = Field(ge=0.0, le=1.0, description="position: 0 up, 1 fully extended")
+    on_ground: bool = Field(description="a main wheel carries weight")
+    mode: str = Field(
+        description="what autopilot and guidance do",
+        examples=["en_route", "glide", "go_around", "takeoff_roll"],
+    )
+    selected_altitude_ft: int = Field(description="altitude that is flown to, or held")
+    selected_airspeed_kt: int = Field(description="calibrated airspeed that is flown to, or held")
+
+
 VisibleClass = Literal["airplane", "truck", "bird", "deer", "coyote"]
 """Classes of what cameras see, by the names that COCO has where it has one."""
 
@@ -723,6 +755,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "adsb/{icao24}": AdsbReport,
     "radar/{site}/info": RadarInfo,
     "radar/{site}": RadarPlot,
+    "cockpit/{callsign}": CockpitInstruments,
     "asr/{frequency_khz}": Transcript,
     "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,

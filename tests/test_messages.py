@@ -78,6 +78,13 @@ EXAMPLES = {
         "site": "KDCA", "kind": "combined", "t_plot_ns": 1, "range_m": 9000.5,
         "azimuth_deg": 359.5, "mode_a": "1200", "mode_c_ft": -100,
     },
+    "CockpitInstruments": {
+        "callsign": "AAL1", "airspeed_kt": 280.5, "mach": 0.78, "altitude_ft": 35000,
+        "vertical_speed_fpm": -700, "north": "magnetic", "heading_deg": 359.5, "track_deg": 1.0,
+        "ground_speed_kt": 450.0, "pitch_deg": 2.5, "roll_deg": -25.0, "gear": 0.0, "flaps": 0.0,
+        "on_ground": False, "mode": "en_route", "selected_altitude_ft": 33000,
+        "selected_airspeed_kt": 280,
+    },
     "Transcript": {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "text": "climb",
         "confidence": 0.9, "engine": "text",

@@ -8,7 +8,7 @@ from pydantic import Field, JsonValue
 
 from airhilt.scenario.models.actors import ActorSpec
 from airhilt.scenario.models.adsb import Adsb
-from airhilt.scenario.models.base import Identifier, Model
+from airhilt.scenario.models.base import Callsign, Identifier, Model
 from airhilt.scenario.models.cameras import Camera
 from airhilt.scenario.models.conditions import Condition
 from airhilt.scenario.models.conflict import Conflict, Separation
@@ -40,6 +40,9 @@ class Scenario(Model):
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
     radars: tuple[Radar, ...] = Field(default=(), max_length=20)
+    cockpits: tuple[Callsign, ...] = Field(
+        default=(), max_length=500, description="aircraft whose instruments are published"
+    )
     sensors: dict[Identifier, dict[str, JsonValue]] = Field(
         default={}, description="settings of sensors from other packages, by the sensor's name"
     )

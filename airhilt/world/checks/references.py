@@ -26,8 +26,17 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
         pair = getattr(condition, "actors", None)
         if pair is not None and pair[0] == pair[1]:
             yield Problem(f"{path}/actors", f"found {pair[0]!r} twice; expected two actors")
+    for index, callsign in enumerate(scenario.cockpits):
+        yield from _no_cockpit(scenario, f"cockpits/{index}", callsign)
     if scenario.conflict is not None and len(set(scenario.conflict.actors)) < 2:
         yield Problem("conflict/actors", "found one actor twice; expected two actors")
+
+
+def _no_cockpit(scenario: Scenario, path: str, callsign: str) -> Iterator[Problem]:
+    """Yield the problem of a cockpit of which there is no aircraft."""
+    aircraft = [actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)]
+    if callsign not in aircraft:
+        yield Problem(path, f"no aircraft {callsign!r}{library.nearest(callsign, aircraft)}")
 
 
 def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:

@@ -106,6 +106,16 @@ class Aircraft:
         return self._airframe.main_wheel_height_m(self.state)
 
     @property
+    def gear(self) -> float:
+        """Position of the landing gear: 0 is up, 1 is down."""
+        return self._airframe.gear()
+
+    @property
+    def flaps(self) -> float:
+        """Position of the flaps: 0 is up, 1 is fully extended."""
+        return self._airframe.flaps()
+
+    @property
     def dimensions(self) -> AircraftDimensions:
         """Size of the aircraft."""
         return self.kind.dimensions

@@ -95,6 +95,11 @@ class Airframe:
         self.pitch_rate = reader("velocities/q-rad_sec")
         self.yaw_rate = reader("velocities/r-rad_sec")
 
+        self.gear = reader("gear/gear-pos-norm")
+        """Read (0 up, 1 down)."""
+        self.flaps = reader("fcs/flap-pos-norm")
+        """Read (0 up, 1 fully extended)."""
+
         self.elevator = reader("fcs/elevator-cmd-norm")
         """Where the controls are, read."""
         self.aileron = reader("fcs/aileron-cmd-norm")

@@ -1,0 +1,110 @@
+"""Cockpit instruments in a run: what an aircraft shows its own crew, and nothing of others.
+
+They are published five times a second, as often as the truth that a viewer compares them with. They
+are there only for the aircraft that the scenario names: two airliners for five minutes are 3,000
+messages, as many as everything else together, and few assistants sit in a cockpit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from airhilt.messages import CockpitInstruments, Message
+from airhilt.sensors.base import SensorContext
+from airhilt.sim import Priority, StepRecord
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.site import ScenarioSite
+
+PERIOD_NS = SECOND_NS // 5
+"""Period of the messages, in ns."""
+
+
+class CockpitType:
+    """The instruments of the aircraft that a scenario lists in ``cockpits``."""
+
+    name = "cockpit"
+    messages: Mapping[str, type[Message]] = {"cockpit/{callsign}": CockpitInstruments}
+
+    def create(self, context: SensorContext) -> Cockpits | None:
+        """Return the instruments of a run; None if the scenario names no aircraft."""
+        return Cockpits(context) if context.scenario.cockpits else None
+
+
+SENSOR = CockpitType()
+
+
+class Cockpits:
+    """The instruments of all aircraft that show them.
+
+    Parameters
+    ----------
+    context
+        What the run gives.
+    """
+
+    def __init__(self, context: SensorContext) -> None:
+        self._director = context.director
+        self._publish = context.publish
+        self._variation_deg = _variation_deg(context.site)
+        bodies = {name: context.actors[name].body for name in context.scenario.cockpits}
+        self._aircraft = {
+            callsign: body for callsign, body in bodies.items() if isinstance(body, Aircraft)
+        }
+
+    def start(self) -> None:
+        """Publish now, and then at a steady rate."""
+        self._director.every(PERIOD_NS, self._read, Priority.SENSOR)
+
+    def unfinished(self) -> tuple[StepRecord, ...]:
+        """Return nothing: reading an instrument takes no time."""
+        return ()
+
+    def _read(self) -> None:
+        for callsign, aircraft in self._aircraft.items():
+            if aircraft.ended is None:
+                instruments = instruments_of(callsign, aircraft, self._variation_deg)
+                stamped = instruments.model_copy(update={"t_ns": self._director.now_ns})
+                self._publish(f"cockpit/{callsign}", stamped)
+
+
+def instruments_of(
+    callsign: str, aircraft: Aircraft, variation_deg: float | None
+) -> CockpitInstruments:
+    """Return what the instruments of an aircraft show now.
+
+    Parameters
+    ----------
+    variation_deg
+        Magnetic variation, positive east; None if it is not known, and the compass shows true.
+    """
+    state, from_true_deg = aircraft.state, variation_deg or 0.0
+    return CockpitInstruments(
+        callsign=callsign,
+        airspeed_kt=round(state.calibrated_airspeed_m_s / KNOT, 1),
+        mach=round(state.mach, 3),
+        altitude_ft=round(state.altitude_m / FOOT),
+        vertical_speed_fpm=round(state.vertical_rate_m_s / FOOT_PER_MINUTE),
+        north="true" if variation_deg is None else "magnetic",
+        heading_deg=_bearing_deg(state.heading_rad, from_true_deg),
+        track_deg=_bearing_deg(state.track_rad, from_true_deg),
+        ground_speed_kt=round(state.ground_speed_m_s / KNOT, 1),
+        pitch_deg=round(state.pitch_rad / DEGREE, 1),
+        roll_deg=round(state.roll_rad / DEGREE, 1),
+        gear=round(aircraft.gear, 2),
+        flaps=round(aircraft.flaps, 2),
+        on_ground=aircraft.on_ground,
+        mode=aircraft.phase,
+        selected_altitude_ft=round(aircraft.target_altitude_m / FOOT),
+        selected_airspeed_kt=round(aircraft.target_speed_m_s / KNOT),
+    )
+
+
+def _bearing_deg(true_rad: float, variation_deg: float) -> float:
+    return round((true_rad / DEGREE - variation_deg) % 360.0, 1) % 360.0
+
+
+def _variation_deg(site: ScenarioSite) -> float | None:
+    """Return the magnetic variation at the airport; None en route, where none is given."""
+    layout = site.layout
+    return None if layout is None else layout.airport.magnetic_variation.east_deg

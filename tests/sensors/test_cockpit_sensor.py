@@ -1,0 +1,124 @@
+"""Cockpit instruments: what an aircraft shows its own crew, in runs that ask for it."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from pathlib import Path
+
+import pytest
+
+from airhilt import load
+from airhilt.cosim.replay import replay
+from airhilt.cosim.simulation import run
+from airhilt.errors import ScenarioError
+from airhilt.messages import ActorTruth, CockpitInstruments
+from airhilt.options import Options
+from airhilt.record import read_log
+from airhilt.scenario import Scenario
+from airhilt.sensors.cockpit import instruments_of
+from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
+from airhilt.world.flight import Aircraft, InitialCondition, load_aircraft_type
+from airhilt.world.flight.state import Atmosphere
+from airhilt.world.loading import load_text
+
+
+def asking(scenario: Scenario, *callsigns: str, seconds: float = 10.0) -> Scenario:
+    document = scenario.model_dump(mode="json") | {"duration_s": seconds, "cameras": []}
+    document["cockpits"] = callsigns
+    return load_text(json.dumps(document), scenario.name)
+
+
+def go(scenario: Scenario, folder: Path) -> list[CockpitInstruments]:
+    run(scenario, Options(out=folder, latency="fixed", speech=False, cameras=False))
+    log = read_log(folder / "log.mcap")
+    return [
+        CockpitInstruments.model_validate_json(m.data) for m in log if m.key == "cockpit/AAL123"
+    ]
+
+
+@pytest.fixture(scope="module")
+def flown(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("cockpit") / "run"
+    assert go(asking(encounter, "AAL123"), folder)
+    return folder
+
+
+def read(folder: Path) -> list[CockpitInstruments]:
+    log = read_log(folder / "log.mcap")
+    return [
+        CockpitInstruments.model_validate_json(m.data) for m in log if m.key == "cockpit/AAL123"
+    ]
+
+
+def test_instruments_are_published_five_times_a_second(flown: Path) -> None:
+    times = [shown.t_ns for shown in read(flown)]
+    assert len(times) >= 50
+    assert {b - a for a, b in itertools.pairwise(times)} == {SECOND_NS // 5}
+
+
+def test_they_show_the_state_of_their_own_aircraft(flown: Path) -> None:
+    truth = {
+        m.t_ns: ActorTruth.model_validate_json(m.data)
+        for m in read_log(flown / "log.mcap")
+        if m.key == "truth/state/AAL123"
+    }
+    for shown in read(flown):
+        true = truth[shown.t_ns]
+        assert shown.altitude_ft == pytest.approx(true.altitude_m / FOOT, abs=0.51)
+        assert true.calibrated_airspeed_m_s is not None
+        assert shown.airspeed_kt == pytest.approx(true.calibrated_airspeed_m_s / KNOT, abs=0.051)
+        assert shown.heading_deg == pytest.approx(true.heading_deg, abs=0.051)
+        assert shown.mode == true.phase
+        assert (shown.gear, shown.flaps, shown.on_ground) == (0.0, 0.0, False)
+
+
+def test_no_other_aircraft_shows_its_instruments(flown: Path) -> None:
+    keys = {m.key for m in read_log(flown / "log.mcap") if m.key.startswith("cockpit/")}
+    assert keys == {"cockpit/AAL123"}
+
+
+def test_a_replay_shows_the_same(flown: Path) -> None:
+    assert replay(flown).identical
+
+
+def test_there_are_none_unless_the_scenario_asks(encounter: Scenario, tmp_path: Path) -> None:
+    assert go(asking(encounter, seconds=2.0), tmp_path / "run") == []
+
+
+def test_at_an_airport_the_compass_is_magnetic(tmp_path: Path) -> None:
+    shown = go(asking(load("s01a_bad_readback"), "AAL123", seconds=3.0), tmp_path / "run")
+    truth = next(
+        ActorTruth.model_validate_json(m.data)
+        for m in read_log(tmp_path / "run" / "log.mcap")
+        if m.key == "truth/state/AAL123"
+    )
+    assert {one.north for one in shown} == {"magnetic"}
+    # Washington's variation is about 10 degrees west.
+    assert (shown[0].heading_deg - truth.heading_deg) % 360.0 == pytest.approx(10.5, abs=1.5)
+
+
+@pytest.mark.parametrize("callsign", ["AAL999", "DEER1"])
+def test_only_aircraft_of_the_scenario_have_a_cockpit(callsign: str) -> None:
+    with pytest.raises(ScenarioError, match=f"no aircraft '{callsign}'"):
+        asking(load("s01c_deer_delayed_warning"), callsign)
+
+
+@pytest.mark.parametrize("name", ["737", "B747", "c172p", "c310"])
+def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
+    kind = load_aircraft_type(name)
+    aircraft = Aircraft(
+        kind,
+        InitialCondition(
+            38.9 * DEGREE, -77.0 * DEGREE, 900.0, 0.0, kind.speeds.approach_kt * KNOT,
+            on_approach=True,
+        ),
+        seed=1,
+        atmosphere=Atmosphere(),
+    )  # fmt: skip
+    for _ in range(20):
+        aircraft.advance()
+    shown = instruments_of("N1", aircraft, None)
+    assert shown.north == "true"
+    assert shown.gear == 1.0
+    assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)
