@@ -1,0 +1,152 @@
+"""The examples of README and of the first page are run as they stand, on short scenarios."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from markdown_it import MarkdownIt
+
+from airhilt.bus import free_endpoint
+from airhilt_short import shorten
+from paths import DOCS, ROOT, SUPPORT
+
+PAGES = (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
+RUN_PAGES = ("README.md", "getting-started.md")
+RUN_COMMANDS = ("airhilt", "for", "python examples/")
+LONGEST_S = 120.0
+
+
+class Example(NamedTuple):
+    """A block of code of a page."""
+
+    page: Path
+    line: int
+    language: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.page.name}:{self.line}"
+
+
+def examples(page: Path) -> Iterator[Example]:
+    """Yield the blocks of code of a page: fenced and indented ones."""
+    for token in MarkdownIt().parse(page.read_text(encoding="utf-8")):
+        if token.type in ("fence", "code_block"):
+            begin, _ = token.map or (0, 0)
+            yield Example(page, begin + 1, token.info, token.content)
+
+
+def commands(example: Example) -> list[str]:
+    """Return the commands of a block that can be run here, without the remarks beside them."""
+    text = re.sub(r"\\\n\s*", "", example.text)
+    text = re.sub(r"(?m)(?<=\S)( {3,}| +#).*$", "", text)
+    text = re.sub(r"(?ms)^for .*?^done", in_one_line, text)
+    return [line for line in text.split("\n") if line.startswith(RUN_COMMANDS)]
+
+
+def in_one_line(loop: re.Match[str]) -> str:
+    """Return a loop of the shell in one line."""
+    return re.sub(r"\n\s*", "; ", loop[0]).replace("do; ", "do ")
+
+
+def is_possible(command: str) -> bool:
+    """Tell whether what a command needs besides the plain install is there."""
+    needed = {"--video": "av", "--renderer moderngl": "moderngl", "--renderer open3d": "open3d"}
+    return all(find_spec(package) for option, package in needed.items() if option in command)
+
+
+EXAMPLES = [example for page in PAGES for example in examples(page)]
+CONSOLE = [
+    example for example in EXAMPLES
+    if example.page.name in RUN_PAGES and example.language in ("", "sh", "console", "bash")
+    and commands(example)
+]  # fmt: skip
+PYTHON = [example for example in EXAMPLES if example.language == "python"]
+
+
+@pytest.fixture(scope="session")
+def short_scenarios(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("scenarios")
+    shorten(folder)
+    return folder
+
+
+@pytest.fixture
+def environment(tmp_path: Path, short_scenarios: Path) -> dict[str, str]:
+    """Programs by the names that a reader's terminal has for them, in an empty folder."""
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    short = f"{SUPPORT / 'airhilt_short.py'} {short_scenarios}"
+    for name, call in {
+        "airhilt": f'exec "{sys.executable}" {short} "$@"',
+        "python": f'exec "{sys.executable}" "$@"',
+        "seq": "echo 1 2",
+    }.items():
+        path = programs / name
+        path.write_text(f"#!/bin/sh\n{call}\n")
+        path.chmod(0o755)
+    work = tmp_path / "work"
+    work.mkdir()
+    shutil.copy(short_scenarios / "unseen" / "s02a_headon.json", work / "my_scenario.json")
+    (work / "examples").symlink_to(ROOT / "examples")
+    return os.environ | {
+        "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(ROOT),
+        "PWD": str(work),
+    }
+
+
+def run(script: str, environment: dict[str, str]) -> str:
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", script],
+        cwd=environment["PWD"], env=environment, capture_output=True, text=True, timeout=LONGEST_S,
+    )  # fmt: skip
+    assert done.returncode == 0, f"{script}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+def as_run(command: str, endpoint: str) -> str:
+    """Return a command as it is run here: its own run folders and port, and few pictures."""
+    command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
+    command = re.sub(r"--images \d+", "--images 2", command)
+    command = re.sub(r"runs/(\w+)-0-\.\.\.", r'"$(ls -dt runs/\1-0-* | head -1)"', command)
+    command = re.sub(r"\bRUN\b", '"$(ls -dt runs/*/ | head -1)"', command)
+    return f"{command} &" if "--attach" in command else command
+
+
+@pytest.mark.parametrize("example", CONSOLE, ids=str)
+def test_the_commands_of_a_page_can_be_run(example: Example, environment: dict[str, str]) -> None:
+    endpoint = free_endpoint()
+    needed = {
+        scenario
+        for command in commands(example)
+        for scenario in re.findall(r"runs/(\w+)-0-\.\.\.", command) or ["s01b_nominal"]
+        if re.search(r"\bRUN\b|-0-\.\.\.", command)
+    }
+    script = [f"airhilt cosim --scenario {scenario} >&2" for scenario in sorted(needed)]
+    script += [as_run(command, endpoint) for command in commands(example) if is_possible(command)]
+    run("\n".join([*script, "wait"]), environment)
+
+
+@pytest.mark.parametrize("example", PYTHON, ids=str)
+def test_the_python_of_a_page_can_be_run(
+    example: Example, environment: dict[str, str], short_scenarios: Path
+) -> None:
+    work = Path(environment["PWD"])
+    (work / "example.py").write_text(example.text)
+    (work / "launch.py").write_text(
+        f"import runpy, sys\nsys.path.append({str(SUPPORT)!r})\n"
+        f"import airhilt_short\nfrom pathlib import Path\n"
+        f"airhilt_short.use(Path({str(short_scenarios / 'unseen')!r}))\n"
+        "runpy.run_path('example.py')\n"
+    )
+    run("python launch.py", environment)

@@ -1,0 +1,49 @@
+"""The command `airhilt`, with scenarios short enough to run every example of the documentation.
+
+    python airhilt_short.py FOLDER cosim --scenario s02a_headon
+
+The scenarios are those of a folder that `shorten` has made. Only runs are short: a picture is drawn
+at the time that the example gives.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from airhilt import library
+from airhilt.cli import main
+
+LONGEST_S, LONGEST_WITH_CAMERAS_S = 30.0, 3.0
+
+
+def shorten(folder: Path) -> None:
+    """Write the scenarios that ship, shortened, to a folder: with cameras and without."""
+    for name in library.names("scenarios"):
+        document = json.loads(library.find("scenarios", name).read_text(encoding="utf-8"))
+        document["end_when"] = []
+        for kind, longest_s, cameras in (
+            ("seen", LONGEST_WITH_CAMERAS_S, document.get("cameras", [])),
+            ("unseen", LONGEST_S, []),
+        ):
+            short = document | {
+                "duration_s": min(document["duration_s"], longest_s),
+                "cameras": cameras,
+            }
+            path = folder / kind / f"{name}.json"
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(json.dumps(short), encoding="utf-8")
+
+
+def use(scenarios: Path) -> None:
+    """Let AIRHILT find its scenarios in another folder."""
+    shipped = library.folder
+    library.folder = lambda kind: scenarios if kind == "scenarios" else shipped(kind)
+
+
+if __name__ == "__main__":
+    chosen = Path(sys.argv.pop(1))
+    if sys.argv[1:2] == ["cosim"]:
+        use(chosen / ("seen" if "--video" in sys.argv else "unseen"))
+    main()
