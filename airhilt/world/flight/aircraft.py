@@ -97,7 +97,7 @@ class Aircraft:
 
     @property
     def on_ground(self) -> bool:
-        """Whether a main wheel carries weight."""
+        """True if a main wheel carries weight."""
         return self._airframe.on_ground()
 
     @property
@@ -149,7 +149,7 @@ class Aircraft:
                 )
             return
         if phase.may_touch:
-            airframe.feel_wind(state.ground_speed_m_s)
+            airframe.set_wind_for_ground_speed(state.ground_speed_m_s)
         step = airframe.step
         for _ in self._substeps:
             step()

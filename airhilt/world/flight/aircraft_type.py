@@ -1,4 +1,4 @@
-"""The ``aircraft/*.json`` files: what a type of aircraft is, and the gains that fly it."""
+"""The ``aircraft/*.json`` files: an aircraft type, and the gains that fly it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Speeds(_Section):
     climb_safety_kt: float = Field(gt=0)
     """V2."""
     drift_down_kt: float = Field(gt=0)
-    """After an engine failure en route; the best glide speed of an aircraft with one engine."""
+    """Speed after an engine failure en route; best glide speed of an aircraft with one engine."""
     cruise_kt: float = Field(gt=0)
     minimum_clean_kt: float = Field(gt=0)
     maximum_kt: float = Field(gt=0)
@@ -32,7 +32,7 @@ class Speeds(_Section):
     maximum_mach: float = Field(gt=0)
     service_ceiling_ft: float = Field(gt=0)
     climb_rate_fpm: float = Field(gt=0)
-    """Of a climb or descent for which no rate was asked."""
+    """Rate of a climb or descent for which none was asked."""
     maximum_climb_rate_fpm: float = Field(gt=0)
     maximum_descent_rate_fpm: float = Field(gt=0)
 
@@ -102,17 +102,17 @@ class Ground(_Section):
     """Rolling and taxiing."""
 
     model_nose_wheel_deg: float = Field(gt=0)
-    """To which the JSBSim model turns its nose wheel at full command; more than full is obeyed."""
+    """Angle of the JSBSim model's nose wheel at full command; the model obeys more than full."""
     nose_wheel_limit_deg: float = Field(gt=0, lt=90)
-    """Of the real aircraft."""
+    """Greatest angle of the real aircraft's nose wheel."""
     yaw_rate_s: float = Field(gt=0)
     """Rudder per error of yaw rate, and of its integral."""
     yaw_integral: float = Field(ge=0)
     deceleration_m_s2: float = Field(gt=0)
-    """After touchdown."""
+    """Deceleration after touchdown."""
     taxi_speed_kt: float = Field(gt=0)
     look_ahead_m: float = Field(gt=0)
-    """Of the steering along a path, at least."""
+    """Least distance of the point on a path that is steered to."""
     tail_contact_deg: float = Field(gt=0)
     """Pitch, on the main wheels, at which the tail touches the ground: of the Boeings as their
     flight crew training manuals have it, of the Cessnas from the JSBSim model's tail skid."""
@@ -128,10 +128,9 @@ class Flare(_Section):
     time_constant_s: float = Field(gt=0)
     touchdown_rate_fpm: float = Field(gt=0)
     decrab_height_m: float = Field(ge=0)
-    """Of the main wheels above the ground, below which the rudder points the nose along the
-    runway."""
+    """Height of the main wheels below which the rudder points the nose along the runway."""
     idle_height_part: float = Field(ge=0, lt=1)
-    """Of the height at which the flare began: there the levers have come to idle."""
+    """Part of the flare's initial height at which the levers have come to idle."""
     climb: float = Field(gt=0)
     """Pitch per error of climb angle; `airhilt.world.flight.autopilot.PitchLaw` says the rest."""
     climb_integral_per_s: float = Field(ge=0)
@@ -145,9 +144,9 @@ class Landing(_Section):
     flaps: float = Field(ge=0, le=1)
     """Part of the model's full deflection."""
     aim_m: float = Field(gt=0)
-    """From the threshold to where the main wheels' glide path meets the runway."""
+    """Distance from the threshold to where the main wheels' glide path meets the runway."""
     configure_m: float = Field(gt=0)
-    """From the threshold, on approach, to where gear and flaps are lowered."""
+    """Distance from the threshold at which gear and flaps are lowered."""
     course_per_s: float = Field(gt=0)
     """Turn rate per course error on the localizer."""
     glide_per_s: float = Field(gt=0)
@@ -161,12 +160,12 @@ class Takeoff(_Section):
     flaps: float = Field(ge=0, le=1)
     """Part of the model's full deflection."""
     pitch_deg: float = Field(gt=0)
-    """Rotated to; below where the tail touches."""
+    """Pitch after the rotation, below the pitch at which the tail touches."""
     pitch_rate_deg_s: float = Field(gt=0)
     pull: float = Field(ge=0, lt=1)
-    """Elevator with which the rotation begins: what lifts the nose wheel at rotation speed."""
+    """Elevator at the beginning of the rotation; it lifts the nose wheel at rotation speed."""
     rejected_deceleration_m_s2: float = Field(gt=0)
-    """Of a rejected takeoff."""
+    """Deceleration of a rejected takeoff."""
 
 
 class AircraftType(_Section):
@@ -182,7 +181,7 @@ class AircraftType(_Section):
     dimensions: AircraftDimensions
     speeds: Speeds
     start: Literal["trim", "settle"]
-    """How the model finds its equilibrium: JSBSim's trim, or flying until it is steady."""
+    """Way to the model's equilibrium: JSBSim's trim, or flying until it is steady."""
     gains: Gains
     ground: Ground
     takeoff: Takeoff

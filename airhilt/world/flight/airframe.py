@@ -22,15 +22,18 @@ PASCAL_PER_PSF = 47.880258980336
 """Pascal in a pound-force per square foot (lbf = 4.4482216152605 N, ft = 0.3048 m)."""
 MILITARY_SPECIFICATION = 3
 """JSBSim's ``turb-type`` for the MIL-F-8785C turbulence model."""
-
 BOTH_MAGNETOS = 3
+"""JSBSim's ``magneto_cmd`` for a running piston engine."""
 CRUISE_LEVER = 0.7
+"""Throttle lever at which piston engines are started."""
 MAIN_WHEELS = (1, 2)
 """JSBSim's numbers of the left and the right main gear; 0 is the nose gear."""
 FULL_WIND_M_S = 15.0
-"""Ground speed from which the whole wind and its turbulence are felt; slower, a part of them in
-proportion. The models' coefficients are linear in an angle of attack that goes round to 180 degrees
-in a tailwind and is anything in a pure crosswind: they would rear a standing aircraft up."""
+"""Ground speed from which an aircraft on the ground feels the whole wind and turbulence, in m/s.
+
+A slower aircraft feels a part of them in proportion. The models' coefficients are linear in the
+angle of attack, which reaches 180 degrees in a tailwind and is undefined in a pure crosswind: they
+would rear a standing aircraft up."""
 
 Reader = Callable[[], float]
 Writer = Callable[[float], object]
@@ -42,13 +45,13 @@ class Airframe:
     Parameters
     ----------
     kind
-        Its type.
+        Type of the aircraft.
     step_s
-        Of the flight dynamics.
+        Time step of the flight dynamics, in s.
     seed
-        Of its turbulence.
+        Seed of its turbulence.
     terrain_elevation_m
-        Of the flat ground below it.
+        Elevation of the flat ground below it.
 
     Raises
     ------
@@ -88,7 +91,8 @@ class Airframe:
         self._dynamic_pressure_psf = reader("aero/qbar-psf")
 
         self.angle_of_attack = reader("aero/alpha-rad")
-        """Read (rad); so are the next five (1, rad, rad/s)."""
+        """Reads the angle of attack, in rad. The next five read the load factor, the sideslip in
+        rad, and the rates of roll, pitch and yaw in rad/s."""
         self.load_factor = reader("accelerations/Nz")
         self.sideslip = reader("aero/beta-rad")
         self.roll_rate = reader("velocities/p-rad_sec")
@@ -101,24 +105,26 @@ class Airframe:
         """Read (0 up, 1 fully extended)."""
 
         self.elevator = reader("fcs/elevator-cmd-norm")
-        """Where the controls are, read."""
+        """Reads the elevator (-1..1). The next three read aileron, rudder and throttle."""
         self.aileron = reader("fcs/aileron-cmd-norm")
         self.rudder = reader("fcs/rudder-cmd-norm")
         self.throttle = reader("fcs/throttle-cmd-norm")
 
         self.set_elevator = writer("fcs/elevator-cmd-norm")
-        """Set (-1..1, positive pitches down); the aileron's positive rolls right."""
+        """Sets the elevator (-1..1, positive pitches down)."""
         self.set_aileron = writer("fcs/aileron-cmd-norm")
+        """Sets the aileron (-1..1, positive rolls right)."""
         self.set_rudder = writer("fcs/rudder-cmd-norm")
-        """Set (-1..1, positive yaws left)."""
+        """Sets the rudder (-1..1, positive yaws left)."""
         self.set_flaps = writer("fcs/flap-cmd-norm")
-        """Set (0..1); so are the gear (1 is down) and the speed brakes, where there are any."""
+        """Sets the flaps (0..1). The next three set the gear (1 is down), the speed brakes and
+        the ground spoilers, where there are any."""
         self.set_gear = writer("gear/gear-cmd-norm")
         self.set_speed_brakes = writer("fcs/speedbrake-cmd-norm")
         self.set_ground_spoilers = writer("fcs/spoiler-cmd-norm")
-        self._blow_north = writer("atmosphere/wind-north-fps")
-        self._blow_east = writer("atmosphere/wind-east-fps")
-        self._blow_gusts = writer("atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps")
+        self._set_wind_north = writer("atmosphere/wind-north-fps")
+        self._set_wind_east = writer("atmosphere/wind-east-fps")
+        self._set_gusts = writer("atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps")
         self._wind_fps = 0.0, 0.0, 0.0
         self._wind_part = 1.0
         self._steer = writer("fcs/steer-cmd-norm")
@@ -149,10 +155,10 @@ class Airframe:
         gear, flaps = (1.0, self._kind.landing.flaps) if initial.on_approach else (0.0, 0.0)
         fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = gear
         fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = flaps
-        self._take_wheel_positions()
+        self._read_wheel_positions()
 
-    def _take_wheel_positions(self) -> None:
-        """Read where the wheels are, which is known once the model has been initialised."""
+    def _read_wheel_positions(self) -> None:
+        """Read the positions of the wheels; the model knows them once it is initialised."""
         fdm = self._fdm
         part = "inertia/cg-{}-in", f"gear/unit[{MAIN_WHEELS[0]}]/{{}}-position"
         nose = fdm["gear/unit[0]/x-position"]
@@ -177,28 +183,28 @@ class Airframe:
         fdm["propulsion/set-running"] = -1
         fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = 1.0
         fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = self._kind.takeoff.flaps
-        self._take_wheel_positions()
+        self._read_wheel_positions()
 
-    def blow(self, atmosphere: Atmosphere) -> None:
-        """Let the air of an atmosphere blow over the aircraft that stands on the ground."""
+    def set_atmosphere(self, atmosphere: Atmosphere) -> None:
+        """Put the aircraft that stands on the ground into the wind of an atmosphere."""
         fdm = self._fdm
         self._make_turbulent(atmosphere)
-        self._know_wind(atmosphere)
-        self.feel_wind(0.0)
+        self._keep_wind(atmosphere)
+        self.set_wind_for_ground_speed(0.0)
         fdm["simulation/randomseed"] = self._seed
         fdm["propulsion/starter_cmd"] = 0
 
-    def feel_wind(self, ground_speed_m_s: float) -> None:
-        """Let the aircraft on the ground feel the part of the wind that its models can stand."""
+    def set_wind_for_ground_speed(self, ground_speed_m_s: float) -> None:
+        """Set the part of the wind that the model can stand on the ground at this speed."""
         part = min(ground_speed_m_s / FULL_WIND_M_S, 1.0)
         if part != self._wind_part:
             self._wind_part = part
             north, east, gusts = self._wind_fps
-            self._blow_north(part * north)
-            self._blow_east(part * east)
-            self._blow_gusts(part * gusts)
+            self._set_wind_north(part * north)
+            self._set_wind_east(part * east)
+            self._set_gusts(part * gusts)
 
-    def _know_wind(self, atmosphere: Atmosphere) -> None:
+    def _keep_wind(self, atmosphere: Atmosphere) -> None:
         wind, gusts = atmosphere, atmosphere.turbulence_wind_at_20ft_m_s
         self._wind_fps = wind.wind_north_m_s / FOOT, wind.wind_east_m_s / FOOT, gusts / FOOT
 
@@ -217,7 +223,7 @@ class Airframe:
         Raises
         ------
         ModelError
-            There is none at this condition.
+            There is no steady flight at this condition.
         """
         try:
             self._fdm.do_trim(int(jsbsim.TrimMode.FULL))
@@ -234,7 +240,7 @@ class Airframe:
         roll, pitch, heading = self._roll(), self._pitch(), self._heading()
         rates = self.roll_rate(), self.pitch_rate(), self.yaw_rate()
         wind_north, wind_east = atmosphere.wind_north_m_s / FOOT, atmosphere.wind_east_m_s / FOOT
-        self._know_wind(atmosphere)
+        self._keep_wind(atmosphere)
         fdm["ic/lat-geod-rad"] = initial.latitude_rad
         fdm["ic/long-gc-rad"] = initial.longitude_rad
         fdm["ic/h-sl-ft"] = initial.altitude_m / FOOT

@@ -21,22 +21,26 @@ from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.state import AircraftState
 
 LIFT_ANGLE_LAG_S = 2.0
-"""Of the filter between angle of attack and commanded pitch: slower than the short period."""
+"""Time constant between angle of attack and commanded pitch, in s: slower than the short period."""
 LEAST_LOAD_FACTOR = 0.5
-"""Below it, lift tells nothing of the angle of attack that level flight needs."""
+"""Load factor below which lift does not show the angle of attack that level flight needs."""
 SPEED_LAG_S = 8.0
-"""Of the reference airspeed behind the commanded one."""
+"""Time constant of the reference airspeed behind the commanded one, in s."""
 ACCELERATION_LAG_S = 1.0
+"""Time constant of the measured acceleration, in s."""
 ENERGY_LAG_S = 4.0
+"""Time constant of the climb angle that the thrust can keep, in s."""
 ROLL_RATE_MARGIN = 1.5
-"""Of roll rate above the rate at which the commanded bank moves, to catch up with it."""
+"""Greatest roll rate, as a multiple of the rate at which the commanded bank moves."""
 MAXIMUM_PRESSURE_RATIO = 4.0
-"""Bounds the surface gains at low airspeed."""
+"""Greatest factor on the surface gains at low dynamic pressure."""
 TWICE_EARTH_RATE = 2.0 * ROTATION_RATE_RAD_S
-"""rad/s (WGS84); times the sine of latitude, the turn that a wings-level flight makes by itself."""
+"""Twice the Earth's rotation rate, in rad/s (WGS84). Times the sine of the latitude, it is the turn
+rate of a wings-level flight."""
 ROTATION_PER_S = 2.0
-"""Pitch rate per error of pitch, in lifting the nose."""
+"""Pitch rate per error of pitch while the nose is lifted, in 1/s."""
 MAXIMUM_CLIMB_ANGLE = 15.0 * DEGREE
+"""Greatest climb or descent angle that airspeed control asks for, in rad."""
 SPEED_BAND = 0.08
 """Airspeed error, as a part of the commanded one, beyond which the climb angle yields once the
 lever is at its stop."""
@@ -45,16 +49,16 @@ SPEED_TO_CLIMB = 0.08 / STANDARD_GRAVITY
 
 
 class PitchLaw(NamedTuple):
-    """How firmly pitch follows the climb angle."""
+    """Gains by which pitch follows the climb angle."""
 
     climb: float
     """Pitch per error of climb angle."""
     climb_integral_per_s: float
-    """Likewise, of its integral."""
+    """Pitch per integral of that error, in 1/s."""
     climb_rate_s: float
-    """Climb angle per error of its rate, which the load factor tells."""
+    """Climb angle per error of its rate, in s; the load factor shows that rate."""
     attitude_per_s: float
-    """Pitch rate per error of pitch."""
+    """Pitch rate per error of pitch, in 1/s."""
 
 
 class Autopilot:
@@ -63,13 +67,13 @@ class Autopilot:
     Parameters
     ----------
     airframe
-        In steady flight.
+        Airframe in steady flight.
     kind
         Its type.
     tick_s
-        Between two calls of `fly`.
+        Time between two calls of `fly`, in s.
     state
-        The airframe's state now.
+        State of the airframe now.
     """
 
     def __init__(
@@ -115,14 +119,14 @@ class Autopilot:
         self.take_over(state)
 
     def take_over(self, state: AircraftState, elevator: float | None = None) -> None:
-        """Begin from what the aircraft does now, the controls where they are.
+        """Start from the present flight and the present controls.
 
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the airframe now.
         elevator
-            Where it begins (-1..1), if not where it is.
+            Elevator to start from (-1..1); by default the present one.
         """
         airframe = self._airframe
         speed = max(state.true_airspeed_m_s, 1.0)
@@ -143,7 +147,7 @@ class Autopilot:
 
     @property
     def lever(self) -> float:
-        """Where the throttle levers are (0..1)."""
+        """Position of the throttle levers (0..1)."""
         return self._lever
 
     @property

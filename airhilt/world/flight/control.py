@@ -17,7 +17,7 @@ class FlightControl:
     Parameters
     ----------
     cockpit
-        What the phases fly with.
+        Airframe, autopilot and ground law.
     initial
         Where the aircraft begins.
     terrain_elevation_m
@@ -59,7 +59,7 @@ class FlightControl:
 
     @property
     def on_ground(self) -> bool:
-        """Whether a main wheel carries weight."""
+        """True if a main wheel carries weight."""
         return self.cockpit.airframe.on_ground()
 
     def climb_on(self, lateral: LateralMode, altitude_m: float) -> EnRoute:

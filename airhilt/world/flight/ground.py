@@ -19,33 +19,41 @@ COURSE_GAIN = 1.5
 CROSS_TRACK_GAIN = 0.4
 """Closing speed per distance from the centre line (1/s)."""
 CLOSING_SPEED_M_S = 8.0 * FOOT
+"""Greatest speed towards the centre line, in m/s."""
 CLOSING_ANGLE = 30.0 * DEGREE
+"""Greatest angle towards the centre line, in rad."""
 LATERAL_ACCELERATION_M_S2 = 2.5
-"""In a turn, at most."""
+"""Greatest lateral acceleration in a turn, in m/s2."""
 LEAST_SPEED_M_S = 1.0
-"""Below it, steering angles are those of this speed."""
+"""Speed in m/s below which the steering angles no longer grow."""
 LARGEST_INTEGRAL = 0.5
-"""Of rudder, that the yaw rate's integral may take."""
+"""Greatest part of the rudder that the integral of the yaw rate takes."""
 SLIP_FROM_M_S = 10.0
+"""Ground speed from which wheels may slip in a crosswind, in m/s."""
 SLIP_LAG_S = 2.0
-"""Of the filter of the angle between nose and track, by which a crosswind makes wheels slip."""
+"""Time constant of the filter for the slip angle between nose and track, in s."""
 LARGEST_SLIP = 1.5 * DEGREE
-"""More is no slip, but the crab in which an aircraft has touched down."""
+"""Greatest slip angle, in rad; a greater angle is the crab in which the aircraft touched down."""
 BANK_GAIN = 5.0
+"""Aileron per bank that keeps the wings level, in 1/rad."""
 ROLL_RATE_GAIN = 1.5
-"""Aileron per bank and per roll rate (1/rad, s/rad), that keep the wings level."""
+"""Aileron per roll rate that keeps the wings level, in s/rad."""
 NOSE_DOWN_RATE = 2.0 * DEGREE
 """Rate (rad/s) at which the nose is lowered after touchdown."""
 NOSE_DOWN_ELEVATOR = 0.1
-"""Presses the nose wheel to the ground."""
+"""Elevator that presses the nose wheel to the ground."""
 ELEVATOR_RATE_PER_S = 0.5
+"""Rate at which the elevator then moves, in 1/s."""
 BRAKE_GAIN = 0.3
 """Pedal per second and deceleration error, 1/(s m/s2)."""
 LEVER_GAIN = 0.05
+"""Throttle lever per error of taxi speed, in s/m."""
 LEVER_INTEGRAL_GAIN = 0.01
+"""Throttle lever per integral of that error, in 1/m."""
 LARGEST_TAXI_LEVER = 0.5
+"""Greatest throttle lever while taxiing."""
 LEVER_FADE_PER_S = 0.3
-"""At which the lever's integral is forgotten while the brakes are on."""
+"""Rate at which the lever's integral decays while the brakes are on, in 1/s."""
 SPEED_PER_S = 1.5
 """Acceleration per error of taxi speed (1/s)."""
 COASTING_M_S2 = 0.3
@@ -53,8 +61,9 @@ COASTING_M_S2 = 0.3
 FULL_BRAKE_M_S2 = 4.5
 """Deceleration by the brakes: the models' dynamic friction of 0.5, on the main wheels."""
 STOP_DECELERATION_M_S2 = 1.5
+"""Deceleration of a stop while taxiing, in m/s2."""
 LAST_M_S = 0.4
-"""Below it, the brakes are set."""
+"""Speed in m/s below which the brakes are set."""
 
 
 class GroundLaw:
@@ -63,11 +72,11 @@ class GroundLaw:
     Parameters
     ----------
     airframe
-        On the ground.
+        Airframe on the ground.
     kind
         Its type.
     tick_s
-        Between two calls.
+        Time between two calls, in s.
     """
 
     def __init__(self, airframe: Airframe, kind: AircraftType, tick_s: float) -> None:
@@ -84,7 +93,7 @@ class GroundLaw:
         self.reset()
 
     def reset(self, elevator: float | None = None) -> None:
-        """Begin anew, from where the controls are, or from a steady elevator."""
+        """Start again from the present controls, or from a steady elevator."""
         self._yaw_integral = 0.0
         self._slip = 0.0
         self._pedals = 0.0
@@ -106,11 +115,11 @@ class GroundLaw:
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the airframe now.
         cross_track_m
-            Of the aircraft, positive to the right of the line.
+            Distance of the aircraft from the line, positive to the right.
         course_rad
-            Of the line, true.
+            True course of the line.
         slipping
             Whether the nose may point off the track, as a crosswind makes it on wheels that carry
             little weight. After a touchdown in a crab it must not: the crab would be kept.
@@ -170,7 +179,7 @@ class GroundLaw:
         self._airframe.set_brakes(self._pedals)
 
     def hold_speed(self, state: AircraftState, speed_m_s: float) -> None:
-        """Taxi at a speed, and as it changes; at 0, brake to a stand and stay."""
+        """Taxi at a speed that may change from call to call; at 0, brake to a stand and stay."""
         airframe, now = self._airframe, state.ground_speed_m_s
         self._speed, self._pedals = None, 0.0
         if speed_m_s <= 0.0:

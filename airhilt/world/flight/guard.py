@@ -1,4 +1,4 @@
-"""Says when, and why, a flight is over: JSBSim itself flies on through the ground and NaN."""
+"""Checks whether a flight has ended, and why. JSBSim itself flies on through ground and NaN."""
 
 from __future__ import annotations
 
@@ -12,21 +12,24 @@ GROUND_CONTACT = "ground_contact"
 STATE_NOT_FINITE = "state_not_finite"
 ENVELOPE_EXCEEDED = "envelope_exceeded"
 BANK_LIMIT = 75.0 * DEGREE
+"""Greatest bank of a flight, in rad."""
 PITCH_LIMIT = 45.0 * DEGREE
+"""Greatest pitch of a flight, up or down, in rad."""
 OVERSPEED_FACTOR = 1.15
-"""Above the maximum speed; design dive speed is 1.25 of cruise speed at most (CS-25.335)."""
+"""Fastest flight, as a part of the maximum speed. The design dive speed is at most 1.25 times the
+cruise speed (CS-25.335)."""
 OVERSPEED_MACH = 0.07
-"""Above the maximum Mach number (the same paragraph's least margin)."""
+"""Margin above the maximum Mach number (least margin of CS-25.335)."""
 STALL_FACTOR = 0.65
-"""Of the slowest speed at which the type flies: well below its stall speed."""
+"""Slowest flight, as a part of the type's slowest speed: well below the stall speed."""
 HARDEST_TOUCHDOWN_M_S = 12.0 * FOOT
-"""The descent velocity that landing gear withstands at all (14 CFR 25.723(b))."""
+"""Greatest rate of descent that landing gear withstands, in m/s (14 CFR 25.723(b))."""
 LOW_M = 5.0
-"""Above the ground, where an aircraft that may touch it is not yet, or no more, held to fly."""
+"""Height up to which an aircraft that may touch the ground need not keep flying speed, in m."""
 GEAR_TRAVEL_M = 1.0
-"""By which the wheels' struts give way, at most, beyond standing."""
+"""Greatest travel of the wheels' struts beyond standing, in m."""
 SINK_FACTOR = 3.0
-"""Of the type's greatest descent rate."""
+"""Greatest sink rate, as a multiple of the type's greatest descent rate."""
 
 
 class Guard:
@@ -49,7 +52,7 @@ class Guard:
         Parameters
         ----------
         state
-            Now.
+            State of the aircraft now.
         may_touch
             Whether the wheels may touch the ground.
         on_ground

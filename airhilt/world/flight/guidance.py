@@ -1,4 +1,4 @@
-"""Outer loops: what was commanded becomes a turn rate, a vertical rate and an airspeed.
+"""Outer loops: they turn commands into a turn rate, a vertical rate and an airspeed.
 
 Each direction has its modes, small objects that are replaced when a command comes: `Track`,
 `Heading`, `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. Procedures
@@ -17,24 +17,24 @@ from airhilt.world.flight.route import SHARPEST_TURN_RAD, Arc, Guide, Leg, turn_
 from airhilt.world.flight.state import AircraftState
 
 CROSS_TRACK_PART = 0.4
-"""Of the course gain, for the cross-track error: a damping ratio of 0.8."""
+"""Cross-track gain, as a part of the course gain: a damping ratio of 0.8."""
 INTERCEPT_ANGLE = 30.0 * DEGREE
-"""At which a leg is joined from afar."""
+"""Angle at which a distant leg is joined, in rad."""
 ARC_BANK_PART = 0.8
 """Part of the bank limit that an arc of the route takes; the rest corrects."""
 ROLL_LEAD_S = 2.5
-"""The roll into a turn begins this long before the arc: half the roll's duration, and its lag."""
+"""Time before an arc at which the roll into it begins, in s: half its duration, and its lag."""
 
 
 class AltitudeClearance(NamedTuple):
-    """An altitude, and the rate (positive) at which it is reached."""
+    """Altitude, and the positive rate at which it is reached."""
 
     altitude_m: float
     vertical_rate_m_s: float
 
 
 class LateralMode(Protocol):
-    """Steers."""
+    """Mode of the lateral guidance."""
 
     def turn_rate(self, state: AircraftState) -> float:
         """Return the commanded rate of turn of the track (rad/s, positive to the right)."""
@@ -46,11 +46,11 @@ class Track:
     Parameters
     ----------
     track_rad
-        True.
+        True track.
     gain
         Turn rate per course error (1/s).
     turn_rad
-        Turned through on the way, positive to the right; None for the shorter side.
+        Angle to turn through on the way, positive to the right; None for the shorter side.
     """
 
     def __init__(self, track_rad: float, gain: float, turn_rad: float | None = None) -> None:
@@ -91,11 +91,11 @@ class Route:
     Parameters
     ----------
     legs
-        In order.
+        Legs, in order.
     gain
         Turn rate per course error (1/s).
     bank_limit_rad
-        Of the aircraft.
+        Greatest bank of the aircraft.
     """
 
     def __init__(self, legs: tuple[Leg, ...], gain: float, bank_limit_rad: float) -> None:
@@ -110,12 +110,12 @@ class Route:
 
     @property
     def finished(self) -> bool:
-        """Whether the last waypoint is behind."""
+        """True if the last waypoint is passed."""
         return self._end is not None
 
     @property
     def leg(self) -> Leg:
-        """The leg that is flown, or led to by an arc."""
+        """Leg that is flown, or that the present arc leads to."""
         return self._legs[self._index]
 
     def turn_rate(self, state: AircraftState) -> float:
@@ -166,7 +166,7 @@ class Route:
             self._look_ahead()
 
     def _look_ahead(self) -> None:
-        """Work out how far before the end of the leg the turn into the next one begins."""
+        """Find how far before the end of the leg the turn into the next one begins."""
         self._lead_factor = 0.0
         self._longest_lead = 0.0
         if self._index == len(self._legs) - 1:
@@ -199,7 +199,7 @@ class Altitude:
         return within(self._gain * (self._altitude - state.altitude_m), self._rate)
 
     def captures(self, state: AircraftState) -> bool:
-        """Return whether the climb or descent must be levelled off now, at whatever rate it is."""
+        """Return whether the aircraft must level off now, at its present rate."""
         wanted = self._gain * (self._altitude - state.altitude_m)
         rate = state.vertical_rate_m_s
         return wanted <= rate if wanted > 0.0 else wanted >= rate
@@ -211,9 +211,9 @@ class Airspeed:
     Parameters
     ----------
     airspeed_m_s
-        Calibrated.
+        Calibrated airspeed.
     maximum_mach
-        Not exceeded.
+        Greatest Mach number.
     """
 
     def __init__(self, airspeed_m_s: float, maximum_mach: float) -> None:

@@ -1,4 +1,4 @@
-"""What a phase of flight is: it flies one tick and says which phase flies the next."""
+"""Protocol of the phases of flight. A phase flies one tick and returns the phase of the next."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from airhilt.world.flight.state import AircraftState
 
 
 class Cockpit(NamedTuple):
-    """What the phases fly with."""
+    """Airframe, autopilot and ground law with which the phases fly."""
 
     kind: AircraftType
     airframe: Airframe
     autopilot: Autopilot
     ground: GroundLaw
     tick_s: float
-    """Between two calls of a phase."""
+    """Time between two calls of a phase, in s."""
 
 
 class FlightPhase(Protocol):
-    """One phase of a procedure; each names the phase that follows it."""
+    """One phase of a procedure. It creates the phase that follows it."""
 
     @property
     def name(self) -> str:
-        """What it is, in the field's words, such as ``takeoff_roll``."""
+        """Name of the phase, such as ``takeoff_roll``."""
 
     @property
     def commandable(self) -> bool:
-        """Whether en-route commands change what it leads to; otherwise they end it."""
+        """True if en-route commands change the flight that follows this phase; else they end it."""
 
     @property
     def may_touch(self) -> bool:
-        """Whether the wheels may be on the ground; otherwise ground contact ends the flight."""
+        """True if the wheels may be on the ground; otherwise ground contact ends the flight."""
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Set the controls for one tick; return the phase of the next, itself if it goes on."""

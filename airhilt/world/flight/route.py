@@ -19,21 +19,22 @@ from airhilt.geodesy.wgs84 import Place, Vector, earth_centred, vertical
 from airhilt.world.flight.state import AircraftState, require_finite
 
 LONGEST_LEG_M = 100_000.0
+"""Length in m from which a leg is divided."""
 SHORTEST_LEG_M = 50.0
-"""Waypoints nearer to each other than this are one."""
+"""Distance in m below which two waypoints are one."""
 SHARPEST_TURN_RAD = math.radians(150.0)
-"""Beyond it, no arc cuts the corner: the turn begins at the waypoint."""
+"""Turn in rad from which no arc cuts the corner: the turn begins at the waypoint."""
 
 
 class Guide(NamedTuple):
-    """Where an aircraft is with regard to its path."""
+    """Position of an aircraft relative to its path."""
 
     cross_track_m: float
-    """Of the aircraft, positive to the right of the path."""
+    """Distance of the aircraft from the path, positive to the right."""
     course_rad: float
-    """Of the path beside the aircraft."""
+    """True course of the path beside the aircraft."""
     turn_rate: float
-    """Of the path there at the present ground speed (rad/s, positive to the right)."""
+    """Turn rate of the path there at the present ground speed, in rad/s, positive to the right."""
 
 
 class Leg:
@@ -72,7 +73,7 @@ class Leg:
         )
 
     def course_rad(self, latitude_rad: float, longitude_rad: float) -> float:
-        """Return the course of the leg (of a parallel to it) at a place."""
+        """Return the true course of the leg, or of a parallel to it, at a place."""
         right_x, right_y, right_z = self.right
         sin_longitude, cos_longitude = math.sin(longitude_rad), math.cos(longitude_rad)
         right_east = right_y * cos_longitude - right_x * sin_longitude
@@ -82,7 +83,7 @@ class Leg:
         return math.atan2(-right_north, right_east)
 
     def guide(self, state: AircraftState) -> Guide:
-        """Return where the aircraft is with regard to the leg."""
+        """Return the position of the aircraft relative to the leg."""
         return Guide(
             self.cross_track_m(state),
             self.course_rad(state.latitude_rad, state.longitude_rad),
@@ -98,7 +99,8 @@ class Arc:
     before, after
         The legs.
     lead_m
-        From where the arc begins on ``before`` to the common end; as far from there it ends.
+        Distance from the beginning of the arc on ``before`` to the common end. The arc ends as far
+        behind that end on ``after``.
     """
 
     def __init__(self, before: Leg, after: Leg, lead_m: float) -> None:
@@ -121,7 +123,7 @@ class Arc:
         return self._after.to_go_m(state) - self._after.length_m + self._lead
 
     def guide(self, state: AircraftState) -> Guide:
-        """Return where the aircraft is with regard to the arc."""
+        """Return the position of the aircraft relative to the arc."""
         offset = (
             state.ecef_x_m - self._place[0],
             state.ecef_y_m - self._place[1],

@@ -1,4 +1,4 @@
-"""How an aircraft begins: in steady flight, or standing on its wheels with idling engines."""
+"""Start of an aircraft: in steady flight, or standing on its wheels with idling engines."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class Start:
             for _ in range(round(seconds / self.tick_s) * self.substeps):
                 airframe.step()
             airframe.set_throttle(0.0)
-        airframe.blow(atmosphere)
+        airframe.set_atmosphere(atmosphere)
         return Autopilot(airframe, self.kind, self.tick_s, airframe.state())
 
     def _trimmed(self, initial: InitialCondition, heading_rad: float) -> Autopilot:

@@ -1,4 +1,4 @@
-"""What an aircraft is doing, how it begins, and the air it flies in. SI and radians."""
+"""State of an aircraft, how it begins, and the air that it flies in. SI and radians."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class AircraftState(NamedTuple):
     altitude_m: float
     """Geodetic height above WGS84, which in the standard atmosphere is the pressure altitude."""
     height_agl_m: float
-    """Of the wheels above the ground."""
+    """Height of the wheels above the ground."""
     velocity_north_m_s: float
-    """Over the ground, like the next two."""
+    """Velocity over the ground, like the next two."""
     velocity_east_m_s: float
     velocity_down_m_s: float
     roll_rad: float
     pitch_rad: float
     heading_rad: float
-    """True, in [0, 2 pi)."""
+    """True heading, in [0, 2 pi)."""
     true_airspeed_m_s: float
     calibrated_airspeed_m_s: float
     mach: float
@@ -54,7 +54,7 @@ class AircraftState(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class InitialCondition:
-    """Where an aircraft begins, and how it flies there.
+    """Place of an aircraft that begins in the air, and its flight there.
 
     On approach its gear is down and its flaps are set for landing; otherwise it is clean.
 
@@ -85,7 +85,7 @@ class InitialCondition:
 
 @dataclass(frozen=True, slots=True)
 class OnGround:
-    """Where an aircraft stands on its wheels, brakes set, engines idling.
+    """Place of an aircraft that begins on its wheels, brakes set, engines idling.
 
     It may stand lined up on a runway, or anywhere else.
 

@@ -1,4 +1,4 @@
-"""A path over the ground as an aircraft taxies along it: where to steer, and how fast it may go."""
+"""Path of a taxiing aircraft over the ground: where to steer, and how fast to go."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ from airhilt.world.flight.autopilot import within
 from airhilt.world.flight.state import AircraftState
 
 LATERAL_ACCELERATION_M_S2 = 0.8
-"""In the turns of a taxiway."""
+"""Greatest lateral acceleration in the turns of a taxiway, in m/s2."""
 DECELERATION_M_S2 = 0.8
-"""Towards the path's end and its turns."""
+"""Deceleration towards the path's end and its turns, in m/s2."""
 LOOK_AHEAD_S = 1.5
+"""Time ahead of the point that is steered to, in s."""
 STEPS_M = 5.0
-"""Between the points at which turns are looked for."""
+"""Distance between the points at which turns are looked for, in m."""
 WINDOW = 6
-"""Steps ahead among which the nearest is looked for."""
+"""Number of steps ahead among which the nearest is looked for."""
 
 
 class _Leg(NamedTuple):
@@ -42,11 +43,11 @@ class TaxiPath:
     Parameters
     ----------
     places
-        At least two, in order.
+        Two places or more, in order.
     speed_m_s
-        Greatest.
+        Greatest speed.
     look_ahead_m
-        Of the steering, at least.
+        Least distance of the point that is steered to.
 
     Raises
     ------
@@ -81,7 +82,7 @@ class TaxiPath:
 
     @property
     def length_m(self) -> float:
-        """From its beginning to its end."""
+        """Length from the beginning to the end."""
         return self._along[-1]
 
     def along_m(self, state: AircraftState) -> float:

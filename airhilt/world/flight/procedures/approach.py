@@ -17,8 +17,8 @@ from airhilt.world.flight.procedures.landing import Flare
 from airhilt.world.flight.state import AircraftState
 
 CLOSE_HEIGHT_M = 60.0
-"""Below it the glide path is followed as closely as the flare will be: 200 ft, where a category I
-approach needs the runway in sight (ICAO Annex 6 part I, 4.2.8.3)."""
+"""Height in m below which the glide path is followed as closely as the flare: 200 ft, where a
+category I approach needs the runway in sight (ICAO Annex 6 part I, 4.2.8.3)."""
 
 
 class Glide:
@@ -30,13 +30,13 @@ class Glide:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     final
-        The approach to fly.
+        Approach to fly.
     exit_path
-        Along which the runway is left after landing.
+        Way along which the runway is left after landing.
     altitude_m
-        Held until the glide path is met.
+        Altitude that is held until the glide path is met.
     """
 
     name = "glide"

@@ -9,10 +9,11 @@ from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
 AIRSPEED_MARGIN = 10.0 * KNOT
+"""Margin below the greatest speed, in m/s."""
 MACH_MARGIN = 0.02
-"""Below the greatest speed and Mach number."""
+"""Margin below the greatest Mach number."""
 STEEPEST_DESCENT = 9.0 * DEGREE
-"""While the airspeed builds up."""
+"""Steepest descent while the airspeed builds up, in rad."""
 
 
 class EmergencyDescent:
@@ -21,7 +22,7 @@ class EmergencyDescent:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     then
         En route on the track and to the altitude that follow.
     """

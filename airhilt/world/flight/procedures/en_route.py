@@ -13,7 +13,7 @@ class EnRoute:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     lateral, vertical, speed
         The modes.
     """

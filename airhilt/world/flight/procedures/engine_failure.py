@@ -1,4 +1,4 @@
-"""After an engine failure: the descent to where the remaining engines keep the altitude."""
+"""Drift-down after an engine failure, to where the remaining engines keep the altitude."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
 LEVEL_M_S = 100.0 * FOOT_PER_MINUTE
-"""Rate of descent below which the aircraft levels."""
+"""Rate of descent below which the aircraft levels, in m/s."""
 SPOOL_DOWN_S = 20.0
-"""Before it, the failed engine may still give thrust."""
+"""Time in which the failed engine may still give thrust, in s."""
 
 
 class DriftDown:
     """Holds the drift-down speed on pitch at the greatest thrust, never climbing, then levels.
 
-    It levels where the engines keep the altitude, or where it was told to before.
+    It levels where the engines keep the altitude, or at a commanded altitude above that.
 
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     then
         En route on the track, at the airspeed and down to the altitude that follow.
     """

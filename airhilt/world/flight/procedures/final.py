@@ -13,13 +13,16 @@ from airhilt.world.flight.state import AircraftState
 from airhilt.world.surface.runway import RunwayEnd
 
 WIDEST_INTERCEPT = 45.0 * DEGREE
-"""Off the course, seen from the threshold: within it an intercept is flown. Radar vectors keep to
-30 degrees (FAA Order JO 7110.65, 5-9-2); this leaves margin for a visual circuit."""
+"""Greatest angle off the course, seen from the threshold, at which an intercept is flown, in rad.
+
+Radar vectors keep to 30 degrees (FAA Order JO 7110.65, 5-9-2); this leaves margin for a visual
+circuit."""
 FARTHEST_M = 25.0 * NAUTICAL_MILE
-"""From the threshold, along the course: the service volume of an ILS localizer reaches 18 NM (FAA
-Aeronautical Information Manual, 1-1-9), with some of the intercept before."""
+"""Greatest distance from the threshold along the course, in m. The service volume of an ILS
+localizer reaches 18 NM (FAA Aeronautical Information Manual, 1-1-9); part of the intercept lies
+before it."""
 GREATEST_CORRECTION_M_S = 15.0 * FOOT
-"""Of vertical rate (15 ft/s), that leads back to the glide path."""
+"""Greatest vertical rate that is added to return to the glide path, in m/s (15 ft/s)."""
 
 
 class Final:

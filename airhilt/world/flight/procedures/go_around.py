@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.units import FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
 STOPPED_M_S = 300.0 * FOOT_PER_MINUTE
-"""Climb rate, from which the descent counts as stopped."""
+"""Climb rate from which the descent counts as stopped, in m/s."""
 STOP_M_S2 = 1.5
-"""Upwards, in stopping the descent."""
-CLEAN_UP_HEIGHT_M = 400.0 * FOOT
-"""Above the ground: the least height of acceleration and flap retraction (14 CFR 25.111(c)(4))."""
-LEVER_PER_OVERSPEED_S_M = 0.05
-"""Taken off full thrust where the steepest climb leaves too much of it."""
+"""Upward acceleration that stops the descent, in m/s2."""
 
 
 class GoAround:
@@ -23,7 +20,7 @@ class GoAround:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     then
         En route on the track, to the altitude and at the clean airspeed that follow.
     """

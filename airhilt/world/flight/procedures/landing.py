@@ -13,12 +13,13 @@ from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
 
 GREATEST_DECELERATION_M_S2 = 3.0
-"""With the brakes alone, on a dry runway (about that of an autobrake's highest landing setting)."""
+"""Greatest deceleration on a dry runway, in m/s2: about an autobrake's highest landing setting."""
 LEAD_S = 1.0
-"""Before the exit path begins, steering along it begins."""
+"""Time before the exit path at which steering along it begins, in s."""
 EXIT_MARGIN_M_S = 2.0
-"""Above the speed of the exit, with which it is still taken."""
+"""Excess over the speed of the exit with which it is still taken, in m/s."""
 STANDING_M_S = 0.2
+"""Ground speed in m/s below which the rollout has ended."""
 
 
 class Flare:
@@ -29,7 +30,7 @@ class Flare:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     final
         The approach that was flown.
     exit_path
@@ -81,7 +82,7 @@ class Rollout:
     Parameters
     ----------
     cockpit
-        What it flies with.
+        Airframe, autopilot and ground law.
     final
         The approach that was flown.
     exit_path

@@ -1,4 +1,4 @@
-"""The side-step: from the final approach of one runway to that of another, by eye."""
+"""Side-step: a visual change from the final approach of one runway to that of another."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.state import AircraftState
 
 LOWEST_M = 300.0 * FOOT
-"""Above the threshold: below, no runway is changed any more."""
+"""Least height above the threshold at which a side-step begins, in m."""
 STEEPEST_RAD = 20.0 * DEGREE
-"""Between the course and the line to where the other course must have been joined."""
+"""Greatest angle to the place where the other course must have been joined, in rad."""
 JOINED_M = 200.0 * FOOT / math.tan(3.0 * DEGREE)
-"""From the threshold, where it must be joined: at 200 ft on the usual glide path."""
+"""Distance from the threshold at which it must be joined, in m: 200 ft on the usual glide path."""
 
 
 def require_side_step(state: AircraftState, final: Final) -> None:

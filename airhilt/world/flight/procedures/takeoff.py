@@ -6,30 +6,24 @@ import math
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.taxi import AT_REST_M_S, Standing
 from airhilt.world.flight.state import AircraftState
 
 LEVER_PER_S = 0.25
-"""At which takeoff thrust is set."""
+"""Rate at which takeoff thrust is set, in 1/s."""
 ALIGNED_WITHIN = 15.0 * DEGREE
-"""With the runway, from which the roll may begin: the end of the turn onto it included."""
+"""Greatest angle to the runway at which the roll may begin, in rad: the end of the turn onto it."""
 SCREEN_HEIGHT_M = 35.0 * FOOT
-"""Where the climb-out begins (14 CFR 25.113(a)(1))."""
+"""Height at which the climb-out begins, in m (14 CFR 25.113(a)(1))."""
 CLIMBING_M_S = 300.0 * FOOT_PER_MINUTE
-"""The gear comes up."""
-CLEAN_UP_HEIGHT_M = 400.0 * FOOT
-"""Above the ground: the least for turns, acceleration and flap retraction (14 CFR 25.111(c)(4))."""
+"""Climb rate from which the gear is retracted, in m/s."""
 CLIMB_SPEED_MARGIN_M_S = 10.0 * KNOT
-"""Above V2, with all engines."""
+"""Excess of the initial climb speed over V2 with all engines, in m/s."""
 FLAPS_UP_MARGIN_M_S = 20.0 * KNOT
-"""Above V2, from which the flaps are retracted."""
-LEVER_PER_OVERSPEED_S_M = 0.05
-"""Taken off full thrust where the steepest climb leaves too much of it."""
-LEAST_CLIMB = 0.012
-"""Climb angle that is kept while accelerating: the second-segment gradient of a twin with an
-engine out is twice that (14 CFR 25.121(b))."""
+"""Excess over V2 from which the flaps are retracted, in m/s."""
 
 
 def require_lined_up(state: AircraftState, line: Final) -> None:
@@ -61,7 +55,7 @@ class TakeoffRoll:
     Parameters
     ----------
     cockpit
-        What it rolls with.
+        Airframe, autopilot and ground law.
     line
         The runway's centre line.
     then
@@ -103,7 +97,7 @@ class Rotate:
     cockpit, line, then
         As for `TakeoffRoll`.
     state
-        Now.
+        State of the aircraft now.
     """
 
     name = "rotate"

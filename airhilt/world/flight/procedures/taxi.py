@@ -1,4 +1,4 @@
-"""On taxiways: along a path, holding on the way or standing at its end."""
+"""Taxi: along a path, holding on the way, and standing at its end."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
 
 AT_REST_M_S = 0.05
-"""Slower, the brakes hold an aircraft where it is."""
+"""Ground speed in m/s below which the brakes hold an aircraft where it is."""
 END_M = 2.0
-"""So near to the end of its path, an aircraft that stands has reached it."""
+"""Distance to the end of its path, in m, at which an aircraft that stands has reached it."""
 
 Stand = Literal["standing", "lined_up"]
 Way = Literal["taxi", "line_up", "vacate"]
@@ -23,7 +23,7 @@ class Standing:
     Parameters
     ----------
     cockpit
-        What holds it.
+        Brakes that hold it.
     name
         ``lined_up`` on a runway, ready to take off.
 
@@ -55,13 +55,13 @@ class Taxi:
     Parameters
     ----------
     cockpit
-        What it taxies with.
+        Airframe and ground law with which it taxies.
     path
-        To follow.
+        Path to follow.
     way
-        What it is called on the way; where it has stopped on it, ``standing``.
+        Name of the phase on the way; it is ``standing`` where the aircraft has stopped.
     then
-        What standing at its end is called.
+        Name of standing at the end.
     """
 
     commandable = False
@@ -80,7 +80,7 @@ class Taxi:
 
     @property
     def name(self) -> str:
-        """What it is called now."""
+        """Name of the phase now."""
         return "standing" if self._stopped else self._way
 
     def hold(self) -> None:
