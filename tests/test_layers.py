@@ -21,6 +21,7 @@ def test_no_import_breaks_a_layer() -> None:
     [
         ("airhilt.scenario", "airhilt.world"),
         ("airhilt.world.loading", "scipy"),
+        ("airhilt.workers", "zenoh"),
     ],
 )
 def test_importing_a_module_does_not_load_what_it_does_not_need(module: str, unneeded: str) -> None:

@@ -1,6 +1,8 @@
-"""The assistant under test: what a worker is, how it is served, and the reference workers."""
+"""What a worker is: its author needs what is exported here, and `airhilt.messages`."""
 
+from airhilt.sim.worker import Input, Output
+from airhilt.workers.checker import check_worker
 from airhilt.workers.protocol import LocalWorker, Step, Worker
 from airhilt.workers.serve import serve
 
-__all__ = ["LocalWorker", "Step", "Worker", "serve"]
+__all__ = ["Input", "LocalWorker", "Output", "Step", "Worker", "check_worker", "serve"]

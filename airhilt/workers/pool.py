@@ -147,14 +147,15 @@ class WorkerPool:
 
 def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
     """Return the policy for ``key`` among patterns in which ``*`` stands for one chunk."""
-    chunks = key.split("/")
-    for pattern, policy in policies.items():
-        parts = pattern.split("/")
-        if len(parts) == len(chunks) and all(
-            part in ("*", chunk) for part, chunk in zip(parts, chunks, strict=True)
-        ):
-            return policy
-    return None
+    return next((policy for pattern, policy in policies.items() if is_match(key, pattern)), None)
+
+
+def is_match(key: str, pattern: str) -> bool:
+    """Return whether a key is one of a pattern in which ``*`` stands for one chunk."""
+    chunks, parts = key.split("/"), pattern.split("/")
+    return len(parts) == len(chunks) and all(
+        part in ("*", chunk) for part, chunk in zip(parts, chunks, strict=True)
+    )
 
 
 def parse_output(

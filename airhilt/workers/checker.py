@@ -1,0 +1,192 @@
+"""Checks a worker without a run, and says in words what is wrong with it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from airhilt.errors import WorkerError
+from airhilt.library import nearest
+from airhilt.messages import Modality, WorkerDescription
+from airhilt.sim.worker import Input, Output
+from airhilt.units import SECOND_NS
+from airhilt.workers.pool import is_match, parse_output
+from airhilt.workers.protocol import Step, Worker
+from airhilt.workers.samples import sample_inputs
+
+PUBLISHED = (
+    "adsb/*", "advisory/*", "asr/*", "briefing", "camera/*/frame", "camera/*/info", "clock",
+    "cockpit/*", "command/*", "radar/*", "radar/*/info", "radio/*/audio", "radio/*/tx", "status/*",
+    "tts/*", "vision/*",
+)  # fmt: skip
+"""Keys on which something is published that a worker may want."""
+OUTPUTS: dict[Modality, str] = {
+    "asr": "asr",
+    "tts": "tts",
+    "vision": "vision",
+    "decision": "advisory",
+}
+"""First part of the keys on which a worker of each modality publishes."""
+PATIENCE_S = 5.0
+"""Longest wall time of one step, in s: after it, a run gives an attached worker up."""
+STEPS_AT_S = (1, 2, 30)
+"""Simulation times of the steps that are tried."""
+
+
+def check_worker(
+    worker: Worker, inputs: Sequence[Input] | None = None, patience_s: float = PATIENCE_S
+) -> None:
+    """Try a worker on inputs and complain about all that a run would not take.
+
+    Parameters
+    ----------
+    inputs
+        Inputs to try, such as those of an earlier run; None: samples of each key that it wants.
+    patience_s
+        Longest wall time of one step.
+
+    Raises
+    ------
+    WorkerError
+        Something is wrong; the message has a line for each problem.
+    """
+    problems = list(dict.fromkeys(_problems(worker, inputs, patience_s)))
+    if problems:
+        raise WorkerError("\n".join(problems))
+
+
+def _problems(worker: Worker, inputs: Sequence[Input] | None, patience_s: float) -> Iterator[str]:
+    description: Any = getattr(worker, "description", None)
+    if not isinstance(description, WorkerDescription):
+        yield (
+            f"{type(worker).__name__}.description is {description!r}; expected an "
+            "airhilt.messages.WorkerDescription"
+        )
+        return
+    if not callable(getattr(worker, "step", None)):
+        yield f"worker {description.name!r} has no method step(t_ns, inputs)"
+        return
+    for wanted in description.inputs:
+        yield from _wrong_input(description.name, wanted.key)
+    for t_ns, given in _steps(description, inputs):
+        answer = _Answer(worker, t_ns, given)
+        answer.start()
+        answer.join(patience_s)
+        if answer.is_alive():
+            yield (
+                f"worker {description.name!r} has not answered for {patience_s:g} s to "
+                f"{_named(given)}; an attached worker that takes longer is lost"
+            )
+            return
+        yield from _wrong_answer(description, t_ns, given, answer)
+    if worker.description != description:
+        yield f"worker {description.name!r} has another description after its steps; expected one"
+
+
+def _wrong_input(name: str, key: str) -> Iterator[str]:
+    first = key.split("/")[0]
+    if first == "truth" or "*" in first:
+        yield (
+            f"worker {name!r} asks for {key!r}; truth never reaches a worker, so the first part of "
+            "a key must be named: adsb/*"
+        )
+    elif not any(is_match(key, known) or is_match(known, key) for known in PUBLISHED):
+        yield (
+            f"worker {name!r} asks for {key!r}, where nothing is published"
+            f"{nearest(key, list(PUBLISHED))}"
+        )
+
+
+def _steps(
+    description: WorkerDescription, inputs: Sequence[Input] | None
+) -> Iterator[tuple[int, list[Input]]]:
+    """Yield what each step gets: alone what comes alone, together what comes in a batch."""
+    if inputs is not None:
+        for item in inputs:
+            yield item.t_in_ns, [item]
+        return
+    for t_s in STEPS_AT_S:
+        batch = []
+        for item in sample_inputs(t_s * SECOND_NS):
+            policies = [each.policy for each in description.inputs if is_match(item.key, each.key)]
+            if policies[:1] == ["batch"]:
+                batch.append(item)
+            elif policies:
+                yield item.t_in_ns, [item]
+        if batch:
+            yield t_s * SECOND_NS, batch
+
+
+class _Answer(threading.Thread):
+    """One step, in a thread that can be left alone if it does not end."""
+
+    def __init__(self, worker: Worker, t_ns: int, inputs: Sequence[Input]) -> None:
+        super().__init__(daemon=True)
+        self._call = (worker, t_ns, inputs)
+        self.step: Any = None
+        self.failure: Exception | None = None
+
+    def run(self) -> None:
+        """Compute the step."""
+        worker, t_ns, inputs = self._call
+        try:
+            self.step = worker.step(t_ns, inputs)
+        except Exception as error:
+            self.failure = error
+
+
+def _wrong_answer(
+    description: WorkerDescription, t_ns: int, given: Sequence[Input], answer: _Answer
+) -> Iterator[str]:
+    name = description.name
+    if answer.failure is not None:
+        error = answer.failure
+        yield f"worker {name!r} raised {type(error).__name__} on {_named(given)}: {error}"
+        return
+    step = answer.step
+    if not isinstance(step, Step):
+        yield f"worker {name!r} returned {step!r} from step; expected an airhilt.workers.Step"
+        return
+    if step.wake_ns is not None and step.wake_ns <= t_ns:
+        yield (
+            f"worker {name!r} asks at {t_ns} ns to be called again at {step.wake_ns} ns; expected "
+            "a later time"
+        )
+    for output in step.outputs:
+        if isinstance(output, Output):
+            yield from _wrong_output(description, t_ns, output)
+        else:
+            yield (
+                f"worker {name!r} returned {output!r} among its outputs; expected "
+                "airhilt.workers.Output"
+            )
+
+
+def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> Iterator[str]:
+    name = description.name
+    try:
+        message = parse_output(name, output.key, output.payload, t_ns, output.attachment)
+    except WorkerError as error:
+        yield str(error)
+        return
+    expected = OUTPUTS.get(description.modality)
+    if expected is not None and output.key.split("/")[0] != expected:
+        yield (
+            f"worker {name!r} of modality {description.modality} published on {output.key!r}; "
+            f"expected {expected}/..., or another modality in its description"
+        )
+    if message.t_ns:
+        yield (
+            f"worker {name!r} set t_ns of what it published on {output.key!r}; leave it out: the "
+            "run stamps a message when the worker's latency has passed"
+        )
+    if output.t_out_ns is not None and output.t_out_ns < t_ns:
+        yield (
+            f"worker {name!r} wants {output.key!r} published at {output.t_out_ns} ns, before its "
+            f"step at {t_ns} ns; expected a later time, or None"
+        )
+
+
+def _named(given: Sequence[Input]) -> str:
+    return ", ".join(item.key for item in given)

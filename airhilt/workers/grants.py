@@ -1,0 +1,101 @@
+"""Answers the grants of a run in another process, over Zenoh."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Any
+
+import zenoh
+from pydantic import ValidationError
+
+from airhilt.bus.multipart import pack, unpack
+from airhilt.bus.session import ROOT, connect_client
+from airhilt.errors import BusError
+from airhilt.messages import Grant, StepOutput, StepReply
+from airhilt.sim.worker import Input
+from airhilt.workers.protocol import Worker, timed_step
+
+
+def answer_grants(worker: Worker, connect: str, run: str | None, patience_s: float) -> None:
+    """Attach a worker to a run, and return when the run is over; see `airhilt.workers.serve`."""
+    session = connect_client(connect, patience_s)
+    try:
+        prefix = f"{ROOT}/{run}" if run else _find_run(session, connect, patience_s)
+        _serve(session, worker, prefix)
+    finally:
+        session.close()  # type: ignore[no-untyped-call]
+
+
+def _find_run(session: zenoh.Session, connect: str, patience_s: float) -> str:
+    deadline = time.monotonic() + patience_s
+    while time.monotonic() < deadline:
+        for reply in session.get(f"{ROOT}/*/clock", timeout=1.0):
+            if reply.ok is not None:
+                return str(reply.ok.key_expr).removesuffix("/clock")
+        time.sleep(0.1)
+    raise BusError(f"no run answers at {connect} after {patience_s:g} s")
+
+
+def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
+    over = threading.Event()
+    name = worker.description.name
+    key = f"{prefix}/worker/{name}"
+
+    def describe(query: zenoh.Query) -> None:
+        with query:
+            query.reply(f"{key}/describe", worker.description.model_dump_json().encode())
+
+    def step(query: zenoh.Query) -> None:
+        with query:
+            try:
+                payload, attachment = _answer(worker, query)
+            except Exception as error:
+                query.reply_err(f"{type(error).__name__}: {error}".encode())
+                raise
+            query.reply(f"{key}/step", payload, attachment=attachment)
+
+    def ended(sample: zenoh.Sample) -> None:
+        if sample.kind == zenoh.SampleKind.DELETE:
+            over.set()
+
+    kept: list[Any] = [
+        session.liveliness().declare_subscriber(f"{prefix}/run", ended, history=True),
+        session.declare_queryable(f"{key}/describe", describe),
+        session.declare_queryable(f"{key}/step", step),
+        session.liveliness().declare_token(key),
+    ]
+    over.wait()
+    for entity in kept:
+        entity.undeclare()
+
+
+def _answer(worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
+    if query.attachment is None:
+        raise BusError("a grant without an attachment")
+    try:
+        grant = Grant.model_validate_json(query.attachment.to_bytes())
+    except ValidationError as error:
+        raise BusError(f"not a grant: {error}") from None
+    payload = query.payload.to_bytes() if query.payload is not None else b""
+    parts = unpack(payload, [item.size for item in grant.inputs])
+    inputs = [
+        Input(item.key, item.t_in_ns, part, item.attachment)
+        for item, part in zip(grant.inputs, parts, strict=True)
+    ]
+    reply = timed_step(worker, grant.t_ns, inputs)
+    header = StepReply(
+        seq=grant.seq,
+        compute_s=reply.compute_s,
+        outputs=tuple(
+            StepOutput(
+                key=output.key,
+                size=len(output.payload),
+                t_out_ns=output.t_out_ns,
+                attachment=output.attachment,
+            )
+            for output in reply.outputs
+        ),
+        wake_ns=reply.wake_ns,
+    )
+    return pack(output.payload for output in reply.outputs), header.model_dump_json().encode()

@@ -1,0 +1,166 @@
+"""The checker says in words what is wrong with a worker."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+
+import pytest
+
+from airhilt.assistant.asr.engine import Recognised
+from airhilt.assistant.asr.worker import AsrWorker
+from airhilt.assistant.vision.worker import VisionWorker
+from airhilt.errors import WorkerError
+from airhilt.messages import InputSpec, Modality, Transcript, WorkerDescription
+from airhilt.workers import Input, Output, Step, check_worker
+from airhilt.workers.samples import sample_inputs
+from decisions import reference
+from pictures import BlobDetector
+
+
+class Ears:
+    """A recogniser without a fault."""
+
+    wants = "radio/*/tx"
+    modality: Modality = "asr"
+
+    def __init__(self) -> None:
+        self.description = WorkerDescription(
+            name="ears", modality=self.modality, inputs=(InputSpec(key=self.wants),)
+        )
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        return Step(tuple(self.heard(t_ns, item) for item in inputs))
+
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("asr/118300", self.transcript(t_ns).model_dump_json().encode())
+
+    def transcript(self, t_ns: int) -> Transcript:
+        return Transcript(
+            id="a", frequency_khz=118_300, t_tx_ns=0, t_end_ns=0, text="", confidence=1.0,
+            engine="ears",
+        )  # fmt: skip
+
+
+class NoDescription(Ears):
+    def __init__(self) -> None:
+        self.description = None  # type: ignore[assignment]
+
+
+class Cheat(Ears):
+    wants = "truth/state/*"
+
+
+class AllEars(Ears):
+    wants = "*/118300"
+
+
+class Misspelt(Ears):
+    wants = "adbs/*"
+
+
+class Talkative(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        return super().step(t_ns, inputs).outputs  # type: ignore[return-value]
+
+
+class Forgetful(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        super().step(t_ns, inputs)  # And no return.
+
+
+class Stamping(Ears):
+    def transcript(self, t_ns: int) -> Transcript:
+        return super().transcript(t_ns).model_copy(update={"t_ns": t_ns})
+
+
+class WrongKey(Ears):
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("transcript/118300", super().heard(t_ns, item).payload)
+
+
+class WrongFrequency(Ears):
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("asr/121500", super().heard(t_ns, item).payload)
+
+
+class Garbage(Ears):
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("asr/118300", b"{}")
+
+
+class Early(Ears):
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("asr/118300", super().heard(t_ns, item).payload, t_out_ns=t_ns - 1)
+
+
+class Restless(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        return Step((), wake_ns=t_ns)
+
+
+class Eyes(Ears):
+    modality: Modality = "vision"
+
+
+class Raising(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        raise ValueError("no model")
+
+
+class Hanging(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        threading.Event().wait(60.0)
+        return Step()
+
+
+class Deaf:
+    name = "deaf"
+
+    def recognise(self, audio: object, callsigns: Sequence[str]) -> Recognised:
+        return Recognised("", (), 1.0)
+
+
+def test_workers_without_a_fault_pass() -> None:
+    for worker in (Ears(), reference(), AsrWorker(Deaf()), VisionWorker(BlobDetector())):
+        check_worker(worker)
+
+
+@pytest.mark.parametrize(
+    ("worker", "words"),
+    [
+        (NoDescription, "NoDescription.description is None; expected an airhilt.messages.Worker"),
+        (Cheat, "'ears' asks for 'truth/state/*'; truth never reaches a worker"),
+        (AllEars, "'ears' asks for '*/118300'; truth never reaches a worker"),
+        (Misspelt, "asks for 'adbs/*', where nothing is published; did you mean 'adsb/*'?"),
+        (Talkative, "from step; expected an airhilt.workers.Step"),
+        (Forgetful, "worker 'ears' returned None from step; expected an airhilt.workers.Step"),
+        (Stamping, "'ears' set t_ns of what it published on 'asr/118300'; leave it out"),
+        (WrongKey, "published on 'transcript/118300'; expected a key under advisory, asr, tts"),
+        (WrongFrequency, "a transcript of 118300 kHz; expected the frequency in the key"),
+        (Garbage, "published on 'asr/118300' something that is no Transcript: id: Field required"),
+        (Early, "wants 'asr/118300' published at 999999999 ns, before its step at 1000000000 ns"),
+        (Restless, "to be called again at 1000000000 ns; expected a later time"),
+        (Eyes, "of modality vision published on 'asr/118300'; expected vision/..."),
+        (Raising, "worker 'ears' raised ValueError on radio/118300/tx: no model"),
+        (Hanging, "has not answered for 0.2 s to radio/118300/tx; an attached worker that takes"),
+    ],
+)
+def test_a_fault_is_named(worker: type[Ears], words: str) -> None:
+    with pytest.raises(WorkerError) as caught:
+        check_worker(worker(), patience_s=0.2)
+    assert words in str(caught.value)
+
+
+def test_all_faults_are_named_each_once() -> None:
+    class Both(Cheat):
+        wants = "truth/radio/*"
+
+        def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+            raise ValueError("no model")
+
+    with pytest.raises(WorkerError) as caught:
+        check_worker(Both(), list(sample_inputs(1_000_000_000))[:2])
+    assert [line.split(" ")[2] for line in str(caught.value).splitlines()] == [
+        "asks", "raised", "raised",
+    ]  # fmt: skip
