@@ -123,9 +123,16 @@ class Engine(Generic[T_co]):
 
 @dataclass(frozen=True)
 class EngineFamily(Family, Generic[T]):
-    """A `Family` whose members are each an `Engine`."""
+    """A `Family` whose members are each an `Engine`.
+
+    Attributes
+    ----------
+    also
+        Words that may stand in the place of an engine, such as ``none``, for error messages.
+    """
 
     protocol: type[Engine[T]] = Engine
+    also: tuple[str, ...] = ()
 
     def create(self, text: str) -> T:
         """Return the engine for what a person has written.
@@ -182,9 +189,9 @@ class EngineFamily(Family, Generic[T]):
 
     def expected(self) -> str:
         """Return what may be written, for error messages."""
-        *others, last = [engine.forms() for engine in self.members()]
+        *others, last = [*(engine.forms() for engine in self.members()), *self.also]
         return f"{', '.join(others)}, or {last}" if others else last
 
     def _suggestion(self, name: str) -> str:
-        tail = nearest(name, self.names())
+        tail = nearest(name, [*self.names(), *self.also])
         return tail if "did you mean" in tail else ""

@@ -3,24 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from airhilt.assistant.decision import DecisionConfig, DecisionWorker
 from airhilt.engines import EngineFamily
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality
 from airhilt.phraseology.numbers import Style
-from airhilt.scenario.models import Radio
 from airhilt.workers.protocol import Worker
 
 ASR = "embedded"
 TTS = "espeak"
 DETECTOR = "embedded"
+ASSISTANT = "reference"
+WORDING = "template"
 """The engines unless others are named."""
-DEFAULTS = {"airhilt.asr": ASR, "airhilt.tts": TTS, "airhilt.detectors": DETECTOR}
+DEFAULTS = {
+    "airhilt.asr": ASR,
+    "airhilt.tts": TTS,
+    "airhilt.detectors": DETECTOR,
+    "airhilt.assistants": ASSISTANT,
+    "airhilt.wording": WORDING,
+}
 """The engine of each family unless another is named, by entry point group."""
+NO_ASSISTANT = "none"
+"""In the place of an assistant: nobody decides, and nobody is warned."""
+EXTERNAL = "external"
+"""In the place of an assistant: an attached program decides."""
 
-AssistantName = Literal["reference", "none", "external"]
+AssistantName = str
+"""A decision engine of the family ``airhilt.assistants``, `NO_ASSISTANT` or `EXTERNAL`."""
 
 
 class Engines(NamedTuple):
@@ -29,18 +40,31 @@ class Engines(NamedTuple):
     asr: str | None = None
     tts: str | None = None
     detector: str | None = None
+    wording: str = WORDING
+
+
+class RadioSetup(Protocol):
+    """How a scenario uses the radio, as far as the workers are concerned."""
+
+    @property
+    def topology(self) -> str:
+        """``parallel``, ``asr_first`` or ``gated_fusion``."""
+
+    @property
+    def phraseology(self) -> Style:
+        """Style in which numbers are said."""
 
 
 def reference_workers(
     assistant: AssistantName,
-    radio: Radio,
+    radio: RadioSetup,
     taken: Collection[Modality],
     engines: Engines,
 ) -> list[Worker]:
     """Return the workers that a run needs and has not got.
 
-    Only ``reference`` has the decision worker. There is somebody who recognises speech unless
-    nobody would read it, and a voice and somebody who looks where there is somebody who decides.
+    Speech is recognised unless nobody would read it. Where somebody decides, there is a voice, and
+    somebody looks at pictures.
 
     Parameters
     ----------
@@ -49,31 +73,57 @@ def reference_workers(
 
     Raises
     ------
-    airhilt.errors.SpeechError, airhilt.errors.VisionError
+    AirhiltError
         An engine cannot be loaded.
     """
     workers: list[Worker] = []
-    is_assisted = assistant != "none"
-    asr, tts, detector = engines
+    is_assisted = assistant != NO_ASSISTANT
+    asr, tts, detector, wording = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
     if tts is not None and "tts" not in taken and is_assisted:
         workers.append(reference_worker("tts", tts, style=radio.phraseology))
     if detector is not None and "vision" not in taken and is_assisted:
         workers.append(reference_worker("vision", detector))
-    if assistant == "reference" and "decision" not in taken:
-        workers.append(DecisionWorker(DecisionConfig(is_gated=radio.topology == "gated_fusion")))
+    if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
+        is_gated = radio.topology == "gated_fusion"
+        workers.append(decision_worker(assistant, wording, is_gated=is_gated))
     return workers
+
+
+def decision_worker(
+    engine: str = ASSISTANT,
+    wording: str = WORDING,
+    *,
+    is_gated: bool = False,
+    name: str = "decision",
+) -> Worker:
+    """Return the worker around a decision engine.
+
+    Raises
+    ------
+    AirhiltError
+        The engine or the wording cannot be loaded.
+    """
+    from airhilt.assistant.decision.engines import decision_engine
+    from airhilt.assistant.decision.worker import DecisionWorker
+    from airhilt.assistant.wording.engines import advisory_wording
+
+    return DecisionWorker(
+        decision_engine(engine), advisory_wording(wording), is_gated=is_gated, name=name
+    )
 
 
 def families() -> tuple[EngineFamily[Any], ...]:
     """Return the families of engines that workers are made of."""
     # Not at the top: a run without speech or cameras starts without the libraries behind them.
     from airhilt.assistant.asr import engines as asr
+    from airhilt.assistant.decision import engines as decision
     from airhilt.assistant.vision import detectors
+    from airhilt.assistant.wording import engines as wording
     from airhilt.voices import engines as voices
 
-    return asr.FAMILY, voices.FAMILY, detectors.FAMILY
+    return asr.FAMILY, voices.FAMILY, detectors.FAMILY, decision.FAMILY, wording.FAMILY
 
 
 def reference_worker(
@@ -86,16 +136,14 @@ def reference_worker(
     kind
         ``decision``, ``asr``, ``tts`` or ``vision``.
     engine
-        Of all but ``decision``.
+        Engine as on the command line; None: the usual one.
     style
-        Of ``tts``: how numbers are said.
+        Style in which ``tts`` says numbers.
 
     Raises
     ------
-    airhilt.errors.SpeechError, airhilt.errors.VisionError
-        The engine cannot be loaded.
-    WorkerError
-        There is no such worker, or it has no engine.
+    AirhiltError
+        The engine cannot be loaded, or there is no such worker.
     """
     # Not at the top: a run without speech or cameras starts without the libraries behind them.
     match kind:
@@ -116,8 +164,6 @@ def reference_worker(
             from airhilt.assistant.vision.worker import VisionWorker
 
             return VisionWorker(vision_engine(DETECTOR if engine is None else engine), name or kind)
-        case "decision" if engine is None:
-            return DecisionWorker(name=name or kind)
         case "decision":
-            raise WorkerError(f"worker decision has no engines to choose from; got {engine!r}")
+            return decision_worker(ASSISTANT if engine is None else engine, name=name or kind)
     raise WorkerError(f"no reference worker {kind!r}; expected decision, asr, tts or vision")

@@ -85,7 +85,6 @@ Examples:
 @click.option("--overwrite", is_flag=True, help="Replace the run that --out holds.")
 @click.option(
     "--assistant",
-    type=click.Choice(["reference", "none", "external"]),
     metavar="NAME",
     help="reference, none, or external (who decides is attached).  [default: reference, "
     "external if an attached program may decide]",
@@ -431,7 +430,7 @@ Examples:
 """
 )
 @click.argument("kind", type=click.Choice(["decision", "asr", "tts", "vision"]))
-@click.option("--engine", metavar="ENGINE", help="Of all but decision, as for `airhilt cosim`.")
+@click.option("--engine", metavar="ENGINE", help="Engine, as for `airhilt cosim`.")
 @click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."

@@ -49,7 +49,7 @@ class RunOptions(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     seed: int
-    assistant: Literal["reference", "none", "external"]
+    assistant: str
     pace: str
     latency: str
     attached: tuple[str, ...]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeVar
@@ -10,12 +11,28 @@ import pytest
 
 from airhilt import run
 from airhilt.assistant.asr.engines import FAMILY as RECOGNISERS
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
+from airhilt.assistant.wording.engines import advisory_wording
+from airhilt.assistant.wording.engines.template import Template
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.simulation import Result
-from airhilt.errors import SpeechError, VisionError
-from airhilt.messages import AdvisoryAudio, Detections, Message, Transcript
+from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
+from airhilt.messages import (
+    ActorTruth,
+    Advisory,
+    AdvisoryAudio,
+    Detections,
+    Evidence,
+    Message,
+    Severity,
+    Transcript,
+)
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.voices.engines import FAMILY as VOICES
@@ -82,6 +99,54 @@ class Deer:
 ENGINE = Engine("everything_is_a_deer", "finds a deer in every picture", lambda _: Deer())
 """
 )
+ASSISTANT = """
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision
+from airhilt.engines import Engine
+from airhilt.messages import AdsbReport, Evidence, Severity
+
+
+class Nervous:
+    name, reads = "nervous", (AdsbReport,)
+
+    def __init__(self):
+        self.heard = {}
+
+    def receive(self, received):
+        self.heard.setdefault(received.message.callsign, False)
+
+    def decide(self, t_ns):
+        new = [callsign for callsign, told in self.heard.items() if callsign and not told]
+        self.heard |= dict.fromkeys(new, True)
+        return Decision([self.alert(callsign) for callsign in new])
+
+    def alert(self, callsign):
+        return Alert(
+            id=f"heard-{callsign}",
+            revision=0,
+            kind="loss_of_separation",
+            severity=Severity.ADVISORY,
+            recipients=("ATC",),
+            traffic=(callsign,),
+            evidence=Evidence(sources=("adsb",), note=f"heard {callsign}"),
+        )
+
+
+ENGINE = Engine("nervous", "warns of everybody that it hears", lambda _: Nervous())
+"""
+WORDING = """
+from airhilt.engines import Engine
+
+
+class Shouting:
+    name = "shouting"
+
+    def message(self, alert, recipient):
+        return f"{recipient}! {alert.severity}! {alert.evidence.note}".upper()
+
+
+ENGINE = Engine("shouting", "shouts", lambda _: Shouting())
+"""
 UNUSABLE = (
     HEAD
     + """
@@ -145,6 +210,67 @@ def test_a_run_looks_with_a_detector_of_another_package(
     assert any(one.detections for one in seen)
 
 
+def test_a_run_decides_with_an_assistant_of_another_package(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT):
+        result = run(
+            encounter, out=tmp_path / "run", latency="fixed", speech=False, assistant="nervous"
+        )
+    assert result.summary.assistant == "nervous"
+    told = messages(result, "advisory/", Advisory)
+    assert {(one.id, one.recipient, one.message) for one in told} == {
+        ("decision-heard-AAL123", "ATC", "AAL123, heard AAL123"),
+        ("decision-heard-DAL456", "ATC", "DAL456, heard DAL456"),
+    }
+
+
+def test_a_worker_of_its_own_process_takes_engines_of_other_packages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT):
+        worker = reference_worker("decision", "nervous", "mine")
+    assert worker.description.name == "mine"
+    assert [one.key for one in worker.description.inputs] == ["adsb/*"]
+
+
+def test_a_wording_of_another_package_says_it_otherwise(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.wording", "shouting", WORDING):
+        wording = advisory_wording("shouting")
+    alert = Alert(
+        id="a",
+        revision=0,
+        kind="runway_conflict",
+        severity=Severity.WARNING,
+        recipients=("ATC",),
+        traffic=("AAL123",),
+        evidence=Evidence(sources=("vision",), note="deer on runway 01"),
+    )
+    assert wording.message(alert, "ATC") == "ATC! WARNING! DEER ON RUNWAY 01"
+
+
+def test_an_assistant_that_is_none_is_named_with_what_there_is() -> None:
+    expected = "expected reference, none, or external; did you mean 'reference'?"
+    with pytest.raises(AirhiltError, match=re.escape(expected)):
+        decision_engine("referense")
+
+
+def test_an_assistant_that_reads_truth_is_refused() -> None:
+    class Cheat:
+        name = "cheat"
+        reads = (ActorTruth,)
+
+        def receive(self, received: Received) -> None: ...
+
+        def decide(self, t_ns: int) -> Decision:
+            return Decision()
+
+    with pytest.raises(WorkerError, match="assistant 'cheat' reads ActorTruth; expected some of"):
+        DecisionWorker(Cheat(), Template())
+
+
 @pytest.mark.usefixtures("added")
 def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
@@ -152,6 +278,8 @@ def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatc
     assert found["recogniser embedded"].needed
     assert found["recogniser parrot"].found == "(hears the same in everything)"
     assert found["voice espeak"].needed
+    assert found["assistant reference"].found
+    assert found["wording template"].found
     assert not found["voice beep"].needed
     assert "everything_is_a_deer" in " ".join(found)
 
@@ -234,7 +362,7 @@ def test_an_error_names_all_forms_and_the_nearest_name() -> None:
         DETECTORS.create("embeded")
     assert str(caught.value) == (
         "detector 'embeded': there is none of that name; expected embedded, embedded:FILE.onnx, "
-        "yolo:FILE, or the address of a service; did you mean 'embedded'?"
+        "yolo:FILE, the address of a service, or none; did you mean 'embedded'?"
     )
 
 

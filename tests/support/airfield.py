@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from airhilt.assistant.decision import DecisionWorker
+from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import (
     Advisory,
@@ -25,6 +25,7 @@ from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
 from airhilt.world.site import FixedSite
+from decisions import reference
 from projected import Body, Camera
 
 FIELD = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
@@ -268,7 +269,7 @@ class Airfield:
     movers: list[Mover]
     calls: list[tuple[float, str]] = field(default_factory=list)
     """When each call ends, and its words."""
-    worker: DecisionWorker = field(default_factory=DecisionWorker)
+    worker: DecisionWorker = field(default_factory=reference)
     told: list[tuple[float, Advisory]] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     briefing: Briefing = BRIEFING

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from geographiclib.geodesic import Geodesic
 
-from airhilt.assistant.decision import DecisionWorker
+from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, VisibleClass
@@ -18,6 +18,7 @@ from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
+from decisions import reference
 from projected import Body, Camera, Place
 
 CENTRE = (38.9, -77.0)
@@ -129,7 +130,7 @@ class Encounter:
 
     flights: list[Flight]
     seconds: float
-    worker: DecisionWorker = field(default_factory=DecisionWorker)
+    worker: DecisionWorker = field(default_factory=reference)
     calls: list[tuple[float, float, str]] = field(default_factory=list)
     """When each call begins and ends, and its words."""
     told: list[tuple[float, Advisory]] = field(default_factory=list)

@@ -1,5 +1,1 @@
-"""The reference decision worker: ADS-B, radio text and what cameras show in, advisories out."""
-
-from airhilt.assistant.decision.engine import DecisionConfig, DecisionWorker
-
-__all__ = ["DecisionConfig", "DecisionWorker"]
+"""Decision: evidence from ADS-B, radio and cameras in, advisories out."""

@@ -22,17 +22,6 @@ READBACK_WINDOW_NS = 30 * SECOND_NS
 DISCREPANCY_NS = 120 * SECOND_NS
 """How long a wrong readback matters that nobody corrects."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
-WORDS: dict[Action, str] = {
-    "cleared_to_land": "cleared to land",
-    "cleared_for_takeoff": "cleared for takeoff",
-    "line_up": "line up",
-    "cross": "cross",
-    "proceed": "proceed",
-    "hold_short": "hold short",
-    "hold_position": "hold position",
-    "cancel_takeoff": "cancel takeoff",
-    "go_around": "go around",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,20 +45,6 @@ class Discrepancy:
     given: Instruction | None
     read: Instruction
     t_end_ns: int
-
-    @property
-    def words(self) -> str:
-        """What is wrong."""
-        if self.addressed != self.callsign:
-            return f"{words(self.read)} for {self.addressed} was read back by {self.callsign}"
-        given = words(self.given) if self.given else "nothing of the kind"
-        return f"{self.callsign} read back {words(self.read)}, was told {given}"
-
-
-def words(instruction: Instruction) -> str:
-    """Return an instruction in words."""
-    about = f" runway {instruction.runway}" if instruction.runway else ""
-    return f"{WORDS[instruction.action]}{about}"
 
 
 @dataclass(slots=True)

@@ -11,10 +11,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import Approach, approach_of
 from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.findings import Intruder, Where
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.manoeuvres import in_words
 from airhilt.assistant.decision.resolution import STRONG_VERTICAL_RATE_FPM, TURN_DEG
 from airhilt.assistant.decision.visual_tracks import (
     BLIND_NS,
@@ -24,7 +25,6 @@ from airhilt.assistant.decision.visual_tracks import (
 )
 from airhilt.messages import (
     CONTROLLER,
-    Advisory,
     CameraView,
     Climb,
     Evidence,
@@ -84,25 +84,25 @@ class _Encounter(NamedTuple):
     """An aircraft that sees something come, as it is now."""
 
     carrier: str
-    sighting: VisualTrack
+    track: VisualTrack
     approach: Approach
     severity: Severity | None
     """None: it passes by, or is far."""
 
     @property
     def ray(self) -> Ray:
-        return self.sighting.last.ray
+        return self.track.last.ray
 
     @property
     def past_ns(self) -> int:
         """When the two have surely met."""
         error_s = self.approach.closing_error * self.approach.time_s**2
         left_s = min(self.approach.time_s + error_s, UNRELIABLE_S)
-        return self.sighting.last.t_ns + round(left_s * SECOND_NS)
+        return self.track.last.t_ns + round(left_s * SECOND_NS)
 
 
 @dataclass(slots=True)
-class _Alert:
+class _Ongoing:
     """One encounter from first suspicion to its end."""
 
     id: str
@@ -126,15 +126,13 @@ class IntruderWatch:
     def __init__(
         self,
         config: IntruderConfig,
-        name: str,
         visual_tracks: VisualTracks,
         runway_of: Callable[[str], str | None],
     ) -> None:
         self.config = config
-        self._name = name
         self._visual_tracks = visual_tracks
         self._runway_of = runway_of
-        self._alerts: list[_Alert] = []
+        self._alerts: list[_Ongoing] = []
         self._told = 0
 
     @property
@@ -142,9 +140,9 @@ class IntruderWatch:
         """Whether there is an encounter to be judged again even without news."""
         return bool(self._alerts)
 
-    def judge(self, t_ns: int, t_ready_ns: int) -> list[Advisory]:
-        """Return what is to be told after all that was taken in."""
-        advisories: list[Advisory] = []
+    def judge(self, t_ns: int) -> list[Alert]:
+        """Return the alerts that are new, have risen, or are over."""
+        told: list[Alert] = []
         threatened: set[str] = set()
         for encounter in self._encounters(t_ns):
             alert = self._known(encounter)
@@ -156,26 +154,26 @@ class IntruderWatch:
             if alert.id not in threatened:
                 threatened.add(alert.id)
                 alert.encounter = encounter
-                advisories += self._raise(t_ns, t_ready_ns, alert, encounter.severity)
+                told += self._raise(t_ns, alert, encounter.severity)
         for alert in [alert for alert in self._alerts if alert.id not in threatened]:
-            advisories += self._calm(t_ns, t_ready_ns, alert)
-        return advisories
+            told += self._calm(t_ns, alert)
+        return told
 
     # --- what is seen -----------------------------------------------------------------------
 
     def _encounters(self, t_ns: int) -> Iterator[_Encounter]:
         """Yield what is seen in the air, the most urgent first."""
         found = []
-        for sighting in self._visual_tracks:
-            carrier = sighting.carrier
-            if carrier is None or not self._is_flying(sighting.last.eye.view):
+        for track in self._visual_tracks:
+            carrier = track.carrier
+            if carrier is None or not self._is_flying(track.last.eye.view):
                 continue
-            if not self._is_unknown(sighting) or _may_stand(sighting):
+            if not self._is_unknown(track) or _may_stand(track):
                 continue
-            approach = approach_of(sighting.observations)
+            approach = approach_of(track.observations)
             if approach is not None:
-                severity = self._grade(sighting, approach, t_ns)
-                found.append(_Encounter(carrier, sighting, approach, severity))
+                severity = self._grade(track, approach, t_ns)
+                found.append(_Encounter(carrier, track, approach, severity))
         found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))
         yield from found
 
@@ -184,23 +182,23 @@ class IntruderWatch:
         report = self._visual_tracks.traffic.carrier(view)
         return view.height_m > GROUNDED_M if report is None else not report.on_ground
 
-    def _is_unknown(self, sighting: VisualTrack) -> bool:
+    def _is_unknown(self, track: VisualTrack) -> bool:
         """Return whether nobody else keeps a camera's carrier and what it sees apart.
 
         That takes a transponder of both.
         """
-        is_carrier_known = self._visual_tracks.traffic.carrier(sighting.last.eye.view) is not None
-        return sighting.explained_by is None or not is_carrier_known
+        is_carrier_known = self._visual_tracks.traffic.carrier(track.last.eye.view) is not None
+        return track.explained_by is None or not is_carrier_known
 
-    def _grade(self, sighting: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
+    def _grade(self, track: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
         """Return how urgent it is that something comes."""
         config, miss = self.config, approach.least_miss()
-        left_s = approach.time_s - (t_ns - sighting.last.t_ns) / SECOND_NS
+        left_s = approach.time_s - (t_ns - track.last.t_ns) / SECOND_NS
         if miss > config.near_sizes or approach.closing < approach.closing_error:
             return None
         if left_s < 0.0:
             return None
-        is_sure = is_established((sighting,)) and approach.is_growing
+        is_sure = is_established((track,)) and approach.is_growing
         if is_sure and left_s <= config.warning_s and miss <= config.warning_sizes:
             return Severity.WARNING
         if is_sure and left_s <= config.caution_s:
@@ -209,34 +207,32 @@ class IntruderWatch:
 
     # --- what is told -----------------------------------------------------------------------
 
-    def _known(self, encounter: _Encounter) -> _Alert | None:
+    def _known(self, encounter: _Encounter) -> _Ongoing | None:
         """Return the alert of what a carrier sees, None if there is none yet."""
         for alert in self._alerts:
             last = alert.encounter
             if alert.carrier == encounter.carrier and (
-                last.sighting is encounter.sighting
+                last.track is encounter.track
                 or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
             ):
                 return alert
         return None
 
-    def _new(self, encounter: _Encounter) -> _Alert:
+    def _new(self, encounter: _Encounter) -> _Ongoing:
         self._told += 1
-        alert = _Alert(f"{self._name}-intruder-{self._told}", encounter.carrier, encounter)
+        alert = _Ongoing(f"intruder-{self._told}", encounter.carrier, encounter)
         alert.past_ns = encounter.past_ns
         self._alerts.append(alert)
         return alert
 
-    def _raise(
-        self, t_ns: int, t_ready_ns: int, alert: _Alert, severity: Severity
-    ) -> list[Advisory]:
+    def _raise(self, t_ns: int, alert: _Ongoing, severity: Severity) -> list[Alert]:
         if not alert.escalation.rises(severity, t_ns, self.config.persistence_s):
             return []
         if alert.escalation.severity is Severity.WARNING:
             alert.recommendation = self._recommended(alert.encounter)
-        return self._advisories(t_ns, t_ready_ns, alert)
+        return [self._alert(t_ns, alert)]
 
-    def _calm(self, t_ns: int, t_ready_ns: int, alert: _Alert) -> list[Advisory]:
+    def _calm(self, t_ns: int, alert: _Ongoing) -> list[Alert]:
         """End an encounter once it is past; who gives way is not to go back before."""
         if alert.escalation.severity is None:
             if alert.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
@@ -248,7 +244,7 @@ class IntruderWatch:
         if not alert.escalation.is_over(t_ns, self.config.release_s):
             return []
         self._alerts.remove(alert)
-        return self._advisories(t_ns, t_ready_ns, alert, active=False)
+        return [self._alert(t_ns, alert, active=False)]
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
         """Return how to stay clear: up or down, away from it; else to the right.
@@ -259,7 +255,7 @@ class IntruderWatch:
         runway = self._runway_of(encounter.carrier)
         if runway is not None:
             return GoAround(runway=runway)
-        view = encounter.sighting.last.eye.view
+        view = encounter.track.last.eye.view
         report = self._visual_tracks.traffic.carrier(view)
         if report is None or report.altitude_ft is None:
             return Turn(degrees=TURN_DEG)
@@ -274,55 +270,54 @@ class IntruderWatch:
             vertical_rate_fpm=STRONG_VERTICAL_RATE_FPM,
         )
 
-    def _advisories(
-        self, t_ns: int, t_ready_ns: int, alert: _Alert, active: bool = True
-    ) -> list[Advisory]:
-        """Return the advisory for each recipient; crews hear from CAUTION on."""
+    def _alert(self, t_ns: int, alert: _Ongoing, active: bool = True) -> Alert:
+        """Return the alert about an encounter; crews are told from CAUTION on."""
         encounter = alert.encounter
         severity = alert.escalation.severity or Severity.INFO
         to_crew = severity.rank >= Severity.CAUTION.rank
-        recipients = (alert.carrier, CONTROLLER) if to_crew else (CONTROLLER,)
-        other = encounter.sighting.explained_by
-        since_s = (t_ns - encounter.sighting.last.t_ns) / SECOND_NS
+        track = encounter.track
+        since_s = (t_ns - track.last.t_ns) / SECOND_NS
         left_s = min(max(encounter.approach.time_s - since_s, 0.0), UNRELIABLE_S)
-        advisories = [
-            Advisory(
-                id=alert.id,
-                revision=alert.revision,
-                recipient=recipient,
-                recipients=recipients,
-                kind="loss_of_separation",
-                severity=severity if active else Severity.INFO,
-                active=active,
-                traffic=(alert.carrier,) if other is None else (alert.carrier, other),
-                message=_words(recipient, alert, left_s) if active else "clear of conflict",
-                recommendation=alert.recommendation if active and recipient != CONTROLLER else None,
-                evidence=Evidence(
-                    sources=("vision",) if other is None else ("vision", "adsb"),
-                    time_to_closest_approach_s=left_s,
-                    note=_note(encounter),
-                ),
-                t_ready_ns=t_ready_ns,
-            )
-            for recipient in recipients
-        ]
+        advice = alert.recommendation if active else None
+        told = Alert(
+            id=alert.id,
+            revision=alert.revision,
+            kind="loss_of_separation",
+            severity=severity if active else Severity.INFO,
+            recipients=(alert.carrier, CONTROLLER) if to_crew else (CONTROLLER,),
+            traffic=(alert.carrier, track.explained_by) if track.explained_by else (alert.carrier,),
+            evidence=Evidence(
+                sources=("vision", "adsb") if track.explained_by else ("vision",),
+                time_to_closest_approach_s=left_s,
+                note=_note(encounter),
+            ),
+            finding=Intruder(
+                carrier=alert.carrier,
+                is_birds=track.label == "bird",  # Nothing else flies, whatever it is taken for.
+                callsign=track.explained_by,
+                where=_where(encounter),
+                contact_s=left_s if left_s < UNRELIABLE_S else None,
+            ),
+            recommendations={} if advice is None else {alert.carrier: advice},
+            active=active,
+        )
         alert.revision += 1
-        return advisories
+        return told
 
 
 def _rank(severity: Severity | None) -> int:
     return -1 if severity is None else severity.rank
 
 
-def _may_stand(sighting: VisualTrack) -> bool:
+def _may_stand(track: VisualTrack) -> bool:
     """Return whether something may stand on the ground, by its size if it did."""
-    last = sighting.last
+    last = track.last
     view: CameraView = last.eye.view
     depression_rad = -last.eye.foot(last.box).elevation_rad
     if depression_rad <= 0.0 or view.height_m <= 0.0:
         return False
     distance_m = view.height_m / math.sin(depression_rad)
-    largest_m = FLOCK_M if sighting.label == "bird" else AIRLINER_M
+    largest_m = FLOCK_M if track.label == "bird" else AIRLINER_M
     return max(last.size_rad) * distance_m <= largest_m
 
 
@@ -331,7 +326,7 @@ def _sense(encounter: _Encounter, vertical_rate_m_s: float) -> int:
     above = encounter.approach.passes_above()
     if abs(above) > ABOVE_SIZES and _is_told(encounter.approach):
         return -1 if above > 0.0 else 1
-    if encounter.sighting.label == "bird":
+    if encounter.track.label == "bird":
         return 1  # Birds that take fright dive.
     elevation_rad = encounter.ray.elevation_rad
     if abs(elevation_rad) > LEVEL_RAD:
@@ -344,40 +339,26 @@ def _is_told(approach: Approach) -> bool:
     return abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
 
 
-def _words(recipient: str, alert: _Alert, left_s: float) -> str:
-    encounter, recommendation = alert.encounter, alert.recommendation
-    # Whatever a detector takes it for: nothing else flies.
-    what = "birds" if encounter.sighting.label == "bird" else "traffic"
-    other = encounter.sighting.explained_by
-    who = f"{what} {other}" if other else what
-    where = _where(encounter)
-    unseen = "" if other or what == "birds" else ", no transponder"
-    if recipient == CONTROLLER:
-        when = f", {left_s:.0f} s" if left_s < UNRELIABLE_S else ""
-        text = f"{alert.carrier}: {who} {where}{unseen}, closing{when}"
-        return f"{text}; {alert.carrier} {in_words(recommendation)}" if recommendation else text
-    advice = in_words(recommendation) if recommendation else "look out"
-    return f"{recipient} {who} {where}{unseen}, closing, {advice}"
-
-
-def _where(encounter: _Encounter) -> str:
+def _where(encounter: _Encounter) -> Where:
     """Return where something is as the crew sees it."""
-    heading_rad = encounter.sighting.last.eye.view.heading_deg * DEGREE
+    heading_rad = encounter.track.last.eye.view.heading_deg * DEGREE
     right_rad = wrap_angle(encounter.ray.azimuth_rad - heading_rad)
-    side = "right" if right_rad > 0.0 else "left"
+    is_right = right_rad > 0.0
     if abs(right_rad) <= AHEAD_RAD:
         return "ahead"
     if abs(right_rad) <= BESIDE_RAD:
-        return f"ahead to the {side}"
-    return f"to the {side}" if abs(right_rad) <= BEHIND_RAD else "behind"
+        return "ahead to the right" if is_right else "ahead to the left"
+    if abs(right_rad) <= BEHIND_RAD:
+        return "to the right" if is_right else "to the left"
+    return "behind"
 
 
 def _note(encounter: _Encounter) -> str:
     """Return what the estimates rest on."""
-    approach, sighting = encounter.approach, encounter.sighting
+    approach, track = encounter.approach, encounter.track
     turning = math.hypot(*approach.turning_rad_s) / DEGREE
     error_s = approach.closing_error * approach.time_s**2
     return (
-        f"{sighting.camera}: contact in {approach.time_s:.0f} s, give or take {error_s:.0f} s; "
+        f"{track.camera}: contact in {approach.time_s:.0f} s, give or take {error_s:.0f} s; "
         f"direction turns by {turning:.2f} degrees/s"
     )

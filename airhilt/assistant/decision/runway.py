@@ -5,15 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.aerodrome import Strip
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.assessment import worst_threats
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
 from airhilt.assistant.decision.situation import Situation
-from airhilt.assistant.decision.threats import Assessment, RunwayConfig, Threat
+from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
-    Advisory,
     Briefing,
     CancelTakeoff,
     Evidence,
@@ -29,7 +30,7 @@ FIRM_BRAKING_M_S2 = 2.5
 
 
 @dataclass(slots=True)
-class _Alert:
+class _Ongoing:
     """One conflict from first suspicion to its end."""
 
     id: str
@@ -41,18 +42,17 @@ class _Alert:
 class RunwayWatch:
     """Watches the runways of the airport in the briefing; without one it has nothing to do."""
 
-    def __init__(self, config: RunwayConfig, name: str, visual_tracks: VisualTracks) -> None:
+    def __init__(self, config: RunwayConfig, visual_tracks: VisualTracks) -> None:
         self.config = config
-        self._name = name
         self._visual_tracks = visual_tracks
         self._situation: Situation | None = None
-        self._alerts: dict[tuple[str, ...], _Alert] = {}
+        self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
         self._told = 0
 
     @property
     def is_alert(self) -> bool:
         """Whether there is a conflict to be judged again even without news."""
-        return bool(self._alerts)
+        return bool(self._ongoing)
 
     def runway_of_arrival(self, callsign: str) -> str | None:
         """Return the runway that somebody is on final for, None if it is on none."""
@@ -76,58 +76,53 @@ class RunwayWatch:
         if self._situation is not None:
             self._situation.take_transcript(transcript)
 
-    def judge(self, t_ns: int, t_ready_ns: int) -> list[Advisory]:
-        """Return what is to be told after all that was taken in."""
+    def judge(self, t_ns: int) -> list[Alert]:
+        """Return the alerts that are new, have risen, or are over."""
         situation = self._situation
         if situation is None:
             return []
         situation.forget(t_ns)
         situation.look(self._visual_tracks)
-        threats: dict[tuple[str, ...], Threat] = {}
-        for threat in Assessment(situation, self.config, t_ns).threats():
-            known = threats.setdefault(threat.key, threat)
-            if threat.severity.rank > known.severity.rank:
-                threats[threat.key] = threat
-        advisories: list[Advisory] = []
+        threats = worst_threats(situation, self.config, t_ns)
+        alerts: list[Alert] = []
         for threat in threats.values():
-            advisories += self._raise(t_ns, t_ready_ns, threat, situation)
-        for key in [key for key in self._alerts if key not in threats]:
-            advisories += self._calm(t_ns, t_ready_ns, key)
-        return advisories
+            alerts += self._raise(t_ns, threat, situation)
+        for key in [key for key in self._ongoing if key not in threats]:
+            alerts += self._calm(t_ns, key)
+        return alerts
 
-    def _raise(
-        self, t_ns: int, t_ready_ns: int, threat: Threat, situation: Situation
-    ) -> list[Advisory]:
-        alert = self._alerts.get(threat.key)
+    def _raise(self, t_ns: int, threat: Threat, situation: Situation) -> list[Alert]:
+        ongoing = self._ongoing.get(threat.key)
         if threat.severity is Severity.INFO:
-            if alert is not None:
-                alert.escalation.stays()
+            if ongoing is not None:
+                ongoing.escalation.stays()
             return []
-        if alert is None:
+        if ongoing is None:
             self._told += 1
-            alert = self._alerts[threat.key] = _Alert(f"{self._name}-runway-{self._told}", threat)
-        alert.threat = threat
+            ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._told}", threat)
+        ongoing.threat = threat
         # What was said does not become surer by being heard again, and what is seen has lasted.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
-        if not alert.escalation.rises(threat.severity, t_ns, persistence_s):
+        if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):
             return []
-        severity = alert.escalation.severity or threat.severity
+        severity = ongoing.escalation.severity or threat.severity
         advice = {
-            callsign: self._advice(mobile, threat, severity, situation)
+            callsign: recommended
             for callsign in threat.parties
             if (mobile := situation.mobile(callsign)) is not None
+            and (recommended := self._advice(mobile, threat, severity, situation)) is not None
         }
-        return self._advisories(t_ready_ns, alert, severity, advice)
+        return [self._alert(ongoing, severity, advice)]
 
-    def _calm(self, t_ns: int, t_ready_ns: int, key: tuple[str, ...]) -> list[Advisory]:
-        alert = self._alerts[key]
-        if alert.escalation.severity is None:
-            del self._alerts[key]
+    def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
+        ongoing = self._ongoing[key]
+        if ongoing.escalation.severity is None:
+            del self._ongoing[key]
             return []
-        if not alert.escalation.is_over(t_ns, self.config.release_s):
+        if not ongoing.escalation.is_over(t_ns, self.config.release_s):
             return []
-        del self._alerts[key]
-        return self._advisories(t_ready_ns, alert, Severity.INFO, {}, active=False)
+        del self._ongoing[key]
+        return [self._alert(ongoing, Severity.INFO, {}, active=False)]
 
     # --- what to do about it ----------------------------------------------------------------
 
@@ -151,42 +146,35 @@ class RunwayWatch:
             return CancelTakeoff(runway=use.direction.ident)
         return None
 
-    def _advisories(
+    def _alert(
         self,
-        t_ready_ns: int,
-        alert: _Alert,
+        ongoing: _Ongoing,
         severity: Severity,
-        advice: dict[str, Recommendation | None],
+        advice: dict[str, Recommendation],
         active: bool = True,
-    ) -> list[Advisory]:
-        """Return the advisory for each recipient; crews and drivers hear from CAUTION on."""
-        threat, told = alert.threat, alert.escalation.severity or severity
+    ) -> Alert:
+        """Return the alert about a threat; crews and drivers are told from CAUTION on."""
+        threat, told = ongoing.threat, ongoing.escalation.severity or severity
         concerned = threat.parties if told.rank >= Severity.CAUTION.rank else ()
-        recipients = (*concerned, CONTROLLER)
-        advisories = [
-            Advisory(
-                id=alert.id,
-                revision=alert.revision,
-                recipient=recipient,
-                recipients=recipients,
-                kind=threat.kind,
-                severity=severity,
-                active=active,
-                traffic=threat.traffic,
-                message=_words(recipient, threat, advice) if active else "clear of conflict",
-                recommendation=advice.get(recipient),
-                evidence=Evidence(
-                    sources=threat.sources,
-                    runway=threat.runway,
-                    time_to_go_s=threat.time_to_go_s,
-                    note=threat.text,
-                ),
-                t_ready_ns=t_ready_ns,
-            )
-            for recipient in recipients
-        ]
-        alert.revision += 1
-        return advisories
+        alert = Alert(
+            id=ongoing.id,
+            revision=ongoing.revision,
+            kind=threat.kind,
+            severity=severity,
+            recipients=(*concerned, CONTROLLER),
+            traffic=threat.traffic,
+            evidence=Evidence(
+                sources=threat.sources,
+                runway=threat.runway,
+                time_to_go_s=threat.time_to_go_s,
+                note=threat.finding.statement(),
+            ),
+            finding=threat.finding,
+            recommendations=advice,
+            active=active,
+        )
+        ongoing.revision += 1
+        return alert
 
 
 def _stop(mobile: Mobile, strip: Strip, runway: str) -> Recommendation | None:
@@ -203,20 +191,3 @@ def _stop(mobile: Mobile, strip: Strip, runway: str) -> Recommendation | None:
     if strip.room_m(mobile.point, mobile.heading_rad) > braking_m:
         return HoldPosition(runway=runway)
     return None
-
-
-def _words(recipient: str, threat: Threat, advice: dict[str, Recommendation | None]) -> str:
-    when = "" if threat.time_to_go_s is None else f", {threat.time_to_go_s:.0f} s to go"
-    if recipient == CONTROLLER:
-        said = [f"{name} {_order(each)}" for name, each in advice.items() if each is not None]
-        user = "" if threat.kind == "readback_mismatch" else f"{threat.parties[0]}, "
-        return "; ".join([f"{user}{threat.text}{when}", *said])
-    recommended = advice.get(recipient)
-    order = "" if recommended is None else f" {_order(recommended)},"
-    is_other = recipient in threat.parties[1:]
-    text = threat.text_for_other if is_other and threat.text_for_other else threat.text
-    return f"{recipient}{order} {text.removeprefix(f'{recipient} ')}{when}"
-
-
-def _order(recommendation: Recommendation) -> str:
-    return recommendation.action.replace("_", " ")

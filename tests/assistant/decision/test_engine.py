@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from airhilt.assistant.decision import DecisionWorker
+from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.tracks import Track
 from airhilt.messages import AdsbReport, Briefing, Climb, MaintainLevel, Severity, Turn
 from airhilt.sim import Input
+from decisions import reference
 from encounters import Encounter, Flight, head_on
 
 CREWS = ("AAL123", "DAL456")
@@ -244,18 +245,19 @@ def test_what_is_told_depends_on_nothing_but_what_was_heard():
 
 
 def test_the_engine_declares_what_it_listens_to_and_never_truth():
-    description = DecisionWorker().description
+    description = reference().description
     heard = {wanted.key for wanted in description.inputs}
     assert heard == {"briefing", "adsb/*", "asr/*", "vision/*"}
     assert description.modality == "decision"
 
 
-def test_a_spike_is_told_at_the_level_that_has_held():
+def test_a_spike_is_told_at_the_level_that_has_held(monkeypatch):
     """A glimpse of a WARNING in the second in which an ADVISORY becomes certain is not one yet."""
     encounter = head_on(300.0)
-    watch = encounter.worker.separation
     levels = iter([Severity.ADVISORY, Severity.ADVISORY, Severity.WARNING, Severity.WARNING])
-    watch._grade = lambda time_to_loss: next(levels, Severity.ADVISORY)
+    monkeypatch.setattr(
+        SeparationConfig, "severity_of", lambda config, loss_s: next(levels, Severity.ADVISORY)
+    )
     encounter.fly()
     assert encounter.severities("ATC") == ["ADVISORY"]
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from airhilt.assistant.decision import DecisionConfig, DecisionWorker
 from airhilt.assistant.decision.fusion import PATIENCE_NS, FusionGate
 from airhilt.messages import Status, Transcript, Transmission
 from airhilt.units import SECOND_NS
+from decisions import reference
 
 END_NS = 5_000_000_000
 
@@ -27,40 +27,39 @@ def test_the_gate_is_open_while_nothing_is_to_come():
 
 def test_it_is_closed_from_the_end_of_a_call_to_its_transcript():
     gate = FusionGate()
-    gate.take_transmission(received())
+    gate.receive(received())
     assert gate.opens_ns(END_NS) == END_NS + PATIENCE_NS
-    gate.take_transcript(transcribed("another"))
+    gate.receive(transcribed("another"))
     assert gate.opens_ns(END_NS) is not None
-    gate.take_transcript(transcribed())
+    gate.receive(transcribed())
     assert gate.opens_ns(END_NS) is None
 
 
 def test_it_waits_for_10_s_at_most():
     assert PATIENCE_NS == 10 * SECOND_NS
     gate = FusionGate()
-    gate.take_transmission(received())
+    gate.receive(received())
     assert gate.opens_ns(END_NS + PATIENCE_NS) is None
 
 
 def test_it_waits_for_no_transcript_of_a_call_without_sound():
     gate = FusionGate()
-    gate.take_transmission(received(samples=0))
+    gate.receive(received(samples=0))
     assert gate.opens_ns(END_NS) is None
 
 
 @pytest.mark.parametrize(("state", "waits"), [("lost", False), ("on", True)])
 def test_once_recognition_is_lost_it_waits_no_more(state, waits):
     gate = FusionGate()
-    gate.take_transmission(received())
-    gate.take_status(Status(modality="asr", state=state))
+    gate.receive(received())
+    gate.receive(Status(modality="asr", state=state))
     assert (gate.opens_ns(END_NS) is not None) == waits
-    gate.take_transmission(received("b"))
+    gate.receive(received("b"))
     assert (gate.opens_ns(END_NS) is not None) == waits
 
 
 def test_only_a_gated_worker_asks_for_what_the_gate_needs():
-    def keys(config):
-        return {wanted.key for wanted in DecisionWorker(config).description.inputs}
+    def keys(**options):
+        return {wanted.key for wanted in reference(**options).description.inputs}
 
-    gated = keys(DecisionConfig(is_gated=True))
-    assert gated - keys(DecisionConfig()) == {"radio/*/tx", "status/*"}
+    assert keys(is_gated=True) - keys() == {"radio/*/tx", "status/*"}

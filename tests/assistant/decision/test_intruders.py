@@ -202,15 +202,15 @@ def test_what_may_stand_on_the_ground_is_not_in_the_air():
 def test_time_goes_on_after_the_last_picture():
     """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
     visual_tracks = VisualTracks()
-    watch = IntruderWatch(IntruderConfig(), "decision", visual_tracks, lambda _: None)
+    watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None)
     camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
     for step in range(41):
         visual_tracks.take_detections(camera.detections(step * SECOND_NS // 8))
     told = [
-        [advisory.severity for advisory in watch.judge(t_ns, t_ns)]
+        [(alert.severity, len(alert.recipients)) for alert in watch.judge(t_ns)]
         for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))
     ]
-    assert told == [[], 2 * [Severity.CAUTION], [], 2 * [Severity.WARNING]]
+    assert told == [[], [(Severity.CAUTION, 2)], [], [(Severity.WARNING, 2)]]
 
 
 # --- time to contact ------------------------------------------------------------------------

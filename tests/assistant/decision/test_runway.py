@@ -22,14 +22,15 @@ from airfield import (
     stands,
     takes_off,
 )
-from airhilt.assistant.decision import DecisionConfig, DecisionWorker
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, opposite, way_through
 from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.messages import Severity, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
+from decisions import reference
 
 SEEDS = range(3)
 CALLS = ("AAL123", "DAL456", "OPS1", "ATC")
@@ -481,8 +482,8 @@ def test_what_is_told_depends_on_nothing_but_what_was_heard():
 
 
 def test_the_times_to_go_are_a_matter_of_configuration():
-    config = DecisionConfig(runways=RunwayConfig(warning_s=PAPER_TIME_TO_GO_S))
-    field = Airfield([arrival(100), vehicle(stands(800))], worker=DecisionWorker(config))
+    config = ReferenceConfig(runways=RunwayConfig(warning_s=PAPER_TIME_TO_GO_S))
+    field = Airfield([arrival(100), vehicle(stands(800))], worker=reference(config))
     assert 100 - field.run(110).first("WARNING")[0] == pytest.approx(8.0, abs=3.0)
 
 

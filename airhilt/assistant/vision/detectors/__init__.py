@@ -11,7 +11,7 @@ from airhilt.engines import EngineFamily
 from airhilt.errors import VisionError
 
 FAMILY = EngineFamily[Detector](
-    "detector", "airhilt.detectors", __name__, "ENGINE", error=VisionError
+    "detector", "airhilt.detectors", __name__, "ENGINE", error=VisionError, also=("none",)
 )
 
 

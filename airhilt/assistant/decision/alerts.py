@@ -1,0 +1,53 @@
+"""What a decision engine tells: one alert a conflict, as structure, for all its recipients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from airhilt.assistant.decision.findings import Finding
+from airhilt.messages import Evidence, Recommendation, Severity
+
+AdvisoryKind = Literal["loss_of_separation", "readback_mismatch", "runway_conflict"]
+"""Kind of an `airhilt.messages.Advisory`."""
+
+
+@dataclass(frozen=True)
+class Alert:
+    """One conflict as an engine judges it now. Its worker makes an advisory for each recipient.
+
+    Attributes
+    ----------
+    id
+        Name of the conflict, the same from its first alert to its last. The worker puts its own
+        name before it.
+    revision
+        0 for the first alert of a conflict, and 1 more for each that follows.
+    severity
+        INFO where the conflict is over.
+    recipients
+        Callsigns, and `airhilt.messages.CONTROLLER`.
+    traffic
+        Callsigns of those in conflict.
+    finding
+        What is wrong. Without one, a wording has kind, traffic and the note of the evidence.
+    recommendations
+        What each should do who should do anything, by callsign.
+    active
+        False where the conflict is over.
+    t_ready_ns
+        When the last input had arrived that it rests on; None: the last one of all.
+    """
+
+    id: str
+    revision: int
+    kind: AdvisoryKind
+    severity: Severity
+    recipients: tuple[str, ...]
+    traffic: tuple[str, ...]
+    evidence: Evidence
+    finding: Finding | None = None
+    recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
+    active: bool = True
+    t_ready_ns: int | None = None

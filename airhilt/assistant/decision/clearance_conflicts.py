@@ -1,0 +1,99 @@
+"""Steps (a) and (c) of the ladder: what was said does not agree, and the runway is in use."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+from airhilt.assistant.decision.aerodrome import Strip
+from airhilt.assistant.decision.clearances import Discrepancy
+from airhilt.assistant.decision.findings import OpposedClearances, RunwayMisread
+from airhilt.assistant.decision.threats import Outlook, Threat
+from airhilt.messages import Severity
+
+
+def clearance_conflicts(outlook: Outlook) -> Iterator[Threat]:
+    """Yield wrong readbacks, and clearances that oppose each other."""
+    for discrepancy in outlook.situation.clearances.discrepancies(outlook.t_ns):
+        yield from _misread(outlook, discrepancy)
+    yield from _opposed(outlook)
+
+
+def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
+    """Yield that a readback is wrong, or somebody else's, and the runway is active."""
+    strip, activity = _activity(outlook, discrepancy)
+    if strip is None or not activity:
+        return
+    parties = tuple(dict.fromkeys((discrepancy.callsign, discrepancy.addressed)))
+    yield Threat(
+        ("readback", discrepancy.callsign, str(discrepancy.t_end_ns)),
+        Severity.CAUTION,
+        strip,
+        discrepancy.read.runway or strip.directions[0].ident,
+        parties,
+        tuple(dict.fromkeys((*parties, activity[0]))),
+        RunwayMisread(
+            callsign=discrepancy.callsign,
+            addressed=discrepancy.addressed,
+            given=discrepancy.given,
+            read=discrepancy.read,
+            traffic=activity[0],
+        ),
+        sources=("radio", "adsb"),
+        kind="readback_mismatch",
+    )
+
+
+def _activity(outlook: Outlook, discrepancy: Discrepancy) -> tuple[Strip | None, list[str]]:
+    """Return the runway that a wrong readback is about, and who else uses it."""
+    aerodrome = outlook.situation.aerodrome
+    named = [each.runway for each in (discrepancy.read, discrepancy.given) if each]
+    strips = [strip for ident in named if (strip := aerodrome.strip_of(ident)) is not None]
+    for strip in dict.fromkeys(strips) or aerodrome.strips:
+        activity = [name for name in _active(outlook, strip) if name != discrepancy.callsign]
+        if activity:
+            return strip, list(dict.fromkeys(activity))
+    return None, []
+
+
+def _active(outlook: Outlook, strip: Strip) -> Iterator[str]:
+    """Yield who is on a runway, uses it or one that crosses it, or was cleared on to it."""
+    for obstacle in outlook.situation.obstacles(strip):
+        if obstacle.is_inside:
+            yield obstacle.mobile.callsign
+    for use in outlook.situation.uses.values():
+        if use.strip is strip or outlook.situation.aerodrome.crossing(strip, use.strip):
+            yield use.mobile.callsign
+    for clearance in outlook.cleared_on(strip):
+        yield clearance.callsign
+
+
+def _opposed(outlook: Outlook) -> Iterator[Threat]:
+    """Yield that two are cleared to use one runway in opposite directions."""
+    using = [
+        clearance
+        for clearance in outlook.in_force
+        if clearance.action in ("cleared_to_land", "cleared_for_takeoff", "line_up")
+    ]
+    for first, second in itertools.combinations(using, 2):
+        strip = outlook.situation.aerodrome.strip_of(first.runway)
+        if (
+            strip is None
+            or first.runway is None
+            or second.runway is None
+            or strip is not outlook.situation.aerodrome.strip_of(second.runway)
+            or first.runway == second.runway
+            or first.callsign == second.callsign
+        ):
+            continue
+        parties = (first.callsign, second.callsign)
+        yield Threat(
+            ("clearances", strip.name, *sorted(parties)),
+            Severity.CAUTION,
+            strip,
+            first.runway,
+            parties,
+            parties,
+            OpposedClearances(parties, (first.runway, second.runway)),
+            sources=("radio",),
+        )

@@ -1,0 +1,79 @@
+"""The reference engine: three watches, for the air, the runways, and what only cameras see."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.assistant.decision.loss_prediction import SeparationConfig
+from airhilt.assistant.decision.runway import RunwayWatch
+from airhilt.assistant.decision.separation import COASTING_NS, SeparationWatch
+from airhilt.assistant.decision.threats import RunwayConfig
+from airhilt.assistant.decision.visual_tracks import VisualTracks
+from airhilt.engines import Engine
+from airhilt.messages import AdsbReport, Briefing, Detections, Message, Transcript
+
+
+@dataclass(frozen=True)
+class ReferenceConfig:
+    """Thresholds of the reference engine."""
+
+    separation: SeparationConfig = field(default_factory=SeparationConfig)
+    runways: RunwayConfig = field(default_factory=RunwayConfig)
+    intruders: IntruderConfig = field(default_factory=IntruderConfig)
+
+
+class ReferenceEngine:
+    """Implements `airhilt.assistant.decision.engine.DecisionEngine` by fixed rules.
+
+    What cameras show goes to the visual tracks. They keep what no transponder explains, and both
+    the watch for intruders and the one for runways look at that.
+    """
+
+    name = "reference"
+    reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
+
+    def __init__(self, config: ReferenceConfig | None = None) -> None:
+        config = config or ReferenceConfig()
+        self.visual_tracks = VisualTracks()
+        self.separation = SeparationWatch(config.separation)
+        self.runways = RunwayWatch(config.runways, self.visual_tracks)
+        self.intruders = IntruderWatch(
+            config.intruders, self.visual_tracks, self.runways.runway_of_arrival
+        )
+
+    def receive(self, received: Received) -> None:
+        """Update tracks, clearances and belief with one message."""
+        match received.message:
+            case AdsbReport() as report:
+                self.separation.take_report(report)
+                self.runways.take_report(report)
+                self.visual_tracks.take_report(report)
+            case Detections() as detections:
+                self.visual_tracks.take_detections(detections)
+            case Transcript() as transcript:
+                self.runways.take_transcript(transcript)
+                self.separation.take_transcript(received.t_ns, received.t_in_ns, transcript)
+            case Briefing() as briefing:
+                self.separation.take_briefing(briefing)
+                self.runways.take_briefing(briefing)
+                self.visual_tracks.take_briefing(briefing)
+
+    def decide(self, t_ns: int) -> Decision:
+        """Return the alerts that are new, have risen, or are over."""
+        self.visual_tracks.forget(t_ns)
+        alerts: list[Alert] = []
+        watches = (self.separation, self.runways, self.intruders)
+        for watch in watches:
+            alerts += watch.judge(t_ns)
+        is_alert = any(watch.is_alert for watch in watches)
+        return Decision(alerts, again_ns=t_ns + COASTING_NS if is_alert else None)
+
+
+ENGINE = Engine(
+    name="reference",
+    summary="fixed rules for conflicts in the air and on runways; ships with AIRHILT",
+    create=lambda _: ReferenceEngine(),
+)

@@ -1,0 +1,141 @@
+"""When two aircraft in flight will lose separation, by their tracks and cleared levels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from airhilt.assistant.decision.aerodrome import TrafficZone
+from airhilt.assistant.decision.tracks import Track
+from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.messages import Evidence, Severity
+from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
+
+
+@dataclass(frozen=True)
+class SeparationConfig:
+    """Thresholds for conflicts in the air.
+
+    The look-ahead times follow those of ground-based short-term conflict alert, about two
+    minutes (EUROCONTROL-GUID-159, edition 1.0), with an earlier ADVISORY and a later WARNING.
+    """
+
+    horizontal_m: float = 5.0 * NAUTICAL_MILE
+    vertical_m: float = 1000.0 * FOOT
+    vertical_tolerance_m: float = 150.0 * FOOT
+    """Allowance for level keeping, the 25 ft steps of ADS-B and the spread of its rate, in m."""
+    advisory_s: float = 180.0
+    caution_s: float = 120.0
+    warning_s: float = 60.0
+    persistence_s: float = 1.0
+    """Time for which a severity must hold before it is told, in s."""
+    release_s: float = 8.0
+    """Time for which a conflict must be over before that is told, in s."""
+    stale_s: float = 15.0
+    """Age at which a track is dropped, in s."""
+    readback_window_s: float = 30.0
+    """A readback later than this after its clearance, in s, belongs to something else."""
+
+    @property
+    def standard(self) -> Minima:
+        """The separation minima."""
+        return Minima(self.horizontal_m, self.vertical_m)
+
+    @property
+    def infringed(self) -> Minima:
+        """The distances below which separation counts as lost."""
+        return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_m)
+
+    def severity_of(self, time_to_loss_s: float | None) -> Severity | None:
+        """Return how severe a loss of separation is that is so far ahead; None if it is none."""
+        if time_to_loss_s is None or time_to_loss_s > self.advisory_s:
+            return None
+        if time_to_loss_s <= self.warning_s:
+            return Severity.WARNING
+        return Severity.CAUTION if time_to_loss_s <= self.caution_s else Severity.ADVISORY
+
+
+class Prediction(NamedTuple):
+    """What lies ahead of two aircraft, as of now.
+
+    Attributes
+    ----------
+    horizontal_m, vertical_m
+        Distances at the closest approach.
+    is_past
+        Whether the two will not come within the horizontal minimum again.
+    """
+
+    first: Track
+    second: Track
+    time_to_loss_s: float | None
+    time_to_closest_approach_s: float
+    horizontal_m: float
+    vertical_m: float
+    is_past: bool
+
+    @property
+    def callsigns(self) -> tuple[str, str]:
+        """Callsigns of the two."""
+        return self.first.callsign, self.second.callsign
+
+    def evidence(self) -> Evidence:
+        """Return the prediction as an advisory gives it."""
+        return Evidence(
+            sources=("adsb",),
+            time_to_loss_s=self.time_to_loss_s,
+            time_to_closest_approach_s=self.time_to_closest_approach_s,
+            horizontal_at_closest_approach_m=self.horizontal_m,
+            vertical_at_closest_approach_m=self.vertical_m,
+        )
+
+
+def predict(
+    first: Track,
+    second: Track,
+    config: SeparationConfig,
+    zone: TrafficZone | None,
+    is_on_ground: bool,
+) -> Prediction:
+    """Return what lies ahead of two aircraft.
+
+    Parameters
+    ----------
+    zone
+        Where a tower keeps aircraft apart by sight.
+    is_on_ground
+        Whether either is on the ground by its last report.
+    """
+    motion = relative(first, second)
+    profiles = (first.profile(), second.profile())
+    interval = motion.interval_within(config.horizontal_m)
+    is_past = interval is None or interval[1] <= 0.0 or interval[0] > config.advisory_s
+    loss_s = None if is_past else time_to_loss_s(motion, *profiles, config.infringed)
+    if is_on_ground or _is_towers(first, second, loss_s, zone):
+        is_past, loss_s = True, None
+    approach_s = max(motion.time_to_closest_approach_s(), 0.0)
+    return Prediction(
+        first,
+        second,
+        loss_s,
+        approach_s,
+        motion.at(approach_s).distance_m,
+        _gap_m(profiles, approach_s),
+        is_past,
+    )
+
+
+def _is_towers(first: Track, second: Track, loss_s: float | None, zone: TrafficZone | None) -> bool:
+    """Return whether a tower keeps two apart, now or when they would lose separation."""
+    if zone is None:
+        return False
+    if zone.contains(first) and zone.contains(second):
+        return True
+    if loss_s is None:
+        return False
+    then_ns = first.t_ns + round(loss_s * SECOND_NS)
+    return zone.contains(first.at(then_ns)) and zone.contains(second.at(then_ns))
+
+
+def _gap_m(profiles: tuple[VerticalProfile, VerticalProfile], time_s: float) -> float:
+    return abs(profiles[0].at(time_s) - profiles[1].at(time_s))

@@ -1,0 +1,215 @@
+"""Step (b) of the ladder: a runway is occupied, or about to be, and somebody comes.
+
+What cameras show counts as an obstacle without a transponder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from airhilt.assistant.decision.aerodrome import Strip
+from airhilt.assistant.decision.findings import Obstructs
+from airhilt.assistant.decision.ladder import fused_severity
+from airhilt.assistant.decision.mobiles import (
+    BRAKING_M_S2,
+    STANDING_M_S,
+    TAKEOFF_M_S2,
+    Mobile,
+    Use,
+)
+from airhilt.assistant.decision.situation import Obstacle, SeenObstacle
+from airhilt.assistant.decision.threats import (
+    UNIDENTIFIED,
+    WILDLIFE,
+    Outlook,
+    Threat,
+    obstruction,
+)
+from airhilt.messages import Severity
+from airhilt.surveillance.squitters import NACP_95_PERCENT_M
+from airhilt.units import SECOND_NS
+
+LIFT_OFF_M_S = 75.0
+"""Speed at which a departure has left the ground, in m/s."""
+TURN_OFF_M_S = 8.0
+"""Speed to which a landing brakes before it turns off, in m/s."""
+TURN_OFF_S = 12.0
+"""Time from then until it has left the runway, in s."""
+LEAST_ENTRY_M_S = 2.0
+"""Who is slower, in m/s, is not about to enter a runway."""
+HARD_BRAKING_M_S2 = 4.0
+"""Hardest braking of a vehicle in front of a hold line, in m/s2."""
+ONE_SIDED = 0.67
+"""Share of the 95 % radius of a position error that is exceeded in 5 % of cases in one direction:
+1.645 / 2.4477."""
+CROSSING_NS = 30 * SECOND_NS
+"""Time after which somebody unseen who was cleared to cross is taken to be across, in ns."""
+
+
+def occupied(outlook: Outlook, use: Use) -> Iterator[Threat]:
+    """Yield who or what is on a runway that somebody uses, or about to enter it."""
+    situation = outlook.situation
+    for obstacle in situation.obstacles(use.strip):
+        yield from _in_way(outlook, use, obstacle)
+    for seen in situation.seen(use.strip):
+        yield from _seen_in_way(outlook, use, seen)
+    yield from _unseen(outlook, use)
+    yield from _wildlife(outlook, use)
+
+
+def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
+    """Yield that somebody is on a runway before its user, or about to enter it."""
+    other = obstacle.mobile
+    enters = not obstacle.is_inside
+    coming = None if other is use.mobile else outlook.coming(use, other.point)
+    if coming is None or (enters and not _enters(outlook, obstacle, use.strip)):
+        return
+    severity, time_to_go_s = coming
+    clear_s, is_allowed = _clear_s(outlook, obstacle, use), _is_allowed(outlook, other, use.strip)
+    if _is_harmless(outlook, clear_s, is_allowed, severity, time_to_go_s):
+        severity = Severity.INFO
+    if enters and severity is Severity.WARNING:
+        severity = Severity.CAUTION
+    how: Obstructs = "entering" if enters else "on"
+    yield obstruction(use, how, other.callsign, severity, time_to_go_s)
+
+
+def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Threat]:
+    """Yield that cameras show something on a runway before its user.
+
+    While it is not sure yet, it is one hint among others.
+    """
+    thing = seen.thing
+    coming = outlook.coming(use, thing.spot.point)
+    if coming is None:
+        return
+    severity, time_to_go_s = coming
+    callsign = None
+    if not thing.is_animal:
+        callsign = _sent_there(outlook, use.strip, thing.label == "truck")
+    cleared_to = outlook.cleared_to(callsign, use.strip)
+    clear_s = None if "proceed" in cleared_to else seen.clear_s
+    if seen.is_sure and _is_harmless(
+        outlook, clear_s, "cross" in cleared_to, severity, time_to_go_s
+    ):
+        severity = Severity.INFO
+    elif not seen.is_sure:
+        reported = outlook.situation.has_wildlife(use.strip, outlook.t_ns)
+        is_told = reported if thing.is_animal else callsign is not None
+        hinted = fused_severity(seen.weight, 1.0, float(is_told))
+        if hinted is None:
+            return
+        severity = min(severity, hinted, key=lambda each: each.rank)
+    sources: tuple[str, ...] = ("vision", "adsb") if seen.is_sure else ("adsb", "vision")
+    how: Obstructs
+    what, unnamed = str(thing.label), None
+    if thing.is_animal:
+        how, unnamed = "animal on", WILDLIFE
+    elif callsign is not None:
+        how, what, sources = "on, by camera", callsign, (*sources, "radio")
+    else:
+        how, unnamed = "unidentified on", UNIDENTIFIED
+    yield obstruction(use, how, what, severity, time_to_go_s, sources, unnamed=unnamed)
+
+
+def _sent_there(outlook: Outlook, strip: Strip, vehicle: bool) -> str | None:
+    """Return the one vehicle, or aircraft, without ADS-B that was cleared on to a runway."""
+    situation = outlook.situation
+    names = {
+        clearance.callsign
+        for clearance in outlook.cleared_on(strip)
+        if situation.mobile(clearance.callsign) is None
+        and situation.is_vehicle(clearance.callsign) == vehicle
+    }
+    return names.pop() if len(names) == 1 else None
+
+
+def _is_harmless(
+    outlook: Outlook,
+    clear_s: float | None,
+    is_allowed: bool,
+    severity: Severity,
+    time_to_go_s: float,
+) -> bool:
+    """Return whether what is on a runway leaves it in time, and may do so as late."""
+    if clear_s is None or clear_s + outlook.config.leaving_margin_s > time_to_go_s:
+        return False
+    is_late = time_to_go_s <= outlook.config.late_s
+    return (is_allowed and not is_late) or severity is Severity.CAUTION
+
+
+def _enters(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
+    """Return whether somebody outside can surely not stop short of the runway any more.
+
+    Who was told to hold is given the benefit of the doubt.
+    """
+    mobile = obstacle.mobile
+    idents = tuple(direction.ident for direction in strip.directions)
+    holds = outlook.situation.clearances.is_holding(mobile.callsign, idents)
+    error_m = NACP_95_PERCENT_M[mobile.nacp] * (1.0 if holds else ONE_SIDED)
+    to_line_m = obstacle.way.entry_m - strip.margin_m(mobile.nacp)
+    braking_m = mobile.speed_m_s**2 / (2.0 * HARD_BRAKING_M_S2)
+    return mobile.speed_m_s > LEAST_ENTRY_M_S and to_line_m + error_m <= braking_m
+
+
+def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
+    """Return when somebody will be off the runway, or in the air; None if it will not."""
+    mobile, speed = obstacle.mobile, obstacle.mobile.speed_m_s
+    own = outlook.situation.use(mobile)
+    if own is not None and own.kind == "departure" and own.strip is use.strip:
+        follows = own.direction is use.direction
+        return max(LIFT_OFF_M_S - speed, 0.0) / TAKEOFF_M_S2 if follows else None
+    if speed < STANDING_M_S or "proceed" in outlook.cleared_to(mobile.callsign, use.strip):
+        return None
+    straight_s = obstacle.way.exit_m / speed
+    if not mobile.landed:
+        return straight_s
+    return min(straight_s, max(speed - TURN_OFF_M_S, 0.0) / BRAKING_M_S2 + TURN_OFF_S)
+
+
+def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:
+    """Return whether somebody has landed, takes off, or was cleared to cross a runway."""
+    return (
+        mobile.landed
+        or outlook.situation.use(mobile) is not None
+        or "cross" in outlook.cleared_to(mobile.callsign, strip)
+    )
+
+
+def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
+    """Yield that somebody unseen was cleared on to the runway; of less weight."""
+    if use.is_climbing:
+        return
+    for clearance in outlook.cleared_on(use.strip):
+        callsign = clearance.callsign
+        if clearance.action not in ("cross", "proceed") or outlook.situation.mobile(callsign):
+            continue
+        time_to_go_s = outlook.time_to_go_s(use, use.direction.length_m)
+        if outlook.urgency(use, time_to_go_s) is None:
+            continue
+        left_ns = clearance.t_end_ns + CROSSING_NS - outlook.t_ns
+        if clearance.action == "cross" and left_ns / SECOND_NS <= time_to_go_s:
+            continue
+        yield obstruction(
+            use, "cleared on to", callsign, Severity.CAUTION, time_to_go_s, ("adsb", "radio")
+        )
+
+
+def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
+    """Yield that wildlife was reported on the runway."""
+    if not outlook.situation.has_wildlife(use.strip, outlook.t_ns):
+        return
+    if use.kind == "rollout" or use.is_climbing:
+        return
+    time_to_go_s = outlook.time_to_go_s(use, use.along_m)
+    severity = outlook.urgency(use, time_to_go_s)
+    if severity is not None:
+        yield obstruction(
+            use,
+            "reported on",
+            WILDLIFE,
+            severity,
+            time_to_go_s,
+            ("adsb", "radio"),
+            unnamed=WILDLIFE,
+        )

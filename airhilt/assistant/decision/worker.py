@@ -1,0 +1,151 @@
+"""The worker around a decision engine: keys, the fusion gate, and advisories in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pydantic import ValidationError
+
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import DecisionEngine, Received
+from airhilt.assistant.decision.fusion import FusionGate
+from airhilt.assistant.wording.engine import AdvisoryWording
+from airhilt.errors import WorkerError, first_problem
+from airhilt.messages import (
+    AdsbReport,
+    Advisory,
+    Briefing,
+    DeclaredLatency,
+    Detections,
+    InputSpec,
+    Message,
+    RadarInfo,
+    RadarPlot,
+    Status,
+    Transcript,
+    Transmission,
+    WorkerDescription,
+)
+from airhilt.sim.worker import Input, Output
+from airhilt.workers.pool import is_match
+from airhilt.workers.protocol import Step
+
+KEYS: dict[type[Message], str] = {
+    Briefing: "briefing",
+    AdsbReport: "adsb/*",
+    Transcript: "asr/*",
+    Detections: "vision/*",
+    RadarInfo: "radar/*/info",
+    RadarPlot: "radar/*",
+    Transmission: "radio/*/tx",
+    Status: "status/*",
+}
+"""The key of each message that an engine may read."""
+GATE_READS = (Transcript, Transmission, Status)
+"""Messages that tell that a transcript is to come, has come, or will not come."""
+
+
+class DecisionWorker:
+    """Gives what arrives to a decision engine, and publishes its alerts as advisories.
+
+    Parameters
+    ----------
+    is_gated
+        Whether to tell nothing while a transcript is to come: the topology ``gated_fusion``.
+
+    Raises
+    ------
+    WorkerError
+        The engine wants messages that do not reach a decision worker.
+    """
+
+    def __init__(
+        self,
+        engine: DecisionEngine,
+        wording: AdvisoryWording,
+        *,
+        is_gated: bool = False,
+        name: str = "decision",
+    ) -> None:
+        unknown = [model.__name__ for model in engine.reads if model not in KEYS]
+        if unknown:
+            raise WorkerError(
+                f"assistant {engine.name!r} reads {', '.join(unknown)}; expected some of "
+                f"{', '.join(model.__name__ for model in KEYS)}"
+            )
+        self._name = name
+        self._engine = engine
+        self._wording = wording
+        self._gate = FusionGate() if is_gated else None
+        wanted = {*engine.reads, *(GATE_READS if is_gated else ())}
+        self._models = {key: model for model, key in KEYS.items() if model in wanted}
+        self.description = WorkerDescription(
+            name=name,
+            modality="decision",
+            inputs=tuple(
+                InputSpec(key=key, policy="batch") for model, key in KEYS.items() if model in wanted
+            ),
+            latency=DeclaredLatency(median_s=0.15, sigma=0.3),
+        )
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        """Give the engine what has arrived, and publish what has changed.
+
+        Raises
+        ------
+        WorkerError
+            An input is not what belongs on its key.
+        """
+        for item in inputs:
+            self._give(t_ns, item)
+        if self._gate is not None:
+            opens_ns = self._gate.opens_ns(t_ns)
+            if opens_ns is not None:
+                return Step((), wake_ns=opens_ns)
+        t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
+        decision = self._engine.decide(t_ns)
+        return Step(
+            tuple(
+                Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
+                for alert in decision.alerts
+                for advisory in self._advisories(alert, t_ready_ns)
+            ),
+            wake_ns=decision.again_ns,
+        )
+
+    def _give(self, t_ns: int, item: Input) -> None:
+        """Give one input to the gate and to the engine, as far as they read it."""
+        message = self._parse(item)
+        if self._gate is not None:
+            self._gate.receive(message)
+        if isinstance(message, self._engine.reads):
+            self._engine.receive(Received(message, item.t_in_ns, t_ns))
+
+    def _parse(self, item: Input) -> Message:
+        model = next(m for pattern, m in self._models.items() if is_match(item.key, pattern))
+        try:
+            if item.attachment is not None:
+                return model.model_validate(item.attachment)
+            return model.model_validate_json(item.payload)
+        except ValidationError as error:
+            raise WorkerError(
+                f"{item.key}: no {model.__name__}: {first_problem(error)}; see `airhilt schema`"
+            ) from None
+
+    def _advisories(self, alert: Alert, t_ready_ns: int) -> Iterator[Advisory]:
+        """Yield the advisory for each recipient."""
+        for recipient in alert.recipients:
+            yield Advisory(
+                id=f"{self._name}-{alert.id}",
+                revision=alert.revision,
+                recipient=recipient,
+                recipients=alert.recipients,
+                kind=alert.kind,
+                severity=alert.severity,
+                active=alert.active,
+                traffic=alert.traffic,
+                message=self._wording.message(alert, recipient),
+                recommendation=alert.recommendations.get(recipient),
+                evidence=alert.evidence,
+                t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
+            )

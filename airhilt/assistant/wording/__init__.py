@@ -1,0 +1,1 @@
+"""Wording: from an alert as structure to the message for each of its recipients."""

@@ -1,0 +1,23 @@
+"""The wordings: one file an engine, each with its `ENGINE`.
+
+A wording of another package is found by an entry point of the group ``airhilt.wording`` that names
+its `airhilt.engines.Engine`, such as ``mine = "my_package.wording:ENGINE"``.
+"""
+
+from __future__ import annotations
+
+from airhilt.assistant.wording.engine import AdvisoryWording
+from airhilt.engines import EngineFamily
+
+FAMILY = EngineFamily[AdvisoryWording]("wording", "airhilt.wording", __name__, "ENGINE")
+
+
+def advisory_wording(name: str) -> AdvisoryWording:
+    """Return the wording of a name such as ``template``.
+
+    Raises
+    ------
+    AirhiltError
+        There is none of that name, or it cannot be loaded.
+    """
+    return FAMILY.create(name)

@@ -1,0 +1,112 @@
+"""Fixed sentences: who, what to do, what is wrong, and how long there is."""
+
+from __future__ import annotations
+
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.findings import (
+    Intruder,
+    LevelMisread,
+    LossOfSeparation,
+    Obstruction,
+    RunwayMisread,
+)
+from airhilt.engines import Engine
+from airhilt.messages import CONTROLLER, Climb, GoAround, MaintainLevel, Recommendation, Turn
+
+OVER = "clear of conflict"
+
+
+class Template:
+    """Puts the structure of an alert into fixed sentences."""
+
+    name = "template"
+
+    def message(self, alert: Alert, recipient: str) -> str:
+        """Return what one recipient of an alert is told."""
+        if not alert.active:
+            return OVER
+        match alert.finding:
+            case LossOfSeparation() as loss:
+                return _loss_of_separation(alert, loss, recipient)
+            case LevelMisread() as misread:
+                return f"{misread.callsign} {misread.statement()}"
+            case Intruder() as intruder:
+                return _intruder(alert, intruder, recipient)
+            case None:
+                return _on_ground(alert, recipient, alert.evidence.note or _kind(alert))
+            case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
+                return _on_ground(alert, recipient, obstruction.statement_of_use())
+            case finding:
+                return _on_ground(alert, recipient, finding.statement())
+
+
+def _kind(alert: Alert) -> str:
+    return f"{alert.kind.replace('_', ' ')}, {' and '.join(alert.traffic)}"
+
+
+def _loss_of_separation(alert: Alert, loss: LossOfSeparation, recipient: str) -> str:
+    if recipient not in loss.callsigns:
+        return _with_advice(loss.statement(), alert)
+    first, second = loss.callsigns
+    other = second if recipient == first else first
+    advice = in_flight(alert.recommendations.get(recipient))
+    time_s = loss.time_to_loss_s or 0.0
+    return f"{recipient} traffic {other}, loss of separation in {time_s:.0f} s, {advice}"
+
+
+def _intruder(alert: Alert, intruder: Intruder, recipient: str) -> str:
+    if recipient == CONTROLLER:
+        when = "" if intruder.contact_s is None else f", {intruder.contact_s:.0f} s"
+        return _with_advice(f"{intruder.carrier}: {intruder.statement()}{when}", alert)
+    recommendation = alert.recommendations.get(recipient)
+    advice = in_flight(recommendation) if recommendation else "look out"
+    return f"{recipient} {intruder.statement()}, {advice}"
+
+
+def _with_advice(text: str, alert: Alert) -> str:
+    """Return a text for the controller with what each in flight is recommended."""
+    advice = "; ".join(
+        f"{callsign} {in_flight(recommendation)}"
+        for callsign, recommendation in alert.recommendations.items()
+    )
+    return f"{text}; {advice}" if advice else text
+
+
+def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
+    """Return what is wrong on a runway, with the actions of those concerned."""
+    left_s = alert.evidence.time_to_go_s
+    when = "" if left_s is None else f", {left_s:.0f} s to go"
+    if recipient == CONTROLLER:
+        actions = [f"{name} {_action(each)}" for name, each in alert.recommendations.items()]
+        is_misread = isinstance(alert.finding, RunwayMisread)
+        user = "" if is_misread or not alert.traffic else f"{alert.traffic[0]}, "
+        return "; ".join([f"{user}{statement}{when}", *actions])
+    recommended = alert.recommendations.get(recipient)
+    action = "" if recommended is None else f" {_action(recommended)},"
+    return f"{recipient}{action} {statement.removeprefix(f'{recipient} ')}{when}"
+
+
+def _action(recommendation: Recommendation) -> str:
+    return recommendation.action.replace("_", " ")
+
+
+def in_flight(recommendation: Recommendation | None) -> str:
+    """Return what somebody in flight is recommended, in words."""
+    match recommendation:
+        case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate):
+            return f"{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
+        case MaintainLevel(altitude_ft=altitude):
+            return f"maintain {altitude:.0f} ft"
+        case Turn(degrees=degrees):
+            return f"turn {'right' if degrees >= 0 else 'left'} {abs(degrees):.0f} degrees"
+        case GoAround():
+            return "go around"
+        case _:
+            return "maintain present level and track"
+
+
+ENGINE = Engine(
+    name="template",
+    summary="fixed sentences",
+    create=lambda _: Template(),
+)
