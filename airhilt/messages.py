@@ -154,6 +154,59 @@ class Transmission(Header):
     sha256: str = Field(default="", description="of the PCM; empty without samples")
 
 
+class TransmissionOpened(Header):
+    """``radio/<freq_khz>/audio``: attachment without payload; a transmission has begun.
+
+    Its chunks follow while it lasts, then `TransmissionClosed`.
+    """
+
+    phase: Literal["opened"] = "opened"
+    id: str
+    frequency_khz: int
+    t_tx_ns: Nanoseconds = Field(description="start of the transmission")
+    sample_rate_hz: int = 16_000
+
+
+class TransmissionChunk(Header):
+    """``radio/<freq_khz>/audio``: attachment to at most 0.5 s of a transmission, PCM 16 kHz mono.
+
+    ``t_ns`` is not before its last sample was on the air. The chunks of a transmission, one after
+    the other, are the samples of its `Transmission`.
+    """
+
+    phase: Literal["chunk"] = "chunk"
+    id: str
+    frequency_khz: int
+    seq: int = Field(ge=0, description="0 for the first chunk of the transmission")
+    first_sample: int = Field(ge=0, description="number of samples in the chunks before it")
+    samples: int = Field(ge=1)
+    sha256: str = Field(description="of the PCM")
+
+
+class TransmissionClosed(Header):
+    """``radio/<freq_khz>/audio``: attachment without payload; a transmission has ended."""
+
+    phase: Literal["closed"] = "closed"
+    id: str
+    frequency_khz: int
+    t_tx_ns: Nanoseconds
+    t_end_ns: Nanoseconds
+    samples: int = Field(ge=0, description="in all chunks together")
+    sha256: str = Field(default="", description="of the PCM of all chunks; empty without samples")
+    snr_db: float | None = None
+    is_complete: bool = Field(
+        default=True,
+        description="false: its sender or the sound of the radio was lost while it lasted, and no "
+        "`Transmission` has these samples",
+    )
+
+
+TransmissionAudio = Annotated[
+    TransmissionOpened | TransmissionChunk | TransmissionClosed, Field(discriminator="phase")
+]
+"""What comes on ``radio/<freq_khz>/audio``."""
+
+
 EmitterCategory = Literal["A0", "A1", "A2", "A3", "A5", "C1", "C2"]
 """DO-260B, 2.2.3.2.5.2: A1 light, A2 small, A3 large, A5 heavy aircraft; C1 emergency, C2 service
 surface vehicle; A0 no information."""
@@ -750,6 +803,9 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "briefing": Briefing,
     "status/{modality}": Status,
     "radio/{frequency_khz}/tx": Transmission,
+    "radio/{frequency_khz}/audio (opened)": TransmissionOpened,
+    "radio/{frequency_khz}/audio (chunk)": TransmissionChunk,
+    "radio/{frequency_khz}/audio (closed)": TransmissionClosed,
     "camera/{camera}/info": CameraInfo,
     "camera/{camera}/frame": CameraFrame,
     "adsb/{icao24}": AdsbReport,

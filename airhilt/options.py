@@ -10,7 +10,7 @@ from airhilt.assistant.reference import ASR, DETECTOR, TTS, AssistantName
 from airhilt.record import Loss
 from airhilt.scenario.models import Topology
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.radio.backend import RadioBackend
+from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sim import LatencySpec
 from airhilt.workers.pool import Participant
 

@@ -11,29 +11,33 @@ from itertools import takewhile, zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from airhilt.assistant.reference import DETECTOR
+from airhilt.audio.wav import SAMPLE_BYTES
 from airhilt.cosim.router import UNREGISTERED
 from airhilt.cosim.simulation import Observer, run
 from airhilt.errors import RunFolderError, SpeechError, first_problem
+from airhilt.files import sha256
 from airhilt.messages import (
     WORKER_OUTPUTS,
     AdvisoryAudio,
     Event,
     SpokenTruth,
     Status,
+    Transcript,
     Transmission,
+    TransmissionAudio,
+    TransmissionClosed,
     WorkerDescription,
 )
 from airhilt.options import Options, Recorded, UnregisteredMessage
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.audio import recorded_pcm
-from airhilt.record.folder import RunOptions, sha256, versions
+from airhilt.record.folder import RunOptions, versions
 from airhilt.record.latency import RecordedLatencies
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.radio.backend import Reception
 from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.services import is_service
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
@@ -45,6 +49,7 @@ if TYPE_CHECKING:
 
 UNENDING_S = 86_400.0
 """A call lasts longer than any run that its run has cut off."""
+_AUDIO = TypeAdapter[TransmissionAudio](TransmissionAudio)
 
 
 @dataclass(frozen=True)
@@ -196,7 +201,7 @@ def _is_spoken_elsewhere(options: RunOptions) -> bool:
 def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
     """Return what was on the air, and why that ended."""
     durations_s: dict[tuple[str, str], float] = {}
-    received: dict[str, Transmission] = {}
+    received: dict[str, Transmission | TransmissionClosed] = {}
     lost: Event | None = None
     is_over = False
     for logged in log:
@@ -208,9 +213,14 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
                 durations_s.setdefault(
                     (said.speaker, said.text), UNENDING_S if is_over else duration_s
                 )
-        elif kind[0] == "radio":
+        elif kind[0] == "radio" and kind[-1] == "tx":
             header = Transmission.model_validate_json(logged.data)
-            received[header.id] = header
+            if header.samples:
+                received[header.id] = header
+        elif kind[0] == "radio" and kind[-1] == "audio":
+            audio = _AUDIO.validate_json(logged.data)
+            if isinstance(audio, TransmissionClosed) and not audio.is_complete:
+                received[audio.id] = audio
         elif logged.key == "truth/event":
             event = Event.model_validate_json(logged.data)
             is_over = is_over or event.kind in ("finished", "stopped")
@@ -294,7 +304,7 @@ class ReplayedRadio:
     durations_s
         Of each text, by its speaker.
     received
-        Headers by the ids of the calls.
+        Headers of the sound that was received, by the ids of the calls.
     failure
         Why the sound was lost; None if it was not.
     """
@@ -303,7 +313,7 @@ class ReplayedRadio:
         self,
         audio: Path,
         durations_s: Mapping[tuple[str, str], float],
-        received: Mapping[str, Transmission],
+        received: Mapping[str, Transmission | TransmissionClosed],
         failure: str | None,
     ) -> None:
         self._audio = audio
@@ -327,11 +337,12 @@ class ReplayedRadio:
     def receive(
         self,
         on_air: OnAir,
-        heard_over: tuple[OnAir, ...],  # noqa: ARG002
-        snr_db: float | None,  # noqa: ARG002
+        mixed_with: tuple[OnAir, ...],  # noqa: ARG002
         background: BackgroundNoise,  # noqa: ARG002
-    ) -> Reception:
-        """Return the transmission as it was received.
+        begin: int,
+        now_ns: int,  # noqa: ARG002
+    ) -> bytes:
+        """Return the samples as they were received.
 
         Raises
         ------
@@ -339,9 +350,14 @@ class ReplayedRadio:
             It was in this transmission that the sound was lost.
         """
         header = self._received.get(on_air.utterance.id)
-        if header is None or not header.samples:
+        pcm = b"" if header is None else recorded_pcm(self._audio, header)[SAMPLE_BYTES * begin :]
+        if not pcm:
             raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")
-        return Reception(header, recorded_pcm(self._audio, header))
+        return pcm
+
+    def transcript(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:  # noqa: ARG002
+        """Return None: a recogniser found the words."""
+        return None
 
 
 def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:

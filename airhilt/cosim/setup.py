@@ -21,8 +21,8 @@ from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
 from airhilt.sensors.base import SensorType, load_sensor_types
-from airhilt.sensors.radio.backend import RadioBackend, TextRadio
-from airhilt.sensors.radio.backends import backend_of, models_of
+from airhilt.sensors.radio.backends import RadioBackend, TextRadio
+from airhilt.sensors.radio.backends.selection import channel_files, select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
 from airhilt.world.actors import Actor, build_actors
@@ -102,7 +102,7 @@ class Setup:
             versions=versions(),
             platform=machine(),
             renderer=renderer,
-            models=models_of(self.scenario.radio) if options.speech else {},
+            models=channel_files(self.scenario.radio) if options.speech else {},
         )
 
 
@@ -126,7 +126,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     site = ScenarioSite.of(scenario)
     actors = build_actors(scenario, site, options.seed, TICK_S)
     tts = options.tts if options.speech else None
-    sound = recorded.sound or backend_of(scenario.radio, options.seed, tts)
+    sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
     lines = apply_failures(scenario)
     # For the summary alone; a record knows what was said, but not what was planned and was not.
     planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)

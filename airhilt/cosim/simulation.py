@@ -25,6 +25,7 @@ from airhilt.cosim.participants import Participants, connect
 from airhilt.cosim.router import UNREGISTERED, MessageRouter
 from airhilt.cosim.setup import TICK_S, Setup, set_up
 from airhilt.errors import AirhiltError, RunStopped, WorkerError, first_problem
+from airhilt.files import sha256
 from airhilt.messages import (
     ActorCommand,
     Advisory,
@@ -45,13 +46,12 @@ from airhilt.metrics.summary import Summary
 from airhilt.options import Options, Recorded
 from airhilt.record import LatencyLog, LogWriter, RunInfo
 from airhilt.record.audio import AudioRecorder
-from airhilt.record.folder import sha256
 from airhilt.report.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.sensors.base import SensorContext, start_sensors
-from airhilt.sensors.radio.backend import FallbackRadio
+from airhilt.sensors.radio.backends import FallbackRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
@@ -230,6 +230,7 @@ class Simulation:
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
         )
+        self._radio.start()
         plans = Plans(lines, setup.ends_ns)
         self._collector = Collector(scenario, site.ground_m, self._monitor, self._runways, plans)
         self._pool = WorkerPool(

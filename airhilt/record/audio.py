@@ -12,24 +12,37 @@ from pathlib import Path
 
 from airhilt.audio.wav import encode_wav, from_pcm, read_wav, to_pcm
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
-from airhilt.messages import AdvisoryAudio, Message, Transmission
+from airhilt.messages import (
+    AdvisoryAudio,
+    Message,
+    Transmission,
+    TransmissionChunk,
+    TransmissionClosed,
+)
+
+Recorded = Transmission | TransmissionClosed | AdvisoryAudio
+"""Messages whose sound is in a file."""
 
 
-def audio_file(folder: Path, message: Transmission | AdvisoryAudio) -> Path:
-    """Return where the sound of a message lies in the ``audio`` folder of a run."""
-    match message:
-        case Transmission(id=name):
-            stem = name
-        case AdvisoryAudio(id=name, revision=revision, recipient=recipient):
-            stem = f"advisory-{name}-{revision}-{recipient}"
+def audio_file(folder: Path, message: Recorded) -> Path:
+    """Return the path of the sound of a message in the ``audio`` folder of a run."""
+    stem = message.id
+    if isinstance(message, AdvisoryAudio):
+        stem = f"advisory-{message.id}-{message.revision}-{message.recipient}"
     return folder / f"{''.join(c if c.isalnum() or c in '._-' else '_' for c in stem)}.wav"
 
 
 class AudioRecorder:
-    """Writes the sound of each message that has any, as it is published."""
+    """Writes the sound of each message that has any, as it is published.
+
+    The chunks of a transmission are written only if no `Transmission` has their samples, because
+    its sender or the sound of the radio was lost while it lasted.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
+        self._chunks: dict[str, bytearray] = {}
+        """PCM of the transmissions that are on the air, by id."""
 
     def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
         """Write the sound of a message.
@@ -37,21 +50,30 @@ class AudioRecorder:
         Raises
         ------
         RunFolderError
-            The disk takes no more.
+            The disk is full or gone.
         """
-        if not isinstance(message, (Transmission, AdvisoryAudio)) or not payload:
-            return
+        match message:
+            case TransmissionChunk():
+                self._chunks.setdefault(message.id, bytearray()).extend(payload)
+            case TransmissionClosed():
+                pcm = bytes(self._chunks.pop(message.id, b""))
+                if pcm and not message.is_complete:
+                    self._write(message, pcm)
+            case Transmission() | AdvisoryAudio() if payload:
+                self._write(message, payload)
+
+    def _write(self, message: Recorded, pcm: bytes) -> None:
         path = audio_file(self._folder, message)
         try:
             self._folder.mkdir(exist_ok=True)
-            path.write_bytes(encode_wav(from_pcm(payload)))
+            path.write_bytes(encode_wav(from_pcm(pcm)))
         except OSError as error:
             with suppress(OSError):
                 path.unlink()
             raise disk_failed(str(path), error) from None
 
 
-def recorded_pcm(folder: Path, message: Transmission | AdvisoryAudio) -> bytes:
+def recorded_pcm(folder: Path, message: Recorded) -> bytes:
     """Return the PCM of a message from the ``audio`` folder of its run.
 
     Raises

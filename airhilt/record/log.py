@@ -37,7 +37,7 @@ class Logged(NamedTuple):
 
 
 class LogWriter:
-    """Writes messages with their JSON Schemas; one channel for each key and publisher."""
+    """Writes messages with their JSON Schemas; one channel for each key, publisher and schema."""
 
     def __init__(self, path: Path) -> None:
         self._stream = path.open("wb")
@@ -46,14 +46,14 @@ class LogWriter:
         )
         self._writer.start(profile="airhilt", library="airhilt")
         self._schemas: dict[type[BaseModel], int] = {}
-        self._channels: dict[tuple[str, str], int] = {}
+        self._channels: dict[tuple[str, str, type[BaseModel]], int] = {}
         self._sequence = 0
 
     def write(
         self, key: str, publisher: str, model: type[BaseModel], t_ns: int, data: bytes
     ) -> None:
         """Write one message, serialised as JSON already."""
-        channel = self._channels.get((key, publisher))
+        channel = self._channels.get((key, publisher, model))
         if channel is None:
             channel = self._register(key, publisher, model)
         self._sequence += 1
@@ -68,7 +68,7 @@ class LogWriter:
             )
             self._schemas[model] = schema
         channel = self._writer.register_channel(key, "json", schema, {"publisher": publisher})
-        self._channels[(key, publisher)] = channel
+        self._channels[(key, publisher, model)] = channel
         return channel
 
     def flush(self) -> None:

@@ -401,7 +401,7 @@ class _Log:
 
 def _message_on_radio(family: str, rest: str) -> type[Message] | None:
     """Return which message a key has, if it is about a call."""
-    if family == "radio":
+    if family == "radio" and rest.endswith("/tx"):
         return Transmission
     if family == "asr":
         return Transcript

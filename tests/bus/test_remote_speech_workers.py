@@ -59,7 +59,7 @@ def logged(folder: Path, prefix: str, model: type[Message]) -> list[Message]:
     return [
         model.model_validate_json(one.data)
         for one in read_log(folder / "log.mcap")
-        if one.key.startswith(prefix)
+        if one.key.startswith(prefix) and not one.key.endswith("/audio")
     ]
 
 

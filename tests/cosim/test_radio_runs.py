@@ -46,7 +46,11 @@ class Radio:
         self.said = all_of("truth/radio/", SpokenTruth)
         self.heard = all_of("truth/hearing/", HearingTruth)
         self.transcripts = all_of("asr/", Transcript)
-        self.received = all_of("radio/", Transmission)
+        self.received = [
+            Transmission.model_validate_json(one.data)
+            for one in log
+            if one.key.startswith("radio/") and one.key.endswith("/tx")
+        ]
         self.states = [
             (one.t_ns / SECOND_NS, one.state, one.cause) for one in all_of("status/radio", Status)
         ]

@@ -23,7 +23,7 @@ from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
-from airhilt.sensors.radio.backend import TextRadio
+from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS

@@ -70,7 +70,7 @@ def rows(result: Result, prefix: str, model: Any) -> list[Any]:
     return [
         model.model_validate_json(one.data)
         for one in read_log(result.folder / "log.mcap")
-        if one.key.startswith(prefix)
+        if one.key.startswith(prefix) and not one.key.endswith("/audio")
     ]
 
 

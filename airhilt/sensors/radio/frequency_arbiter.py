@@ -1,8 +1,8 @@
 """The frequencies: who talks when, and who talks over whom.
 
-Somebody who wants to speak listens first, and waits until the frequency is free. Nobody hears at
-once that another has just begun, though: two that begin at the same time block each other, both
-talk to the end, and neither notices (a transmitter does not receive).
+Whoever wants to speak listens first, and waits until the frequency is free. Nobody hears at once
+that another has just begun, though: two that begin at the same time block each other, both talk to
+the end, and neither notices (a transmitter does not receive).
 """
 
 from __future__ import annotations
@@ -11,18 +11,21 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 
+import numpy as np
+
 from airhilt.sim import Director, Priority
-from airhilt.units import seconds_to_ns
-from airhilt.voices.engine import Audio
+from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 GAP_S = 0.4
-"""Pause before a call that had to wait for the frequency."""
+"""Pause in s before a call that had to wait for the frequency."""
 REACTION_S = 0.25
-"""For so long nobody notices that somebody else has begun to talk. An estimate: a simple reaction
-to a sound takes 0.14 to 0.2 s, and a transmitter and a squelch take tens of milliseconds."""
+"""Time in s in which nobody notices that somebody else has begun to talk. An estimate: a simple
+reaction to a sound takes 0.14 to 0.2 s, and a transmitter and a squelch take tens of
+milliseconds."""
 
 Speak = Callable[[str, str], tuple[Audio | None, float]]
-"""From a speaker and a text to the speech, None without sound, and how long it takes in seconds."""
+"""Returns the speech of a speaker's text, None without sound, and its duration in s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +38,7 @@ class Utterance:
     speaker: str
     addressed: str | None
     text: str
+    """Empty if nothing is said, or nobody knows what."""
     in_reply_to: str | None = None
     listens_first: bool = True
     """False: it is said even if the frequency is busy."""
@@ -46,16 +50,43 @@ class OnAir:
 
     utterance: Utterance
     t_tx_ns: int
-    t_end_ns: int
+    end_ns: int | None
+    """Planned or real end; None while a person holds the button."""
     speech: Audio | None
-    """None without sound, and of a stuck microphone."""
+    """What is said, as far as it is known; None without sound, and of a stuck microphone."""
+    is_carrier: bool = False
+    """Whether it is only a carrier, as a stuck microphone gives."""
+    is_open_ended: bool = False
+    """Whether its sound becomes known only while it lasts."""
     overlapping: list[OnAir] = field(default_factory=list)
-    """Those of others on the frequency at the same time, whoever hears them."""
+    """Transmissions of others on the frequency at the same time, whoever hears them."""
+    waiting: list[Callable[[], None]] = field(default_factory=list)
+    """Attempts to speak that are made when it has ended."""
 
     @property
-    def is_carrier(self) -> bool:
-        """Whether it is only a carrier: a button that is stuck."""
-        return not self.utterance.text
+    def t_end_ns(self) -> int:
+        """End of a transmission that has ended, or whose end was planned.
+
+        Raises
+        ------
+        ValueError
+            The end is not known yet.
+        """
+        if self.end_ns is None:
+            raise ValueError(f"{self.utterance.id}: still on the air, and its end is not known")
+        return self.end_ns
+
+    def has_ended(self, now_ns: int) -> bool:
+        """Return whether it is over."""
+        return self.end_ns is not None and self.end_ns <= now_ns
+
+    def known_until_ns(self, now_ns: int) -> int:
+        """Return the time up to which its sound is known."""
+        if not self.is_open_ended or self.has_ended(now_ns):
+            return self.t_end_ns
+        if self.speech is None:
+            return now_ns
+        return self.t_tx_ns + len(self.speech) * SECOND_NS // SAMPLE_RATE_HZ
 
 
 class FrequencyArbiter:
@@ -64,7 +95,9 @@ class FrequencyArbiter:
     Parameters
     ----------
     audible
-        Tells whether its second argument, a listener, is in reach of the first, a speaker.
+        Returns whether its second argument, a listener, is in reach of the first, a speaker.
+    began
+        Called with each transmission when it begins.
     ended
         Called with each transmission when it ends.
     """
@@ -74,24 +107,39 @@ class FrequencyArbiter:
         director: Director,
         speak: Speak,
         audible: Callable[[str, str], bool],
+        *,
+        began: Callable[[OnAir], None],
         ended: Callable[[OnAir], None],
     ) -> None:
         self._director = director
         self._speak = speak
         self._audible = audible
+        self._began = began
         self._ended = ended
         self._on_air: dict[int, list[OnAir]] = {}
 
     def say(self, utterance: Utterance) -> None:
         """Say something as soon as its speaker finds the frequency free."""
-        self._begin(utterance, has_waited=False)
+        self._try_to_speak(utterance, has_waited=False)
 
-    def press(self, utterance: Utterance, for_s: float) -> None:
-        """Hold the button of a transmitter for a time, saying nothing.
+    def transmit_carrier(self, utterance: Utterance, for_s: float) -> None:
+        """Transmit a carrier without words for a time in s, as a stuck microphone does.
 
-        Nobody waits for that to end: there is nothing to hear but a carrier.
+        Nobody waits for its end: there is nothing to hear but a carrier.
         """
-        self._transmit(utterance, None, for_s)
+        now_ns = self._director.now_ns
+        end_ns = now_ns + seconds_to_ns(for_s)
+        self._transmit(OnAir(utterance, now_ns, end_ns, None, is_carrier=True, is_open_ended=True))
+
+    def press(self, utterance: Utterance) -> OpenMicrophone:
+        """Transmit from now on what a microphone gives, until its button is released.
+
+        Whoever presses the button of a transmitter is on the air at once, over all others.
+        """
+        silence = np.zeros(0, np.float32)
+        on_air = OnAir(utterance, self._director.now_ns, None, silence, is_open_ended=True)
+        self._transmit(on_air)
+        return OpenMicrophone(self._director, on_air, partial(self._end, on_air))
 
     def close(self) -> list[OnAir]:
         """Cut off what is on the air, and return it."""
@@ -103,30 +151,44 @@ class FrequencyArbiter:
             if on_air.t_tx_ns < now_ns
         ]
         for on_air in cut:
-            on_air.t_end_ns = now_ns
+            on_air.end_ns = now_ns
         self._on_air.clear()
         return cut
 
-    def _begin(self, utterance: Utterance, *, has_waited: bool) -> None:
+    def _try_to_speak(self, utterance: Utterance, *, has_waited: bool) -> None:
         heard = self._heard_by(utterance, has_waited)
         if heard:
-            again_ns = max(other.t_end_ns for other in heard) + seconds_to_ns(GAP_S)
-            begin = partial(self._begin, utterance, has_waited=True)
-            self._director.at(again_ns, begin, Priority.SCRIPT)
-        else:
-            self._transmit(utterance, *self._speak(utterance.speaker, utterance.text))
+            again = partial(self._try_to_speak, utterance, has_waited=True)
+            self._after_all(heard, again)
+            return
+        speech, duration_s = self._speak(utterance.speaker, utterance.text)
+        now_ns = self._director.now_ns
+        self._transmit(OnAir(utterance, now_ns, now_ns + seconds_to_ns(duration_s), speech))
+
+    def _after_all(self, heard: list[OnAir], action: Callable[[], None]) -> None:
+        """Call an action once some transmissions have ended and a pause has passed.
+
+        If the end of one is not known, that is the one to wait for: its end is the next chance.
+        """
+        end_ns = 0
+        for other in heard:
+            if other.end_ns is None:
+                other.waiting.append(action)
+                return
+            end_ns = max(end_ns, other.end_ns)
+        self._director.at(end_ns + seconds_to_ns(GAP_S), action, Priority.SCRIPT)
 
     def _heard_by(self, utterance: Utterance, has_waited: bool) -> list[OnAir]:
-        """Return whom a speaker would interrupt, himself at least, so that he waits.
+        """Return the transmissions that a speaker would interrupt, and so waits for.
 
-        Who has waited pays attention until the end.
+        A speaker's own are always among them. Whoever has waited pays attention until the end.
         """
         unnoticed_ns = self._director.now_ns - seconds_to_ns(REACTION_S)
         return [
             other
             for other in self._on_air.get(utterance.frequency_khz, ())
             if not other.is_carrier
-            and other.t_end_ns > self._director.now_ns
+            and not other.has_ended(self._director.now_ns)
             and (
                 other.utterance.speaker == utterance.speaker
                 or (
@@ -137,17 +199,76 @@ class FrequencyArbiter:
             )
         ]
 
-    def _transmit(self, utterance: Utterance, speech: Audio | None, duration_s: float) -> None:
-        now_ns = self._director.now_ns
-        on_air = OnAir(utterance, now_ns, now_ns + seconds_to_ns(duration_s), speech)
-        together = self._on_air.setdefault(utterance.frequency_khz, [])
+    def _transmit(self, on_air: OnAir) -> None:
+        together = self._on_air.setdefault(on_air.utterance.frequency_khz, [])
         for other in together:
-            if other.t_end_ns > now_ns and other.utterance.speaker != utterance.speaker:
+            if (
+                not other.has_ended(self._director.now_ns)
+                and other.utterance.speaker != on_air.utterance.speaker
+            ):
                 other.overlapping.append(on_air)
                 on_air.overlapping.append(other)
         together.append(on_air)
-        self._director.at(on_air.t_end_ns, partial(self._end, on_air), Priority.SCRIPT)
+        if on_air.end_ns is not None:
+            self._director.at(on_air.end_ns, partial(self._end, on_air), Priority.SCRIPT)
+        self._began(on_air)
 
     def _end(self, on_air: OnAir) -> None:
-        self._on_air[on_air.utterance.frequency_khz].remove(on_air)
+        together = self._on_air.get(on_air.utterance.frequency_khz, [])
+        if on_air not in together:
+            return  # The end of the run has cut it off.
+        together.remove(on_air)
+        on_air.end_ns = self._director.now_ns
         self._ended(on_air)
+        for action in on_air.waiting:
+            self._director.at(on_air.end_ns + seconds_to_ns(GAP_S), action, Priority.SCRIPT)
+
+
+class OpenMicrophone:
+    """Microphone of somebody who holds the transmit button: its sound is known as it comes.
+
+    Parameters
+    ----------
+    end
+        Ends the transmission.
+    """
+
+    def __init__(self, director: Director, on_air: OnAir, end: Callable[[], None]) -> None:
+        self._director = director
+        self._on_air = on_air
+        self._end = end
+        self._buffer = np.zeros(SAMPLE_RATE_HZ, np.float32)
+        self._count = 0
+        self.is_open = True
+
+    def feed(self, samples: Audio) -> None:
+        """Add what the microphone has picked up since the button was pressed, or last time.
+
+        Raises
+        ------
+        ValueError
+            The button has been released.
+        """
+        if not self.is_open:
+            raise ValueError(f"{self._on_air.utterance.id}: the button has been released")
+        count = self._count + len(samples)
+        if count > len(self._buffer):
+            self._buffer = np.resize(self._buffer, 2 * count)
+        self._buffer[self._count : count] = samples
+        self._count = count
+        self._on_air.speech = self._buffer[:count]
+
+    def release(self) -> None:
+        """End the transmission; if more was fed than time has passed, once that has been said.
+
+        What has not been fed by then is silence.
+        """
+        if not self.is_open:
+            return
+        self.is_open = False
+        said_until_ns = self._on_air.known_until_ns(self._director.now_ns)
+        if said_until_ns <= self._director.now_ns:
+            self._end()
+        else:
+            self._on_air.end_ns = said_until_ns
+            self._director.at(said_until_ns, self._end, Priority.SCRIPT)

@@ -1,4 +1,4 @@
-"""The scripted calls: when each is due."""
+"""The scripted calls, and when each is due."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from functools import partial
 
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, RadioLine
-from airhilt.sensors.radio.backend import RadioBackend
+from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
 
 class RadioScript:
-    """Says when a line is to be said: not before its time, nor before its condition is true.
+    """Determines when a line is said: not before its time, nor before its condition is true.
 
     Parameters
     ----------
     once
         Calls its second argument as soon as its first, a condition, is true.
     failed
-        Called with each line that something is wrong with, when it would have been said.
+        Called with each line that a failure changes, when the line would have been said.
     due
-        Called with each line when it is to be said, as it is said.
+        Called with each line when it is to be said, with the words that failures give it.
     """
 
     def __init__(
@@ -34,43 +34,48 @@ class RadioScript:
         due: Callable[[RadioLine], None],
     ) -> None:
         self._director = director
+        self._lines = lines
         self._once = once
         self._failed = failed
         self._say = due
-        for happening in lines:
-            at_ns = seconds_to_ns(happening.declared.at_s)
-            director.at(at_ns, partial(self._await, happening), Priority.SCRIPT)
 
-    def _await(self, happening: EffectiveLine) -> None:
-        if happening.declared.when is None:
-            self._due(happening)
+    def start(self) -> None:
+        """Schedule all lines."""
+        for line in self._lines:
+            at_ns = seconds_to_ns(line.declared.at_s)
+            self._director.at(at_ns, partial(self._await, line), Priority.SCRIPT)
+
+    def _await(self, line: EffectiveLine) -> None:
+        if line.declared.when is None:
+            self._due(line)
         else:
-            self._once(happening.declared.when, partial(self._due, happening))
+            self._once(line.declared.when, partial(self._due, line))
 
-    def _due(self, happening: EffectiveLine) -> None:
-        if happening.failures:
-            self._failed(happening)
-        if happening.line is None:
+    def _due(self, line: EffectiveLine) -> None:
+        if line.failures:
+            self._failed(line)
+        if line.line is None:
             return
-        say = partial(self._say, happening.line)
-        if happening.late_s == 0.0:
+        say = partial(self._say, line.line)
+        if line.late_s == 0.0:
             say()
         else:
-            due_ns = self._director.now_ns + seconds_to_ns(happening.late_s)
+            due_ns = self._director.now_ns + seconds_to_ns(line.late_s)
             self._director.at(due_ns, say, Priority.SCRIPT)
 
 
-def planned_ends_ns(lines: Sequence[EffectiveLine], sound: RadioBackend) -> dict[str, int]:
-    """Return when each line, by its id, ends if it waits for nothing and its frequency is free.
+def planned_ends_ns(lines: Sequence[EffectiveLine], backend: RadioBackend) -> dict[str, int]:
+    """Return the end of each line, by its id, if nothing delays it.
 
     Raises
     ------
     airhilt.errors.SpeechError
-        Its voices have failed.
+        The voices have failed.
     """
     ends_ns = {}
-    for happening in lines:
-        line = happening.line or happening.declared
-        _, duration_s = sound.speak(line.speaker, line.text)
-        ends_ns[line.id] = seconds_to_ns(line.at_s + happening.late_s) + seconds_to_ns(duration_s)
+    for effective in lines:
+        line = effective.line or effective.declared
+        _, duration_s = backend.speak(line.speaker, line.text)
+        begin_ns = seconds_to_ns(line.at_s + effective.late_s)
+        ends_ns[line.id] = begin_ns + seconds_to_ns(duration_s)
     return ends_ns

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from airhilt.audio.wav import from_pcm
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.audio_radio import AudioRadio
+from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
 from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
@@ -201,7 +201,7 @@ def test_two_that_block_each_other_whistle_alike_whichever_is_received() -> None
     spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), seed=5)
 
     def whistle_hz(said: OnAir, over: OnAir) -> float:
-        heard = from_pcm(spoken.receive(said, (over,), None, "none").pcm)
+        heard = from_pcm(spoken.receive(said, (over,), "none", 0, said.t_end_ns))
         spectrum = np.abs(np.fft.rfft(heard))
         return float(np.fft.rfftfreq(len(heard), 1 / SAMPLE_RATE_HZ)[spectrum.argmax()])
 

@@ -9,15 +9,11 @@ import pytest
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
-from airhilt.sensors.radio.backend import TextRadio
-from airhilt.sensors.radio.conversation import (
-    MOST_REPEATS,
-    REPEAT_AFTER_S,
-    REPEAT_SPREAD_S,
-    TRANSCRIPT_PATIENCE_S,
-    RadioConversation,
-)
+from airhilt.sensors.radio.backends import TextRadio
+from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.hearing import Heard, HearingModel
+from airhilt.sensors.radio.listeners import TRANSCRIPT_PATIENCE_S
+from airhilt.sensors.radio.readback_policy import MOST_REPEATS, REPEAT_AFTER_S, REPEAT_SPREAD_S
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
@@ -67,7 +63,7 @@ class World:
             )
             for actor in self.scenario.actors
         }
-        self.loop = RadioConversation(
+        self.conversation = RadioConversation(
             self.director,
             self.scenario,
             apply_failures(self.scenario),
@@ -81,14 +77,14 @@ class World:
             failed=lambda happening: None,
             microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
             microphones_free=lambda: self.microphones.append((self.now_s, None)),
+            hearing=None if heard is None else Scripted(heard),
         )
-        if heard is not None:
-            self.loop._hearing = Scripted(heard)
+        self.conversation.start()
 
     def publish(self, key, message, *, raw=None):
         self.published.append(message)
         if isinstance(message, Transcript) and self.gives_transcripts:
-            self.loop.take(key, message, b"")
+            self.conversation.take(key, message, b"")
 
     gives_transcripts = True
 
@@ -110,7 +106,7 @@ class World:
     def run_until(self, end_s):
         self.director.at(seconds_to_ns(end_s), self.director.stop, Priority.OBSERVE)
         self.director.run()
-        self.loop.close()
+        self.conversation.close()
         return self
 
     def said(self):
@@ -386,7 +382,7 @@ class Reading(World):
         )  # fmt: skip
         self.director.at(
             seconds_to_ns(at_s),
-            lambda: self.loop.take(f"asr/{KHZ}", transcript, b""),
+            lambda: self.conversation.take(f"asr/{KHZ}", transcript, b""),
             Priority.RESULT,
         )
         return self

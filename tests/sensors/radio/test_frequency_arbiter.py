@@ -34,16 +34,18 @@ def played(*calls, stuck=(), audible=everybody, until_s=None):
         assert director.now_ns == on_air.t_end_ns
         ended[on_air.utterance.id] = on_air
 
-    bus = FrequencyArbiter(director, speak, audible, end)
+    arbiter = FrequencyArbiter(director, speak, audible, began=lambda on_air: None, ended=end)
     for at_s, said in calls:
-        director.at(seconds_to_ns(at_s), partial(bus.say, said), Priority.SCRIPT)
+        director.at(seconds_to_ns(at_s), partial(arbiter.say, said), Priority.SCRIPT)
     for at_s, speaker, for_s in stuck:
         carrier = Utterance(f"stuck-{speaker}", 134_325, speaker, None, "")
-        director.at(seconds_to_ns(at_s), partial(bus.press, carrier, for_s), Priority.SCRIPT)
+        director.at(
+            seconds_to_ns(at_s), partial(arbiter.transmit_carrier, carrier, for_s), Priority.SCRIPT
+        )
     if until_s is not None:
         director.at(seconds_to_ns(until_s), director.stop, Priority.OBSERVE)
     director.run()
-    return ended | {on_air.utterance.id: on_air for on_air in bus.close()}
+    return ended | {on_air.utterance.id: on_air for on_air in arbiter.close()}
 
 
 def begins_s(on_air):

@@ -4,7 +4,7 @@ import pytest
 
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, TimeReached
-from airhilt.sensors.radio.backend import TextRadio
+from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.script import RadioScript, planned_ends_ns
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
@@ -30,14 +30,14 @@ def played(*lines, failed=None):
         due_ns = max(seconds_to_ns(condition.at_s), director.now_ns)
         director.at(due_ns, action, Priority.SCRIPT)
 
-    def fail(happening):
+    def fail(effective):
         if failed is not None:
-            failed.append((happening.declared.id, director.now_ns / SECOND_NS))
+            failed.append((effective.declared.id, director.now_ns / SECOND_NS))
 
     def say(said):
         due.append((said.id, director.now_ns / SECOND_NS))
 
-    RadioScript(director, lines, once, fail, say)
+    RadioScript(director, lines, once, fail, say).start()
     director.run()
     return due
 

@@ -1,23 +1,24 @@
-"""The sound of a run by what a scenario and the command line name."""
+"""The radio backend and the channel that a scenario and the command line name."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from airhilt.record.folder import sha256
+from airhilt.files import sha256
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES, is_learned
-from airhilt.sensors.radio.backend import RadioBackend, TextRadio
+from airhilt.sensors.radio.backends.base import RadioBackend
+from airhilt.sensors.radio.backends.text import TextRadio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import Channel
 
-USUAL_PROFILE = "vhf"
+DEFAULT_PROFILE = "vhf"
 
 
-def backend_of(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
-    """Return the sound of a run; without voices, text.
+def select_backend(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
+    """Return the radio backend of a run; a radio without sound if there are no voices.
 
     Raises
     ------
@@ -26,14 +27,15 @@ def backend_of(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
     """
     if tts is None:
         return TextRadio(radio.words_per_minute)
-    # Not at the top: a run without speech starts without the libraries behind it.
-    from airhilt.sensors.radio.audio_radio import AudioRadio
+    # Imported here, so that a run without speech starts without the libraries behind it.
+    from airhilt.sensors.radio.backends.audio import AudioRadio
     from airhilt.voices.engines import tts_engine
 
-    return AudioRadio(tts_engine(tts), channel_of(radio.profile or USUAL_PROFILE), seed)
+    channel = select_channel(radio.profile or DEFAULT_PROFILE)
+    return AudioRadio(tts_engine(tts), channel, seed, radio.snr_db)
 
 
-def channel_of(profile: str) -> Channel:
+def select_channel(profile: str) -> Channel:
     """Return the channel of a named profile, or of a file with a learned one.
 
     Raises
@@ -50,7 +52,7 @@ def channel_of(profile: str) -> Channel:
     return VhfChannel(PROFILES[profile])
 
 
-def models_of(radio: Radio) -> dict[str, str]:
-    """Return the SHA-256 of the file that the channel was learned into, by its path."""
-    profile = radio.profile or USUAL_PROFILE
+def channel_files(radio: Radio) -> dict[str, str]:
+    """Return the SHA-256 of the file with a learned channel, by its path; empty without one."""
+    profile = radio.profile or DEFAULT_PROFILE
     return {profile: sha256(Path(profile))} if is_learned(profile) else {}

@@ -1,4 +1,4 @@
-"""A call from its first word until it is taken, or given up."""
+"""A call, from its first word until it is taken or given up."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from airhilt.scenario.models import RadioLine, Scenario, ScriptedCommand
 
 @dataclass(eq=False)
 class RadioCall:
-    """One call, which may have to be made again, and who has taken it."""
+    """One call, which may be made several times, and the recipients that have taken it."""
 
     id: str
     frequency_khz: int
@@ -22,52 +22,52 @@ class RadioCall:
     commands: tuple[ScriptedCommand, ...] = ()
     in_reply_to: RadioCall | None = None
     is_repeated: bool = True
-    """Whether it is made again if nobody answers."""
+    """Whether it is made again if it goes unanswered."""
     scripted: EffectiveLine | None = None
     asks_for: RadioCall | None = None
-    """The call that it asks to be made again."""
+    """Call that it asks to be made again."""
     answer: RadioCall | None = None
-    """What its addressee says once he has taken it."""
+    """Call that the addressee makes once this one is taken."""
     needs: tuple[RadioCall | None, ...] = ()
-    """What its speaker must have taken before; None is never said."""
+    """Calls that its speaker must have taken before; None stands for one that is never said."""
     times_said: int = 0
     is_due_again: bool = False
     withdrawn_for: set[str] = field(default_factory=set)
-    """Who will not do any more what he has not done of it yet."""
+    """Actors that leave undone what they have not done of it yet."""
     taken_by: set[str] = field(default_factory=set)
     _then: dict[str, list[Callable[[], None]]] = field(default_factory=dict)
 
     @property
     def deaf(self) -> frozenset[str]:
-        """Who does not take it, as the scenario has it; said again, nobody is."""
+        """Actors that a failure keeps from taking it. The failure does not affect repetitions."""
         if self.scripted is None or self.times_said > 1:
             return frozenset()
         return self.scripted.deaf
 
     @property
     def said(self) -> str:
-        """Its words, as they are said this time."""
-        return self.text if self._put_right is None else self._put_right.text
+        """Its words as they are said this time."""
+        return self.text if self._corrected is None else self._corrected.text
 
     @property
     def meant(self) -> tuple[ScriptedCommand, ...]:
-        """What those do who take it as it is said this time."""
-        return self.commands if self._put_right is None else self._put_right.commands
+        """Commands to the recipients, as it is said this time."""
+        return self.commands if self._corrected is None else self._corrected.commands
 
     @property
-    def _put_right(self) -> RadioLine | None:
-        """As it should have been, if it is made again after it went to the wrong actor."""
+    def _corrected(self) -> RadioLine | None:
+        """The line without its failure, if it is made again after it went to the wrong actor."""
         if self.scripted is None or not self.scripted.deaf or self.times_said <= 1:
             return None
         return self.scripted.declared
 
     @property
     def is_first_time(self) -> bool:
-        """Whether it is on the air, or was, for the first time."""
+        """Whether it has been made once only."""
         return self.times_said == 1
 
     def recipients(self) -> list[str]:
-        """Return for whom it still is: its addressee, and who does something on it."""
+        """Return who has yet to take it: its addressee, and all that it gives commands to."""
         names = (self.addressed, *(scripted.actor for scripted in self.meant))
         return [
             name
@@ -76,11 +76,11 @@ class RadioCall:
         ]
 
     def once_taken_by(self, name: str, action: Callable[[], None]) -> None:
-        """Call something as soon as somebody has taken it."""
+        """Call an action as soon as a recipient has taken it."""
         self._then.setdefault(name, []).append(action)
 
     def take(self, name: str) -> None:
-        """Count somebody among those who have taken it."""
+        """Note that a recipient has taken it."""
         self.taken_by.add(name)
         for action in self._then.pop(name, ()):
             action()
@@ -89,17 +89,17 @@ class RadioCall:
 def calls_of(scenario: Scenario, lines: Sequence[EffectiveLine]) -> dict[str, RadioCall]:
     """Return the calls of the lines that are said, by their ids."""
     found = {
-        happening.declared.id: RadioCall(
-            happening.line.id,
-            happening.line.frequency_khz,
-            happening.line.speaker,
-            happening.line.to,
-            happening.line.text,
-            happening.line.commands,
-            scripted=happening,
+        line.declared.id: RadioCall(
+            line.line.id,
+            line.line.frequency_khz,
+            line.line.speaker,
+            line.line.to,
+            line.line.text,
+            line.line.commands,
+            scripted=line,
         )
-        for happening in lines
-        if happening.line is not None
+        for line in lines
+        if line.line is not None
     }
     needed = needed_lines(scenario)
     needed_by_others = {name for names in needed.values() for name in names}

@@ -1,0 +1,64 @@
+"""The protocol of a radio backend: the voices of a run, and its receiver."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from airhilt.messages import Transcript
+from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.voices.engine import Audio
+
+if TYPE_CHECKING:
+    from airhilt.sensors.radio.channel import BackgroundNoise
+
+
+class RadioBackend(Protocol):
+    """The voices of a run and its receiver."""
+
+    def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
+        """Return a text as speech, None without sound, and its duration in s.
+
+        Raises
+        ------
+        airhilt.errors.SpeechError
+            The voices have failed.
+        """
+        ...
+
+    def receive(
+        self,
+        on_air: OnAir,
+        mixed_with: tuple[OnAir, ...],
+        background: BackgroundNoise,
+        begin: int,
+        now_ns: int,
+    ) -> bytes:
+        """Return what the receiver gives out of a transmission, as far as it can be known.
+
+        That is the whole of a transmission whose speech was known when it began, and what has
+        been on the air by now of any other.
+
+        Parameters
+        ----------
+        mixed_with
+            Transmissions that are received at the same time.
+        background
+            Noise around the speaker.
+        begin
+            First sample that is asked for. The samples before it have been given out already.
+
+        Returns
+        -------
+        bytes
+            PCM, 16 kHz, mono, 16 bits, little-endian; empty without sound.
+
+        Raises
+        ------
+        airhilt.errors.SpeechError
+            The channel has failed.
+        """
+        ...
+
+    def transcript(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:
+        """Return the words of a transmission that has ended, if no recogniser is needed."""
+        ...

@@ -1,0 +1,106 @@
+"""What a controller does about a readback that is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.sensors.radio.answers import Answers
+from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
+from airhilt.sensors.radio.frequency_arbiter import Utterance
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
+from airhilt.world.actors.listening import Listener, commands_of
+
+
+class ControllerCheck:
+    """Lets controllers compare readbacks with what they have said.
+
+    Parameters
+    ----------
+    call_again
+        Makes a call once more, as if its addressee had asked for it.
+    say
+        Makes a call as an answer.
+    """
+
+    def __init__(
+        self,
+        stations: Stations,
+        answers: Answers,
+        *,
+        call_again: Callable[[RadioCall], None],
+        say: Callable[[RadioCall], None],
+    ) -> None:
+        self._stations = stations
+        self._answers = answers
+        self._call_again = call_again
+        self._say = say
+
+    def check(self, readback: RadioCall, said: Utterance, unit: str) -> None:
+        """Let a controller correct a readback that is wrong or comes from the wrong crew."""
+        instruction, crew = readback.in_reply_to, readback.speaker
+        if (
+            instruction is None
+            or instruction.scripted is None
+            or instruction.speaker != unit
+            or readback.asks_for is not None
+            or not self._stations.is_actor(crew)
+        ):
+            return
+        right = instruction.scripted.declared
+        if crew != instruction.addressed:
+            instruction.withdrawn_for.add(crew)
+            self._call_again(instruction)
+        elif self._listener(readback).differs(said.text, right.text):
+            self._correct(readback, instruction, right)
+
+    def _correct(self, readback: RadioCall, instruction: RadioCall, right: RadioLine) -> None:
+        """Let a controller repeat what was read back wrongly, and the crew do that instead."""
+        crew, unit = readback.speaker, instruction.speaker
+        readback.withdrawn_for.add(crew)
+        instruction.withdrawn_for.add(crew)
+        correction = RadioCall(
+            f"{readback.id}.correction",
+            readback.frequency_khz,
+            unit,
+            crew,
+            self._answers.negative(crew, right.text),
+            self._commands_of_correction(readback, right),
+            in_reply_to=readback,
+        )
+        correction.answer = RadioCall(
+            f"{correction.id}.readback",
+            readback.frequency_khz,
+            crew,
+            unit,
+            self._text_of_second_readback(readback, right),
+            in_reply_to=correction,
+            is_repeated=False,
+        )
+        self._say(correction)
+
+    def _commands_of_correction(
+        self, readback: RadioCall, right: RadioLine
+    ) -> tuple[ScriptedCommand, ...]:
+        """Return what a correction makes a crew do: its commands in the script, or its words."""
+        crew, listens = readback.speaker, self._listener(readback)
+        lines = [right] if readback.scripted is None else [right, readback.scripted.declared]
+        in_script = tuple(
+            command for line in lines for command in line.commands if command.actor == crew
+        )
+        meant = listens.parse(right.text, listens.callsigns, None).instructions
+        return in_script or tuple(
+            ScriptedCommand(actor=crew, command=command, delay_s=COMPLY_AFTER_S)
+            for command in commands_of(meant, self._stations.bound_runway(crew))
+        )
+
+    def _text_of_second_readback(self, readback: RadioCall, right: RadioLine) -> str:
+        if readback.scripted is not None:
+            return readback.scripted.declared.text
+        listens = self._listener(readback)
+        meant = listens.parse(right.text, listens.callsigns, None).instructions
+        return self._answers.readback(readback.speaker, meant)
+
+    def _listener(self, call: RadioCall) -> Listener:
+        return Listener(self._stations.actors_on(call.frequency_khz))

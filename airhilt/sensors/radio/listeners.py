@@ -1,0 +1,228 @@
+"""Who hears or reads a call, and what they understand."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import partial
+from typing import Literal
+
+from airhilt.messages import HearingTruth, Message, Transcript
+from airhilt.scenario.models import Radio
+from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
+from airhilt.sensors.radio.hearing import HearingModel, Outcome
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director, Priority
+from airhilt.units import seconds_to_ns
+from airhilt.world.actors.listening import Listener, Understanding
+
+TRANSCRIPT_PATIENCE_S = 20.0
+"""Time in s after the end of a call for which a crew that reads waits for the transcript."""
+
+NOTHING = Understanding("not_for_me")
+AS_SAID = Understanding("as_said")
+UNCLEAR = Understanding("unclear")
+_OUTCOMES: dict[str, Outcome] = {
+    "as_said": "understood",
+    "otherwise": "misheard",
+    "unclear": "unsure",
+    "not_for_me": "missed",
+}
+
+Read = Callable[[str, tuple[float, ...] | None], None]
+"""Called with the words of a transcript, none if there is no transcript, and their confidences."""
+Understood = Callable[[RadioCall, Utterance, str, Understanding], None]
+"""Called with a call, its words on the air, a listener, and what that listener understands."""
+
+
+class Listeners:
+    """The people on the frequencies, who hear calls or read their transcripts.
+
+    Parameters
+    ----------
+    reaches
+        Returns whether a transmission reaches a listener, and no other with it.
+    understood
+        Called when a recipient of a call has heard or read it, or has failed to.
+    overheard
+        Called when a crew takes a call for its own that is for somebody else.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        radio: Radio,
+        stations: Stations,
+        hearing: HearingModel,
+        *,
+        reaches: Callable[[OnAir, str], bool],
+        publish: Publish,
+        understood: Understood,
+        overheard: Understood,
+    ) -> None:
+        self._director = director
+        self._radio = radio
+        self._stations = stations
+        self._hearing = hearing
+        self._reaches = reaches
+        self._publish = publish
+        self._understood = understood
+        self._overheard = overheard
+        self._waiting: dict[str, list[Read]] = {}
+        """Those who wait for the transcript of a transmission, by its id."""
+
+    # --- by ear -----------------------------------------------------------------------------
+
+    def let_hear(self, call: RadioCall, on_air: OnAir) -> None:
+        """Let the recipients of a call hear it, except those who read."""
+        for listener in call.recipients():
+            if not self._reads(listener):
+                self._hear(call, on_air, listener)
+
+    def _hear(self, call: RadioCall, on_air: OnAir, listener: str) -> None:
+        said = on_air.utterance
+        if listener in call.deaf or not self._reaches(on_air, listener):
+            self._understand(call, said, listener, NOTHING, "")
+            return
+        heard = self._hearing.listen(said.id, listener, said.text, self._radio.snr_db)
+        match heard.outcome:
+            case "understood":
+                understanding = AS_SAID
+            case "misheard":
+                understanding = self._interpret(call, said, listener, heard.text, None)
+            case "unsure":
+                understanding = UNCLEAR
+            case "missed":
+                understanding = NOTHING
+        self._understand(call, said, listener, understanding, heard.text)
+
+    # --- by transcript ----------------------------------------------------------------------
+
+    def _reads(self, listener: str) -> bool:
+        """Return whether a listener reads transcripts instead of listening."""
+        return self._radio.topology == "asr_first" and self._stations.is_crew(listener)
+
+    def let_read(self, call: RadioCall, said: Utterance, *, is_blocked: bool) -> None:
+        """Let the crews that read wait for the transcript of a call.
+
+        Nobody reads a call that was received with another in it.
+        """
+        recipients = call.recipients()
+        for listener in self._stations.actors_on(said.frequency_khz):
+            if listener == said.speaker or not self._reads(listener):
+                continue
+            if listener in recipients and (is_blocked or listener in call.deaf):
+                self._understand(call, said, listener, NOTHING, "", source="transcript")
+            elif listener in recipients:
+                read = partial(self._read, call, said, listener)
+                self._waiting.setdefault(said.id, []).append(read)
+            elif self._radio.overhearing and not is_blocked and listener not in call.taken_by:
+                overhear = partial(self._overhear, call, said, listener)
+                self._waiting.setdefault(said.id, []).append(overhear)
+        if said.id in self._waiting:
+            give_up_ns = self._director.now_ns + seconds_to_ns(TRANSCRIPT_PATIENCE_S)
+            give_up = partial(self._hand_out, said.id, "", None)
+            self._director.at(give_up_ns, give_up, Priority.SCRIPT)
+
+    def take(self, message: Message) -> None:
+        """Give a transcript to the crews that wait for it."""
+        if isinstance(message, Transcript):
+            confidences = tuple(word.confidence for word in message.words) or None
+            self._hand_out(message.id, message.text, confidences)
+
+    def _hand_out(
+        self, transmission: str, text: str, confidences: tuple[float, ...] | None
+    ) -> None:
+        for read in self._waiting.pop(transmission, ()):
+            read(text, confidences)
+
+    def _read(
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        text: str,
+        confidences: tuple[float, ...] | None,
+    ) -> None:
+        """Let a recipient of a call read its transcript."""
+        understanding = NOTHING
+        if text:
+            understanding = self._interpret(call, said, listener, text, confidences)
+        self._understand(call, said, listener, understanding, text, source="transcript")
+
+    def _overhear(
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        text: str,
+        confidences: tuple[float, ...] | None,
+    ) -> None:
+        """Let a crew read a call for somebody else, which it may take for its own."""
+        if not text or self._stations.is_actor(said.speaker):
+            return
+        understanding = self._listener(call).overhear(
+            text, said.text, listener, self._stations.bound_runway(listener), confidences
+        )
+        if understanding.kind == "otherwise":
+            self._publish_truth(said, listener, understanding, text, source="transcript")
+            self._overheard(call, said, listener, understanding)
+
+    # --- what it means ----------------------------------------------------------------------
+
+    def _interpret(
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        heard: str,
+        confidences: tuple[float, ...] | None,
+    ) -> Understanding:
+        """Return what a recipient of a call makes of the words that arrived.
+
+        An actor knows a call by its own callsign, or by the one that it takes for its own; a unit
+        by that of the caller.
+        """
+        stations = self._stations
+        names = [listener, call.addressed or ""]
+        if not stations.is_actor(listener):
+            names = [call.speaker]
+        known_by = tuple(name for name in names if stations.is_actor(name))
+        return self._listener(call).make_sense(
+            heard, said.text, known_by, stations.bound_runway(listener), confidences
+        )
+
+    def _listener(self, call: RadioCall) -> Listener:
+        return Listener(self._stations.actors_on(call.frequency_khz))
+
+    def _understand(
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        understanding: Understanding,
+        text: str,
+        source: Literal["ear", "transcript"] = "ear",
+    ) -> None:
+        self._publish_truth(said, listener, understanding, text, source)
+        self._understood(call, said, listener, understanding)
+
+    def _publish_truth(
+        self,
+        said: Utterance,
+        listener: str,
+        understanding: Understanding,
+        text: str,
+        source: Literal["ear", "transcript"],
+    ) -> None:
+        truth = HearingTruth(
+            t_ns=self._director.now_ns,
+            id=said.id,
+            actor=listener,
+            outcome=_OUTCOMES[understanding.kind],
+            text=text,
+            source=source,
+        )
+        self._publish(f"truth/hearing/{re.sub('[^A-Za-z0-9]+', '_', listener)}", truth)

@@ -1,0 +1,190 @@
+"""Who reads back, asks again, calls again, and gives up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from airhilt.scenario.models import Radio
+from airhilt.sensors.radio.answers import Answers
+from airhilt.sensors.radio.controller_check import ControllerCheck
+from airhilt.sensors.radio.frequency_arbiter import Utterance
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director, Priority
+from airhilt.sim.streams import stream
+from airhilt.units import seconds_to_ns
+from airhilt.world.actors.listening import Listener, Understanding
+
+ANSWER_AFTER_S = 1.0
+"""Time in s from the end of a call to an answer that is not in the script: an estimate."""
+REPEAT_AFTER_S = 6.0
+"""Least time in s after which an unanswered call is made again: an estimate."""
+REPEAT_SPREAD_S = 2.0
+"""Range in s of the random part of that time. Without it, two speakers who blocked each other would
+do so again."""
+MOST_REPEATS = 2
+"""Number of times that a call is made again before its speaker gives up."""
+
+
+class ReadbackPolicy:
+    """Decides what is said because of what was understood.
+
+    Parameters
+    ----------
+    calls
+        Calls of the script, by id.
+    say
+        Makes a call.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        radio: Radio,
+        stations: Stations,
+        seed: int,
+        calls: Mapping[str, RadioCall],
+        say: Callable[[RadioCall], None],
+    ) -> None:
+        self._director = director
+        self._radio = radio
+        self._stations = stations
+        self._seed = seed
+        self._calls = calls
+        self._say = say
+        self._answers = Answers(radio.phraseology)
+        self._check: ControllerCheck | None = None
+        if radio.controller_checks_readbacks:
+            self._check = ControllerCheck(
+                stations, self._answers, call_again=self._call_again, say=self._answer
+            )
+
+    def follow_up(
+        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
+    ) -> None:
+        """Let a recipient of a call answer it as it was understood, or its speaker repeat it."""
+        match understanding.kind:
+            case "as_said":
+                self._taken(call, said, listener, understanding)
+            case "otherwise":
+                self._change_readback(call, listener, understanding)
+                self._taken(call, said, listener, understanding)
+            case "unclear" if listener == call.addressed:
+                self._ask_again(call, listener)
+            case "not_for_me" if listener == call.addressed:
+                self._unanswered(call, listener)
+
+    def _answer(self, call: RadioCall) -> None:
+        self._say_later(call, ANSWER_AFTER_S)
+
+    def _call_again(self, call: RadioCall) -> None:
+        self._repeat(call, ANSWER_AFTER_S)
+
+    def _say_later(self, call: RadioCall, delay_s: float) -> None:
+        due_ns = self._director.now_ns + seconds_to_ns(delay_s)
+        self._director.at(due_ns, partial(self._say, call), Priority.SCRIPT)
+
+    # --- reading back -----------------------------------------------------------------------
+
+    def _taken(
+        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
+    ) -> None:
+        """Go on with what follows from a call once a recipient has taken it."""
+        call.take(listener)
+        if self._radio.readbacks == "generated":
+            self._read_back(call, said, listener, understanding)
+        if listener != call.addressed:
+            return
+        if call.asks_for is not None:
+            self._call_again(call.asks_for)
+        if call.answer is not None:
+            self._answer(call.answer)
+        if self._check is not None:
+            self._check.check(call, said, listener)
+
+    def _read_back(
+        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
+    ) -> None:
+        """Let an actor read back an instruction of a unit that no line of the script reads back."""
+        if (
+            call.in_reply_to is not None
+            or not self._stations.is_actor(listener)
+            or self._stations.is_actor(call.speaker)
+            or self._readback_in_script(call, listener) is not None
+        ):
+            return
+        listens = self._listener(call)
+        parsed = understanding.call or listens.parse(said.text, listens.callsigns, None)
+        if parsed.instructions:
+            readback = RadioCall(
+                f"{call.id}.readback",
+                call.frequency_khz,
+                listener,
+                call.speaker,
+                self._answers.readback(listener, parsed.instructions),
+                in_reply_to=call,
+                is_repeated=self._radio.controller_checks_readbacks,
+            )
+            self._answer(readback)
+
+    def _change_readback(
+        self, call: RadioCall, listener: str, understanding: Understanding
+    ) -> None:
+        """Let an actor read back what it has understood, not what the script has."""
+        if not self._stations.is_actor(listener):
+            return
+        readback = self._readback_in_script(call, listener)
+        if readback is not None and understanding.call is not None:
+            readback.text = self._answers.readback(listener, understanding.call.instructions)
+            readback.commands = ()
+
+    def _readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
+        for other in self._calls.values():
+            if other.in_reply_to is call and other.speaker == speaker:
+                return other
+        return None
+
+    def _listener(self, call: RadioCall) -> Listener:
+        return Listener(self._stations.actors_on(call.frequency_khz))
+
+    # --- asking and calling again -----------------------------------------------------------
+
+    def _ask_again(self, call: RadioCall, listener: str) -> None:
+        """Let an addressee who is not sure of a call ask for it again."""
+        if call.asks_for is not None:
+            self._repeat(call.asks_for, REPEAT_AFTER_S)
+        if not self._may_repeat(call):
+            return
+        question = RadioCall(
+            f"{call.id}.say-again-{call.times_said}",
+            call.frequency_khz,
+            listener,
+            call.speaker,
+            self._answers.say_again(self._callsign(listener), self._callsign(call.speaker)),
+            in_reply_to=call,
+            is_repeated=False,
+            asks_for=call,
+        )
+        self._answer(question)
+
+    def _callsign(self, name: str) -> str | None:
+        return name if self._stations.is_actor(name) else None
+
+    def _unanswered(self, call: RadioCall, listener: str) -> None:
+        """Let the speaker repeat a call that its addressee has not taken."""
+        if listener in call.deaf and not self._radio.controller_checks_readbacks:
+            return  # Nobody notices: that is the failure of the scenario.
+        if call.asks_for is not None:
+            self._repeat(call.asks_for, REPEAT_AFTER_S)
+        self._repeat(call, REPEAT_AFTER_S)
+
+    def _may_repeat(self, call: RadioCall) -> bool:
+        is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
+        return is_wanted and call.asks_for is None and call.times_said <= MOST_REPEATS
+
+    def _repeat(self, call: RadioCall, after_s: float) -> None:
+        if self._may_repeat(call) and not call.is_due_again:
+            call.is_due_again = True
+            spread = stream(self._seed, f"repeat/{call.id}", call.times_said).random()
+            self._say_later(call, after_s + REPEAT_SPREAD_S * spread)
