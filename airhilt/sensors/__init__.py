@@ -1,1 +1,1 @@
-"""Sensors: radio, cameras and surveillance, which show the world to the assistant."""
+"""Sensors: what workers perceive of the world. `airhilt.sensors.base` says what a sensor is."""

@@ -1,1 +1,1 @@
-"""Where aircraft are and will be: ADS-B, closest point of approach, TCAS II thresholds."""
+"""Surveillance systems as their standards define them: ADS-B, radar, TCAS II."""

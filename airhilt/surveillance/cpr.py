@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 BITS = 2**17
 LATITUDE_ZONES = 15
-"""NZ, the number of latitude zones between the equator and a pole."""
+"""Number of latitude zones between the equator and a pole, NZ in the standard."""
 
 
 class CprPosition(NamedTuple):
-    """An encoded position: 17 bits each, in the even or the odd format."""
+    """An encoded position: 17 bits for latitude and longitude each, in the even or odd format."""
 
     latitude: int
     longitude: int
@@ -25,7 +25,7 @@ class CprPosition(NamedTuple):
 
     @property
     def span_deg(self) -> float:
-        """What the zones of its format divide."""
+        """Angle that the zones of the format divide, in degrees."""
         return _span_deg(self.surface)
 
 
@@ -34,7 +34,7 @@ def _span_deg(surface: bool) -> float:
 
 
 def longitude_zones(latitude_deg: float) -> int:
-    """Return NL, how many longitude zones there are at a latitude (A.1.7.2 d)."""
+    """Return the number of longitude zones at a latitude, NL in the standard (A.1.7.2 d)."""
     if abs(latitude_deg) >= 87.0:
         return 1 if abs(latitude_deg) > 87.0 else 2
     a = 1.0 - math.cos(math.pi / (2 * LATITUDE_ZONES))
@@ -51,9 +51,10 @@ def _zone_sizes(latitude_deg: float, odd: bool, span_deg: float) -> tuple[float,
 def encode(
     latitude_deg: float, longitude_deg: float, odd: bool, surface: bool = False
 ) -> CprPosition:
-    """Encode a position (A.1.7.3).
+    """Return a position encoded in one of the formats (A.1.7.3).
 
-    The surface format's low 17 of 19 bits are 17 bits of zones a quarter the size.
+    The surface format has 19 bits and sends the lower 17. That is the same as 17 bits of zones a
+    quarter the size.
     """
     span_deg = _span_deg(surface)
     d_lat, _ = _zone_sizes(latitude_deg, odd, span_deg)
@@ -66,9 +67,10 @@ def encode(
 
 
 def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple[float, float]:
-    """Decode with a reference position; latitude, longitude in degrees.
+    """Return latitude and longitude in degrees, decoded with a reference position.
 
-    The reference must lie within 180 NM of it, in the surface format within 45 NM (A.1.7).
+    The reference must lie within 180 NM of the position, in the surface format within 45 NM
+    (A.1.7).
     """
     span_deg, odd = position.span_deg, position.odd
     d_lat, _ = _zone_sizes(0.0, odd, span_deg)
@@ -78,7 +80,7 @@ def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple
 
 
 def _near(fraction: float, zone: float, reference: float) -> float:
-    """Return the value of a fraction of a zone that lies nearest to a reference."""
+    """Return the angle at a fraction of a zone, in the zone that puts it nearest to a reference."""
     return zone * (math.floor(0.5 + reference / zone - fraction) + fraction)
 
 
@@ -88,11 +90,11 @@ def decode_global(
     newest_is_odd: bool,
     receiver: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[float, float] | None:
-    """Decode a pair of one format (A.1.7.7, A.1.7.8); latitude, longitude in degrees.
+    """Return latitude and longitude in degrees, decoded from a pair of one format.
 
-    On the surface there are eight solutions, and the one nearest to the receiver is meant.
-    Returns None when the two lie either side of a change of NL, which the standard calls for
-    waiting on.
+    The surface format has eight solutions; the one nearest to the receiver is returned. None means
+    that the two positions lie on different sides of a change of NL, and that another pair is needed
+    (A.1.7.7, A.1.7.8).
     """
     span_deg = even.span_deg
     j = math.floor((59 * even.latitude - 60 * odd.latitude) / BITS + 0.5)
@@ -113,7 +115,7 @@ def decode_global(
 
 
 def _solution(angle_deg: float, span_deg: float, reference_deg: float) -> float:
-    """Return the angle that lies nearest to a reference, of those a multiple of a span apart."""
+    """Return the angle nearest to a reference among those that differ by multiples of a span."""
     return angle_deg + span_deg * round((reference_deg - angle_deg) / span_deg)
 
 

@@ -1,7 +1,8 @@
-"""Surveillance radar: what an antenna that turns can see, how surely, and how exactly.
+"""Surveillance radar: its range, its probability of detection and its accuracy.
 
-A primary radar measures the echo of a skin, a monopulse secondary radar on the same antenna the
-reply of a transponder. Range is the slant range, azimuth the true bearing from the antenna.
+A primary radar measures the echo of a target's skin. A monopulse secondary radar on the same
+antenna measures the reply of its transponder. Range is the slant range, azimuth is the true bearing
+from the antenna.
 
 Sources
 -------
@@ -10,14 +11,20 @@ STUDY
     aircraft of 1 square metre out to 40 NM, elevation angles to 30 degrees, instrumented to 60 NM.
 STANDARD
     EUROCONTROL Standard Document for Radar Surveillance in En-Route Airspace and Major Terminal
-    Areas, SUR.ET1.ST01.1000-STD-01-01, edition 1.0, 1997: least detection and greatest random
-    errors of primary and monopulse secondary radar. Its limits are taken as the values.
+    Areas, SUR.ET1.ST01.1000-STD-01-01, edition 1.0, 1997. Primary radar: probability of detection
+    above 90 % (6.4.2.1; also UK CAP 670, SUR 02.40), random errors below 120 m and 0.15 degrees
+    (6.4.3.1). Secondary radar: probability of detection above 97 % (6.3.2.1); errors of a monopulse
+    radar below 70 m and 0.08 degrees, valid codes above 98 % and 96 % (6.3, not checked against the
+    text). The limits are taken as the values.
 SKOLNIK
     M. Skolnik, "Radar", Encyclopaedia Britannica, and Introduction to Radar Systems, 3rd edition,
     table 2.2: radar cross sections; 2 square metres is the least that air traffic control asks for.
 
-Left out: systematic errors of range and north, false plots, reflections, garbled replies, weather,
-terrain, and the sensitivity that radars give up at short range against birds.
+The standard's 90 % is of all traffic, whatever its size. That it holds for the smallest aircraft at
+the study's range is an assumption that favours the radar.
+
+Not modelled: systematic errors of range and north, false plots, reflections, garbled replies,
+weather, terrain, and the reduced sensitivity at short range that hides birds.
 """
 
 from __future__ import annotations
@@ -63,9 +70,9 @@ class Accuracy(NamedTuple):
 
 
 PRIMARY_ACCURACY = Accuracy(120.0, 0.15)
-"""Random errors of a primary radar (STANDARD)."""
+"""Random errors of a primary radar (STANDARD, 6.4.3.1)."""
 SECONDARY_ACCURACY = Accuracy(70.0, 0.08)
-"""Random errors of a monopulse secondary radar (STANDARD)."""
+"""Random errors of a monopulse secondary radar (STANDARD, 6.3)."""
 MAXIMUM_ELEVATION_RAD = 30.0 * DEGREE
 """Elevation above which a radar sees nothing, its cone of silence, in rad (STUDY)."""
 
@@ -98,16 +105,16 @@ class RadarModel:
     reference_cross_section_m2: float
     reference_range_m: float
     reference_probability: float = 0.90
-    """STANDARD, primary radar."""
+    """STANDARD, 6.4.2.1."""
     clutter_speed_m_s: float
     primary_accuracy: Accuracy = PRIMARY_ACCURACY
     secondary_accuracy: Accuracy = SECONDARY_ACCURACY
     secondary_probability: float = 0.97
-    """Probability of detecting a transponder in one turn (STANDARD)."""
+    """Probability of detecting a transponder in one turn (STANDARD, 6.3.2.1)."""
     mode_a_probability: float = 0.98
-    """Probability that a detected transponder's Mode A code is valid (STANDARD)."""
+    """Probability that a detected transponder's Mode A code is valid (STANDARD, 6.3)."""
     mode_c_probability: float = 0.96
-    """Probability that a detected transponder's Mode C altitude is valid (STANDARD)."""
+    """Probability that a detected transponder's Mode C altitude is valid (STANDARD, 6.3)."""
 
     def detection_probability(self, cross_section_m2: float, range_m: float) -> float:
         """Return the probability that the primary radar detects a target in one turn.

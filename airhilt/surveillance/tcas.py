@@ -1,9 +1,10 @@
-"""When TCAS II would speak: the published thresholds, applied to true states.
+"""Alerts of TCAS II: its published thresholds, applied to true states.
 
-Source: FAA, Introduction to TCAS II Version 7.1 (2011), table 2 and the section on inhibits;
-modified tau as in RTCA DO-185B and Munoz, Narkawicz, Chamberlain, "A TCAS-II Resolution Advisory
-Detection Algorithm" (AIAA 2013-4622). The horizontal miss distance filter is left out, so the
-times are the earliest at which TCAS would speak. Both aircraft are taken to be equipped.
+The thresholds are those of FAA, Introduction to TCAS II Version 7.1 (2011), table 2 and the section
+on inhibits. Modified tau is that of RTCA DO-185B and of Munoz, Narkawicz, Chamberlain, "A TCAS-II
+Resolution Advisory Detection Algorithm" (AIAA 2013-4622). The horizontal miss distance filter is
+left out, so the times are the earliest at which TCAS would give an alert. Both aircraft are assumed
+to be equipped.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ AltitudeAt = Callable[[float], float]
 """Altitude (m) at a time from now (s)."""
 
 CYCLE_S = 1.0
-"""TCAS surveillance runs once a second."""
+"""Period of TCAS surveillance, in s."""
 
 
 class Thresholds(NamedTuple):
-    """Of one alert in one sensitivity level."""
+    """Thresholds of one alert in one sensitivity level."""
 
     tau_s: float
     dmod_m: float
@@ -32,7 +33,7 @@ class Thresholds(NamedTuple):
 
 
 class SensitivityLevel(NamedTuple):
-    """One row of table 2; ``resolution`` is None where none is given."""
+    """One row of table 2; ``resolution`` is None where no resolution advisory is given."""
 
     level: int
     traffic: Thresholds
@@ -54,16 +55,17 @@ _BY_ALTITUDE_FT = (
 _ABOVE = SensitivityLevel(7, _thresholds(48, 1.30, 1200), _thresholds(35, 1.10, 800))
 
 TRAFFIC_INHIBITED_BELOW_M = 500 * FOOT
-"""Height below which the traffic advisory is not announced."""
+"""Height below which the traffic advisory is not announced, in m."""
 RESOLUTION_INHIBITED_BELOW_M = 1000 * FOOT
-"""Height below which no resolution advisory is given."""
+"""Height below which no resolution advisory is given, in m."""
 INTRUDER_ON_GROUND_BELOW_M = 380 * FOOT
-"""Height below which an intruder counts as on the ground while own height is under 1700 ft."""
+"""Height below which an intruder counts as on the ground, in m, if `OWN_LOW_M` applies."""
 OWN_LOW_M = 1700 * FOOT
+"""Own height below which intruders near the ground are left out, in m."""
 
 
 def sensitivity_level(altitude_m: float, height_m: float) -> SensitivityLevel:
-    """Return the row for an own pressure altitude and a height above ground."""
+    """Return the sensitivity level for an own pressure altitude and height above ground, in m."""
     if height_m < 1000 * FOOT:
         return _LEVEL_2
     if height_m < 2350 * FOOT:
@@ -92,7 +94,7 @@ def _altitude_test(gap_m: float, gap_rate_m_s: float, thresholds: Thresholds) ->
 
 
 class Own(NamedTuple):
-    """What TCAS knows of its own aircraft and of the intruder's height."""
+    """Own altitude and height, and the intruder's height, as TCAS has them."""
 
     altitude_m: float
     height_m: float
@@ -100,14 +102,14 @@ class Own(NamedTuple):
 
 
 def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
-    """Return what TCAS II on the own aircraft would say at this instant.
+    """Return the alert that TCAS II on the own aircraft gives at this instant; None if none.
 
     Parameters
     ----------
     motion
         The intruder relative to the own aircraft.
     gap_m, gap_rate_m_s
-        Its altitude less the own one, and how that changes.
+        The intruder's altitude less the own one, and its rate of change.
     """
     if own.height_m < TRAFFIC_INHIBITED_BELOW_M:
         return None
@@ -125,7 +127,7 @@ def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Aler
 
 
 class Projection(NamedTuple):
-    """How long until each alert, if both fly on as they do; None if it would not come."""
+    """Time until each alert, in s, if both fly on as they do; None if it does not come."""
 
     traffic_s: float | None
     resolution_s: float | None
@@ -138,12 +140,11 @@ def project(
     ground_m: float,
     horizon_s: float = 1200.0,
 ) -> Projection:
-    """Return when TCAS II would speak if nobody did anything.
+    """Return the times until the alerts of the own aircraft's TCAS II, if nobody reacts.
 
-    It is that of the aircraft whose altitude comes first; see `earliest` for both. Horizontally
-    both fly straight on; their altitudes are functions of the time from now.
-    Steps by TCAS's own cycle of one second; a resolution advisory counts as a traffic advisory
-    where none came before.
+    Horizontally both aircraft fly straight on. Their altitudes are functions of the time from now.
+    Time goes on by TCAS's own cycle of one second. A resolution advisory counts as a traffic
+    advisory too if none came before. `earliest` combines the projections of both aircraft.
     """
     first: dict[Alert, float] = {}
     for step in range(math.ceil(horizon_s / CYCLE_S)):
