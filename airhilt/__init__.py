@@ -9,6 +9,8 @@ True
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,10 +18,50 @@ from airhilt._version import __version__
 from airhilt.errors import AirhiltError
 
 if TYPE_CHECKING:
-    from airhilt.cosim.simulation import Observer, Result
+    from airhilt import messages
+    from airhilt.cosim.observer import Observer, Result, Snapshot
+    from airhilt.options import Options
     from airhilt.scenario import Scenario
+    from airhilt.sim.worker import Input, Output
+    from airhilt.workers import Step, Worker
 
-__all__ = ["AirhiltError", "__version__", "load", "run"]
+__all__ = [
+    "AirhiltError",
+    "Input",
+    "Observer",
+    "Options",
+    "Output",
+    "Result",
+    "Scenario",
+    "Snapshot",
+    "Step",
+    "Worker",
+    "__version__",
+    "load",
+    "messages",
+    "run",
+]
+_HOMES = {
+    "Input": "airhilt.sim.worker",
+    "Observer": "airhilt.cosim.observer",
+    "Options": "airhilt.options",
+    "Output": "airhilt.sim.worker",
+    "Result": "airhilt.cosim.observer",
+    "Scenario": "airhilt.scenario",
+    "Snapshot": "airhilt.cosim.observer",
+    "Step": "airhilt.workers",
+    "Worker": "airhilt.workers",
+}
+"""Module of each public name; it is imported when it is asked for, so that commands start fast."""
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is asked for."""
+    if name == "messages":
+        return import_module("airhilt.messages")
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def load(name_or_file: str | Path) -> Scenario:
@@ -40,6 +82,7 @@ def run(
     *,
     out: str | Path | None = None,
     observer: Observer | None = None,
+    workers: Sequence[Worker] = (),
     **options: Any,
 ) -> Result:
     """Run a scenario and leave a run folder.
@@ -52,20 +95,22 @@ def run(
         The run folder; None makes a new one under ``runs/``.
     observer
         Is told how the run is doing.
+    workers
+        Workers of this process. Each takes the place of the reference worker of its modality.
     options
-        Fields of `airhilt.options.Options`: ``seed``, ``assistant``, ``latency``, ``pace`` ...
+        Fields of `airhilt.Options`: ``seed``, ``assistant``, ``latency``, ``pace`` ...
 
     Raises
     ------
     AirhiltError
         Something that was given is wrong.
     TypeError
-        There is no such option.
+        There is no option of that name; the message gives the nearest.
     """
     from airhilt.cosim.simulation import run as run_scenario
-    from airhilt.options import Options
+    from airhilt.options import options_of
 
     if isinstance(scenario, str | Path):
         scenario = load(scenario)
-    folder = None if out is None else Path(out)
-    return run_scenario(scenario, Options(out=folder, **options), observer)
+    given = options_of({"out": out, **options})
+    return run_scenario(scenario, given, observer, workers=workers)

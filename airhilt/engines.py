@@ -20,6 +20,17 @@ from airhilt.library import nearest
 from airhilt.plugins import Family
 from airhilt.services import is_service
 
+ASR = "embedded"
+"""Recogniser of a run unless another is named."""
+TTS = "espeak"
+"""Voices of a run unless others are named."""
+DETECTOR = "embedded"
+"""Detector of a run unless another is named."""
+ASSISTANT = "reference"
+"""Decision engine of a run unless another is named."""
+WORDING = "template"
+"""Wording of advisories unless another is named."""
+
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
 

@@ -741,6 +741,10 @@ class DeclaredLatency(BaseModel):
 
 
 WORKER_NAME = r"^[a-z0-9_-]+$"
+RUN = "run"
+"""Publisher of what the run itself publishes."""
+UNREGISTERED = "unregistered"
+"""Publisher of what a program that takes no grants put on the bus."""
 
 
 class WorkerDescription(BaseModel):

@@ -1,85 +1,237 @@
-"""How a run is asked for: the options of a person, and what a replay puts in their place."""
+"""How a run is asked for, from Python, on the command line and in ``run.json``.
+
+`Options` is the only place where an option is written: its default, its limits, and in its `Flag`
+how the command line spells and explains it. `airhilt.run` takes its fields as keywords, ``airhilt
+cosim`` makes its flags of them, and ``run.json`` holds them whole, so that a replay has them back.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
-from airhilt.assistant.reference import ASR, DETECTOR, TTS, AssistantName
-from airhilt.record import Loss
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic.fields import FieldInfo
+
+from airhilt.engines import ASR, DETECTOR, TTS, WORDING
+from airhilt.errors import AirhiltError, first_problem
+from airhilt.library import nearest
 from airhilt.scenario.models import Topology
-from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.radio.backends import RadioBackend
-from airhilt.sim import LatencySpec
-from airhilt.workers.pool import Participant
+
+FORMER_NAMES = {"listen": "endpoint"}
+"""Names that options had up to version 0.4, still understood, by what they are now."""
+LONGEST_S = 86_400.0
+"""Greatest timeout in s."""
 
 
 @dataclass(frozen=True)
-class Options:
-    """How a scenario is run. The defaults are those of the command line."""
+class Flag:
+    """How the command line spells an option.
 
-    seed: int = 0
-    out: Path | None = None
-    overwrite: bool = False
-    assistant: AssistantName | None = None
-    """None: ``reference``, or ``external`` where one of the attached programs may decide."""
-    pace: str | None = None
-    """None: ``virtual``, or ``realtime`` where an attached program takes no grants."""
-    latency: str = "measured"
-    cameras: bool = True
-    speech: bool = True
-    strict: bool = False
-    listen: str | None = None
-    attach: tuple[str, ...] = ()
-    attach_timeout_s: float = 60.0
-    step_timeout_s: float = 5.0
+    Attributes
+    ----------
+    name
+        Such as ``--seed``; one of a switch that turns something off begins with ``--no-``.
+    help
+        One or two sentences.
+    metavar
+        Stands for the value in the help.
+    default
+        Shown in the help where the option's own default (None) says nothing.
+    needs
+        Name of the option without which this one does nothing.
+    former
+        Spellings of earlier versions: understood, but not shown.
+    """
+
+    name: str
+    help: str
+    metavar: str | None = None
+    default: str = ""
+    needs: str = ""
+    former: tuple[str, ...] = ()
+
+
+Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
+
+
+class Options(BaseModel):
+    """How a scenario is run."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    seed: Annotated[int, Flag("--seed", "Of perturbations, sensors, crews and turbulence.")] = 0
+    out: Annotated[
+        Path | None,
+        Flag("--out", "The run folder.", "DIR", default="a new one under runs/"),
+    ] = None
+    overwrite: Annotated[bool, Flag("--overwrite", "Replace the run that --out holds.")] = False
+    assistant: Annotated[
+        str | None,
+        Flag(
+            "--assistant",
+            "Who decides: reference, an engine of another package, none, or external (an attached "
+            "program).",
+            "NAME",
+            default="reference, external if an attached program may decide",
+        ),
+    ] = None
+    pace: Annotated[
+        str | None,
+        Flag(
+            "--pace",
+            "virtual (as fast as it goes), realtime, or a factor such as 4x.",
+            "PACE",
+            default="virtual, realtime if an attached program takes no grants",
+        ),
+    ] = None
+    latency: Annotated[
+        str,
+        Flag("--latency", "measured, fixed, fixed:SECONDS, lognormal or replay:RUN.", "SOURCE"),
+    ] = "measured"
+    endpoint: Annotated[
+        str | None,
+        Flag(
+            "--endpoint",
+            "Where the bus accepts connections, such as tcp/127.0.0.1:7447.",
+            "ENDPOINT",
+            default="a free port",
+            former=("--listen",),
+        ),
+    ] = None
+    attach: Annotated[
+        tuple[str, ...],
+        Flag(
+            "--attach",
+            "Wait for this worker of another process; may be given again.",
+            "WORKER",
+        ),
+    ] = ()
+    attach_timeout_s: Annotated[
+        Seconds,
+        Flag("--attach-timeout", "How long to wait for it.", "SECONDS"),
+    ] = 60.0
+    step_timeout_s: Annotated[
+        Seconds,
+        Flag(
+            "--step-timeout",
+            "Wall time after which an attached worker that does not answer is lost.",
+            "SECONDS",
+        ),
+    ] = 5.0
     run_name: str | None = None
-    snr_db: float | None = None
-    """None: that of the scenario."""
-    radio_profile: str | None = None
-    """None: that of the scenario."""
-    topology: Topology | None = None
-    """None: that of the scenario."""
-    asr: str = ASR
-    """Engine, as in the command line."""
-    tts: str = TTS
-    """Engine, as in the command line."""
-    renderer: str = AUTO
-    """Name of what draws the pictures of cameras."""
-    detector: str = DETECTOR
-    """Engine, as in the command line."""
-    video: bool = False
-    """Whether to write what each camera saw as a video."""
+    """First part of the keys of the run; None: scenario and seed."""
+    cameras: Annotated[bool, Flag("--no-cameras", "Leave cameras and vision out.")] = True
+    renderer: Annotated[
+        str,
+        Flag(
+            "--renderer",
+            "What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
+            "open3d, moderngl, or a renderer of another package.",
+            "NAME",
+            needs="cameras",
+        ),
+    ] = "auto"
+    detector: Annotated[
+        str,
+        Flag(
+            "--detector",
+            "What looks at pictures: embedded, embedded:FILE.onnx, yolo:FILE, the address of a "
+            "service, or none.",
+            "ENGINE",
+            needs="cameras",
+        ),
+    ] = DETECTOR
+    video: Annotated[
+        bool,
+        Flag(
+            "--video",
+            "Write what each camera saw as MP4, with boxes and advisories.",
+            needs="cameras",
+        ),
+    ] = False
+    speech: Annotated[bool, Flag("--no-speech", "Radio calls as text, not as sound.")] = True
+    snr_db: Annotated[
+        Annotated[float, Field(ge=-30.0, le=60.0, allow_inf_nan=False)] | None,
+        Flag(
+            "--snr",
+            "Signal-to-noise ratio of the radio.",
+            "DB",
+            default="the scenario's; without one, no noise",
+        ),
+    ] = None
+    radio_profile: Annotated[
+        str | None,
+        Flag(
+            "--radio-profile",
+            "vhf, vhf_833, fading, noisy_cockpit, monitor, line, or a learned channel, FILE.onnx.",
+            "NAME",
+            default="the scenario's, or vhf",
+            needs="speech",
+        ),
+    ] = None
+    asr: Annotated[
+        str,
+        Flag(
+            "--asr",
+            "What recognises speech: embedded, whisper:FOLDER, or the address of a service.",
+            "ENGINE",
+            needs="speech",
+        ),
+    ] = ASR
+    tts: Annotated[
+        str,
+        Flag(
+            "--tts",
+            "What speaks: espeak, flite, coqui:FOLDER, or the address of a service.",
+            "ENGINE",
+            needs="speech",
+        ),
+    ] = TTS
+    wording: Annotated[str, Flag("--wording", "What turns an advisory into words.", "NAME")] = (
+        WORDING
+    )
+    topology: Annotated[
+        Topology | None,
+        Flag(
+            "--topology",
+            "parallel, asr_first (crews get the transcript) or gated_fusion (no advisory while "
+            "something is left to fuse).",
+            "NAME",
+            default="the scenario's",
+        ),
+    ] = None
+    strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
+
+    @model_validator(mode="before")
+    @classmethod
+    def _understand_former_names(cls, given: Any) -> Any:
+        if not isinstance(given, dict):
+            return given
+        return {FORMER_NAMES.get(name, name): value for name, value in given.items()}
 
 
-@dataclass(frozen=True)
-class UnregisteredMessage:
-    """A message that an unregistered program published in an earlier run."""
+def options_of(given: dict[str, Any]) -> Options:
+    """Return the options that keywords of Python name.
 
-    key: str
-    t_ns: int
-    data: bytes
+    Raises
+    ------
+    TypeError
+        There is no option of that name; the message gives the nearest.
+    AirhiltError
+        A value is not what the option takes.
+    """
+    known = [*Options.model_fields, *FORMER_NAMES]
+    for name in given:
+        if name not in known:
+            raise TypeError(f"no option named {name!r}{nearest(name, list(Options.model_fields))}")
+    try:
+        return Options(**given)
+    except ValidationError as error:
+        raise AirhiltError(f"option {first_problem(error)}") from None
 
 
-@dataclass(frozen=True)
-class Recorded:
-    """What a replay puts in the place of other processes."""
-
-    latency: LatencySpec | None = None
-    """Instead of that of the options."""
-    end_ns: int | None = None
-    """Where the earlier run broke off."""
-    sound: RadioBackend | None = None
-    """Instead of voices and channel; None where those of the options speak again."""
-    workers: tuple[Participant, ...] = ()
-    programs: tuple[str, ...] = ()
-    """Names of those that took no grants."""
-    losses: Mapping[str, Loss] = field(default_factory=dict)
-    foreign: tuple[UnregisteredMessage, ...] = ()
-    unavailable_reason: str = ""
-    """Why no pictures could be drawn from the start."""
-    cameras_lost: tuple[int, str] | None = None
-    """When there were no more pictures (ns), and why."""
-    has_pictures: bool = False
-    """Whether there were any, which nobody of this run may look at."""
+def flag_of(field: FieldInfo) -> Flag | None:
+    """Return how the command line spells an option, None if it does not."""
+    return next((each for each in field.metadata if isinstance(each, Flag)), None)

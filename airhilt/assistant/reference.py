@@ -5,18 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any, NamedTuple, Protocol
 
-from airhilt.engines import EngineFamily
+from airhilt.engines import ASR, ASSISTANT, DETECTOR, TTS, WORDING, EngineFamily
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality
 from airhilt.phraseology.numbers import Style
 from airhilt.workers.protocol import Worker
 
-ASR = "embedded"
-TTS = "espeak"
-DETECTOR = "embedded"
-ASSISTANT = "reference"
-WORDING = "template"
-"""The engines unless others are named."""
 DEFAULTS = {
     "airhilt.asr": ASR,
     "airhilt.tts": TTS,
@@ -29,9 +23,6 @@ NO_ASSISTANT = "none"
 """In the place of an assistant: nobody decides, and nobody is warned."""
 EXTERNAL = "external"
 """In the place of an assistant: an attached program decides."""
-
-AssistantName = str
-"""A decision engine of the family ``airhilt.assistants``, `NO_ASSISTANT` or `EXTERNAL`."""
 
 
 class Engines(NamedTuple):
@@ -56,7 +47,7 @@ class RadioSetup(Protocol):
 
 
 def reference_workers(
-    assistant: AssistantName,
+    assistant: str,
     radio: RadioSetup,
     taken: Collection[Modality],
     engines: Engines,

@@ -9,9 +9,8 @@ from collections.abc import Callable, Sequence
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
-from airhilt.cosim.router import RUN, UNREGISTERED
 from airhilt.errors import BusError
-from airhilt.messages import WORKER_NAME, WorkerDescription
+from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
 
 RESERVED = (RUN, UNREGISTERED)
 """Publishers in the log that are no workers."""

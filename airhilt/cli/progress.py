@@ -11,7 +11,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from airhilt.cosim.simulation import Observer, Snapshot
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.messages import FORMER_MODALITIES, Advisory, Severity
 from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary, VisionStatistics
 from airhilt.units import FOOT, NAUTICAL_MILE

@@ -185,7 +185,7 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     """Return whether there are cameras, and somebody might look at their pictures."""
     options = setup.options
     is_watched = (
-        participants.does("vision") or bool(participants.programs) or options.listen is not None
+        participants.does("vision") or bool(participants.programs) or options.endpoint is not None
     )
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 

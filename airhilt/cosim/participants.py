@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from airhilt.assistant.reference import AssistantName, Engines, reference_workers
+from airhilt.assistant.reference import Engines, reference_workers
 from airhilt.bus.attach import attach
 from airhilt.bus.session import Bus
+from airhilt.cosim.recorded import Recorded
+from airhilt.errors import WorkerError
 from airhilt.messages import Modality
-from airhilt.options import Options, Recorded
+from airhilt.options import Options
 from airhilt.scenario import Scenario
-from airhilt.workers import LocalWorker
+from airhilt.workers import LocalWorker, Worker
 from airhilt.workers.pool import Participant
 
 NO_DETECTOR = "none"
@@ -20,17 +22,31 @@ NO_DETECTOR = "none"
 
 @dataclass(frozen=True)
 class Participants:
-    """Who takes part in a run besides the actors."""
+    """Who takes part in a run besides the actors.
 
-    assistant: AssistantName
-    participants: tuple[Participant, ...]
-    """The workers that take grants."""
+    Attributes
+    ----------
+    assistant
+        Who decides: the name of a decision engine, ``none`` or ``external``.
+    workers
+        The workers that take grants.
+    programs
+        Names of attached programs that take no grants.
+    """
+
+    assistant: str
+    workers: tuple[Participant, ...]
     programs: tuple[str, ...]
-    """Names of attached programs that take none."""
 
     def does(self, modality: Modality) -> bool:
-        """Return whether a worker is there for something."""
-        return any(one.description.modality == modality for one in self.participants)
+        """Return whether a worker is there for a modality."""
+        return any(worker.description.modality == modality for worker in self.workers)
+
+    @property
+    def attached(self) -> tuple[str, ...]:
+        """Names of all that run in other processes, with grants or without."""
+        remote = [w.description.name for w in self.workers if w.where == "attached"]
+        return (*remote, *self.programs)
 
 
 def connect(
@@ -39,6 +55,7 @@ def connect(
     recorded: Recorded,
     bus: Bus,
     notice: Callable[[str], None],
+    given: Sequence[Worker] = (),
 ) -> Participants:
     """Wait for the programs that are to attach, and make the workers that nobody else is.
 
@@ -46,6 +63,8 @@ def connect(
     ----------
     notice
         Called with a line for the user while there is something to wait for.
+    given
+        Workers of this process that the caller of the run gives.
 
     Raises
     ------
@@ -53,28 +72,40 @@ def connect(
         A program did not attach in time.
     SpeechError, VisionError
         An engine cannot be loaded.
+    WorkerError
+        Two workers have the same name.
     """
-    participants = list(recorded.workers)
+    workers = list(recorded.workers)
+    workers += [Participant(worker.description, LocalWorker(worker), "caller") for worker in given]
     names = [name for name in options.attach if not recorded.workers]
     attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, notice)
-    participants += [
-        Participant(description, worker, attached=True)
+    workers += [
+        Participant(description, worker, "attached")
         for worker, description in attached
         if description is not None
     ]
     programs = [worker.name for worker, description in attached if description is None]
     programs = programs or list(recorded.programs)
-    taken = {participant.description.modality for participant in participants}
+    taken = {worker.description.modality for worker in workers}
     may_decide = "decision" in taken or bool(programs)
     assistant = options.assistant or ("external" if may_decide else "reference")
     engines = Engines(
         asr=options.asr if options.speech else None,
         tts=options.tts if options.speech else None,
         detector=_detector(options, scenario),
+        wording=options.wording,
     )
     for worker in reference_workers(assistant, scenario.radio, taken, engines):
-        participants.append(Participant(worker.description, LocalWorker(worker), attached=False))
-    return Participants(assistant, tuple(participants), tuple(programs))
+        workers.append(Participant(worker.description, LocalWorker(worker), "in process"))
+    _require_different_names(workers, programs)
+    return Participants(assistant, tuple(workers), tuple(programs))
+
+
+def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:
+    names = [*(worker.description.name for worker in workers), *programs]
+    for name in names:
+        if names.count(name) > 1:
+            raise WorkerError(f"two workers are named {name!r}; expected a name for each")
 
 
 def _detector(options: Options, scenario: Scenario) -> str | None:

@@ -5,13 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from airhilt.bus.session import Bus
-from airhilt.messages import Message
+from airhilt.messages import RUN, Message
 from airhilt.record.log import LogWriter
-
-RUN = "run"
-"""Publisher of what the run itself publishes."""
-UNREGISTERED = "unregistered"
-"""Publisher of what an unregistered program put on the bus."""
 
 Listener = Callable[[str, Message, bytes], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""

@@ -11,10 +11,11 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from airhilt.cosim.participants import Participants
+from airhilt.cosim.recorded import Recorded
 from airhilt.errors import AirhiltError, first_problem
-from airhilt.options import Options, Recorded
+from airhilt.options import Options
 from airhilt.record import RunFolder, RunInfo, read_latencies
-from airhilt.record.folder import RunOptions, WorkerRecord, machine, versions
+from airhilt.record.folder import WorkerRecord, machine, versions
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
@@ -70,32 +71,15 @@ class Setup:
         options = self.options
         return RunInfo(
             run=self.name,
-            options=RunOptions(
-                seed=options.seed,
-                assistant=participants.assistant,
-                pace=pace.name,
-                latency=self.latency.text,
-                attached=options.attach,
-                cameras=options.cameras,
-                speech=options.speech,
-                strict=options.strict,
-                snr_db=options.snr_db,
-                radio_profile=options.radio_profile,
-                topology=options.topology,
-                asr=options.asr,
-                tts=options.tts,
-                renderer=options.renderer,
-                detector=options.detector,
-            ),
+            options=options,
+            assistant=participants.assistant,
+            pace=pace.name,
             scenario=self.given.model_dump(mode="json"),
             realised=self.scenario.model_dump(mode="json"),
             draws=[draw.model_dump() for draw in self.draws],
             workers=[
-                WorkerRecord(
-                    description=participant.description,
-                    where="attached" if participant.attached else "in process",
-                )
-                for participant in participants.participants
+                WorkerRecord(description=worker.description, where=worker.where)
+                for worker in participants.workers
             ],
             endpoint=endpoint,
             started_at=datetime.now(UTC).isoformat(timespec="seconds"),

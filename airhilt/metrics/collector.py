@@ -12,7 +12,9 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     AdvisoryAudio,
+    ConflictTruth,
     Detections,
+    Event,
     Message,
     Modality,
     ModalityState,
@@ -113,6 +115,12 @@ class Collector:
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Take in a published message."""
         match message:
+            case ConflictTruth(phase="opened", t_ns=now_ns):
+                self.window.opened_ns = now_ns
+            case ConflictTruth(phase="closed", t_ns=now_ns):
+                self.window.closed_ns = now_ns
+            case Event(kind="actor_ended", subject=callsign, text=cause):
+                self.ended_actors[callsign] = cause
             case AdsbReport(t_adsb_in_ns=begin, t_adsb_out_ns=end):
                 self._late("adsb", begin, end)
             case Advisory():
@@ -121,8 +129,10 @@ class Collector:
                 self._take_voice(message)
             case Detections(t_frame_ns=begin, t_ns=end, missed=""):
                 self._late("vision", begin, end)
-            case Status(modality="tts", state="lost", t_ns=now_ns) if self._unspoken:
-                self._warned(now_ns)
+            case Status(modality=modality, state=state, t_ns=now_ns):
+                self.modalities[modality] = state
+                if modality == "tts" and state == "lost" and self._unspoken:
+                    self._warned(now_ns)
             case Transcript(t_tx_ns=begin, t_end_ns=said, t_ns=end, engine=engine):
                 if engine != TEXT:
                     self._late("asr", begin, end)

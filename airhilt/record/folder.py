@@ -10,15 +10,15 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import WorkerDescription
-from airhilt.scenario.models import Topology
+from airhilt.options import Options
 
-FORMAT = 1
+FORMAT = 2
 RECORDED_VERSIONS = (
     "jsbsim",
     "numpy",
@@ -43,33 +43,13 @@ OF_EXTRAS = (
 """Recorded where they are installed."""
 
 
-class RunOptions(BaseModel):
-    """What was asked for, as on the command line."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    seed: int
-    assistant: str
-    pace: str
-    latency: str
-    attached: tuple[str, ...]
-    cameras: bool
-    speech: bool
-    strict: bool
-    snr_db: float | None = None
-    radio_profile: str | None = None
-    topology: Topology | None = None
-    asr: str = ""
-    tts: str = ""
-    renderer: str = ""
-    detector: str = ""
-
-
 class WorkerRecord(BaseModel):
     """A worker that took part."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     description: WorkerDescription
-    where: Literal["in process", "attached"]
+    where: Literal["in process", "attached", "caller"]
+    """Where it ran: made by the run, in another process, or given by the caller of the run."""
 
 
 class RunInfo(BaseModel):
@@ -80,7 +60,11 @@ class RunInfo(BaseModel):
     phase: Literal["running", "finished", "stopped"] = "running"
     cause: str = ""
     run: str
-    options: RunOptions
+    options: Options
+    assistant: str
+    """Who decided: the name of a decision engine, ``none`` or ``external``."""
+    pace: str
+    """Pace at which the run began."""
     scenario: dict[str, Any]
     realised: dict[str, Any]
     draws: list[dict[str, Any]]
@@ -95,6 +79,18 @@ class RunInfo(BaseModel):
     """Renderer that drew, where the options ask for ``auto``; empty if no pictures were drawn."""
     models: dict[str, str] = {}
     """SHA-256 of each file of the user that decides what is heard, by its path."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _understand_format_1(cls, given: Any) -> Any:
+        """Return a record of version 0.4 or earlier as one of now."""
+        if not isinstance(given, dict) or given.get("format") != 1:
+            return given
+        options = dict(given.get("options") or {})
+        options["attach"] = options.pop("attached", ())
+        resolved = {name: options.pop(name, "") for name in ("assistant", "pace")}
+        kept = {name: value for name, value in options.items() if value != ""}
+        return given | resolved | {"options": kept, "format": FORMAT}
 
 
 def versions() -> dict[str, str]:

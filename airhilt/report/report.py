@@ -133,7 +133,8 @@ def _reduce(folder: RunFolder, page: Path) -> Json:
         "scenario": _texts(info.realised, "name", "title", "description", "family"),
         "phase": info.phase,
         "cause": _cut(info.cause),
-        "options": info.options.model_dump(),
+        "options": info.options.model_dump(mode="json")
+        | {"assistant": info.assistant, "pace": info.pace},
         "unregistered": info.unregistered_programs,
         "notes": notes,
         "about": _about(info),

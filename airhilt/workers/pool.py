@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 from pydantic import ValidationError
 
@@ -29,14 +29,17 @@ NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """First chunk of a key that stands for itself only; a wildcard there would take in truth."""
 
 
+Where = Literal["in process", "attached", "caller"]
+"""Where a worker runs: made by the run, in another process, or given by the run's caller."""
+
+
 @dataclass(frozen=True)
 class Participant:
     """A worker that takes part, wherever it runs."""
 
     description: WorkerDescription
     endpoint: Endpoint
-    attached: bool
-    """In another process."""
+    where: Where
 
 
 class Publish(Protocol):

@@ -21,7 +21,7 @@ from airhilt.assistant.wording.engines import advisory_wording
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
-from airhilt.cosim.simulation import Result
+from airhilt.cosim.observer import Result
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     ActorTruth,

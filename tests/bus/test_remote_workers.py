@@ -15,8 +15,8 @@ import pytest
 
 from airhilt import run
 from airhilt.bus import Bus, free_endpoint
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Observer, Snapshot
 from airhilt.errors import AirhiltError, BusError, RunStopped, WorkerError
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
@@ -168,7 +168,7 @@ def test_the_example_in_plain_zenoh_makes_the_run_real_time_and_counts(
     endpoint = free_endpoint()
     with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint):
         result = run(short, out=tmp_path / "run", listen=endpoint, attach=("plain",))
-    assert RunFolder(result.folder).info().options.pace == "realtime"
+    assert RunFolder(result.folder).info().pace == "realtime"
     assert RunFolder(result.folder).info().unregistered_programs
     assert [told.id for told in result.summary.advisories] == ["plain-1"]
     assert replay(result.folder).identical
@@ -377,7 +377,7 @@ def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> 
     with pytest.raises(AirhiltError, match="truth never reaches a worker"):
         WorkerPool(
             Director(Virtual()),
-            [Participant(Peeks.description, LocalWorker(Peeks()), attached=False)],
+            [Participant(Peeks.description, LocalWorker(Peeks()), where="in process")],
             parse_latency("fixed"),
             0,
             publish=lambda key, message, worker: None,

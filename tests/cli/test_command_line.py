@@ -99,13 +99,13 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         ),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"), "once"),
-        (("cosim", "--scenario", "s02a_headon", "--step-timeout", "nan"), "no time in seconds"),
-        (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "no ratio in decibels"),
+        (("cosim", "--scenario", "s02a_headon", "--step-timeout", "nan"), "--step-timeout': nan"),
+        (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "--snr': nan"),
         (("cosim", "--scenario", "s02a_headon", "--snr", "99"), "60"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),
         (("cosim", "--scenario", "s02a_headon", "--topology", "serial"), "gated_fusion"),
         (("cosim", "--scenario", "s02a_headon", "--asr", ""), "recogniser ''"),
-        (("cosim", "--scenario", "s02a_headon", "--tts", ""), "voices ''"),
+        (("cosim", "--scenario", "s02a_headon", "--tts", ""), "voice ''"),
         *(
             (("cosim", "--scenario", "s02a_headon", "--no-speech", option, "nonsense"), option)
             for option in ("--asr", "--tts", "--radio-profile")

@@ -14,8 +14,8 @@ import pytest
 from airhilt.audio.wav import read_wav, to_pcm, write_wav
 from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
+from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder, RunInfo
-from airhilt.record.folder import RunOptions
 from airhilt.record.tape import listen
 
 TOWER_KHZ = 118_300
@@ -74,13 +74,11 @@ class Recording:
 def recording(tmp_path: Path) -> Recording:
     path = tmp_path / "run"
     path.mkdir()
-    options = RunOptions(
-        seed=0, assistant="none", pace="virtual", latency="fixed", attached=(),
-        cameras=False, speech=True, strict=False,
-    )  # fmt: skip
+    options = Options(assistant="none", latency="fixed", cameras=False)
     RunFolder(path).write_info(
         RunInfo(
-            run="incursion-0", options=options, scenario={}, realised={}, draws=[],
+            run="incursion-0", options=options, assistant="none", pace="virtual",
+            scenario={}, realised={}, draws=[],
             endpoint="", started_at="", versions={}, platform={},
         )
     )  # fmt: skip

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 
 from airhilt.cli.progress import print_summary
+from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Result, run
+from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RendererError, RunFolderError, VideoError
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log

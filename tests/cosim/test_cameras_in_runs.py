@@ -12,8 +12,9 @@ import pytest
 
 from airhilt import load
 from airhilt.cosim import cameras as vision
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Observer, Snapshot, run
+from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RendererError, RunStopped
 from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
@@ -36,7 +37,7 @@ def short() -> Scenario:
 
 
 def log_of(scenario: Scenario, out: Path, **options: object) -> list[Logged]:
-    run(scenario, dataclasses.replace(SEEN, out=out, **options))
+    run(scenario, SEEN.model_copy(update={"out": out, **options}))
     return list(read_log(out / "log.mcap"))
 
 

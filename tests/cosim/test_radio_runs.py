@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections import Counter
 from pathlib import Path
 
@@ -10,8 +9,9 @@ import pytest
 
 from airhilt import load
 from airhilt.audio.wav import read_wav
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Observer, Snapshot, run
+from airhilt.cosim.simulation import run
 from airhilt.messages import HearingTruth, SpokenTruth, Status, Transcript, Transmission
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
@@ -28,7 +28,7 @@ def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **opti
     scenario = load(name)
     failures = (*scenario.failures, *failures)
     scenario = scenario.model_copy(update={"failures": failures, "duration_s": DURATION_S})
-    run(scenario, dataclasses.replace(QUIET, out=out, **options))
+    run(scenario, QUIET.model_copy(update={"out": out, **options}))
     return Radio(out)
 
 
@@ -122,7 +122,7 @@ def test_a_microphone_that_is_still_stuck_at_the_end_is_in_the_log_and_the_sound
     tmp_path: Path,
 ) -> None:
     scenario = stuck_at_1_s(600.0, duration_s=22.0)
-    result = run(scenario, dataclasses.replace(QUIET, out=tmp_path / "run", speech=True))
+    result = run(scenario, QUIET.model_copy(update={"out": tmp_path / "run", "speech": True}))
     radio = Radio(tmp_path / "run")
     assert {one.id for one in radio.said} == {CARRIER, "clearance"}
     assert {one.t_end_ns for one in (*radio.said, *radio.received)} == {22 * SECOND_NS}
@@ -136,7 +136,7 @@ def test_a_microphone_that_is_still_stuck_at_the_end_is_in_the_log_and_the_sound
 
 def test_that_the_radio_is_blocked_is_told_and_that_it_is_free_again(tmp_path: Path) -> None:
     observer = Listening()
-    options = dataclasses.replace(QUIET, out=tmp_path / "run")
+    options = QUIET.model_copy(update={"out": tmp_path / "run"})
     result = run(stuck_at_1_s(4.0, duration_s=8.0), options, observer)
     cause = "AAL123: its microphone is stuck for 4 s"
     assert Radio(tmp_path / "run").states == [
@@ -150,13 +150,13 @@ def test_that_the_radio_is_blocked_is_told_and_that_it_is_free_again(tmp_path: P
 
 
 def test_a_radio_that_is_blocked_at_the_end_is_lost(tmp_path: Path) -> None:
-    options = dataclasses.replace(QUIET, out=tmp_path / "run")
+    options = QUIET.model_copy(update={"out": tmp_path / "run"})
     result = run(stuck_at_1_s(600.0, duration_s=3.0), options)
     assert result.summary.modalities["radio"] == "lost"
 
 
 def test_a_run_that_is_interrupted_under_a_stuck_microphone_replays(tmp_path: Path) -> None:
-    options = dataclasses.replace(QUIET, out=tmp_path / "run")
+    options = QUIET.model_copy(update={"out": tmp_path / "run"})
     with pytest.raises(KeyboardInterrupt):
         run(stuck_at_1_s(600.0, duration_s=60.0), options, Listening(interrupt_at_s=5.0))
     assert [(one.id, one.t_end_ns) for one in Radio(tmp_path / "run").said] == [

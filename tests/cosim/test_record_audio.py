@@ -9,8 +9,8 @@ import pytest
 
 from airhilt import run
 from airhilt.audio.wav import read_wav, to_pcm
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Observer, Snapshot
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record import RunFolder, read_log

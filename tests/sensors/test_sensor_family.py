@@ -11,11 +11,12 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 
+from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.errors import ScenarioError, SensorError
 from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
-from airhilt.options import Options, Recorded
+from airhilt.options import Options
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.base import FAMILY, RESERVED, sensor_messages

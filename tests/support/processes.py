@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from airhilt.cosim.simulation import Observer, Snapshot
+from airhilt.cosim.observer import Observer, Snapshot
 
 
 @contextmanager

@@ -16,9 +16,9 @@ from airhilt.messages import (
     Transcript,
     Transmission,
 )
+from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder, RunInfo
 from airhilt.record.audio import audio_file
-from airhilt.record.folder import RunOptions
 from airhilt.units import SECOND_NS
 
 TOWER_KHZ = 119_100
@@ -35,14 +35,12 @@ class RadioFolder:
 
     def __init__(self, path: Path) -> None:
         path.mkdir(parents=True)
-        options = RunOptions(
-            seed=0, assistant="none", pace="virtual", latency="fixed", attached=(),
-            cameras=False, speech=True, strict=False,
-        )  # fmt: skip
+        options = Options(assistant="none", latency="fixed", cameras=False)
         self.folder = RunFolder(path)
         self.folder.write_info(
             RunInfo(
-                run="radio-0", options=options, scenario={}, realised={}, draws=[],
+                run="radio-0", options=options, assistant="none", pace="virtual",
+            scenario={}, realised={}, draws=[],
                 endpoint="", started_at="", versions={}, platform={},
             )
         )  # fmt: skip

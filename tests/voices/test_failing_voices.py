@@ -13,8 +13,8 @@ import pytest
 
 from airhilt import run
 from airhilt.audio.wav import encode_wav
+from airhilt.cosim.observer import Observer, Result
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import Observer, Result
 from airhilt.errors import RunStopped, SpeechError
 from airhilt.messages import SpokenTruth, Transmission
 from airhilt.record import read_log

@@ -72,7 +72,7 @@ class Run:
         self.published, self.raw, self.steps, self.losses = [], [], [], []
         self.pool = WorkerPool(
             self.director,
-            [Participant(w.description, LocalWorker(w), attached=False) for w in self.workers],
+            [Participant(w.description, LocalWorker(w), where="in process") for w in self.workers],
             parse_latency(self.latency),
             1,
             publish=self.publish,

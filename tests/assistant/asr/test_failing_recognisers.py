@@ -15,7 +15,7 @@ import pytest
 import airhilt.assistant.asr.engines.http
 from airhilt import run
 from airhilt.audio.wav import decode_wav
-from airhilt.cosim.simulation import Observer, Result
+from airhilt.cosim.observer import Observer, Result
 from airhilt.errors import RunStopped
 from airhilt.messages import Transcript
 from airhilt.record import read_log

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.render import renderer_option
+from airhilt.cli.parameters import renderer_option
 from airhilt.errors import AirhiltError
 
 
@@ -93,3 +93,6 @@ def export(
     counts = write(iter(shown), out, about)
     click.echo(out / "annotations.json")
     click.echo("  ".join(f"{count} {name}" for name, count in counts.items()))
+
+
+COMMAND = dataset

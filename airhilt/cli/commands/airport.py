@@ -144,3 +144,6 @@ def import_(ident: str, out: Path | None, overwrite: bool, **given: Any) -> None
     if note := made.sources["runways"].note:
         for line in note.split("; "):
             click.echo(f"note: {line}", err=True)
+
+
+COMMAND = airport

@@ -7,17 +7,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.parameters import renderer_option
 from airhilt.errors import CameraError
-from airhilt.sensors.cameras import AUTO
-
-renderer_option = click.option(
-    "--renderer",
-    default=AUTO,
-    show_default=True,
-    metavar="NAME",
-    help="What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
-    "open3d, moderngl, or a renderer of another package.",
-)
 
 
 @click.command(
@@ -62,3 +53,6 @@ def render(
             f"  {sighting.actor:8}  {sighting.label:8}  {sighting.range_m:7.0f} m  [{box}]  "
             f"{sighting.visible_fraction:.0%} visible"
         )
+
+
+COMMAND = render

@@ -1,0 +1,48 @@
+"""The command that writes what was said on a frequency."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+
+@click.command(
+    epilog="""\b
+Examples:
+  airhilt listen runs/s02a_headon-0-20260101T120000
+  airhilt listen RUN --frequency 118300 --out tower.wav
+  airhilt listen RUN --json
+"""
+)
+@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.option(
+    "--frequency",
+    "frequency_khz",
+    type=int,
+    metavar="KHZ",
+    help="Which one, such as 118300.  [default: the run's only one]",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The WAV file; the transcript has its name with .txt.  [default: frequency-KHZ.wav in "
+    "the run folder]",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_json: bool) -> None:
+    """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
+    from airhilt.record.tape import listen as write_tape
+
+    tape, wav, text = write_tape(run_folder, frequency_khz, out)
+    if as_json:
+        files = {"wav": str(wav), "transcript": str(text)}
+        click.echo(json.dumps(tape.as_dict() | files, indent=2))
+    else:
+        click.echo(tape.text())
+        click.echo(f"{wav}\n{text}")
+
+
+COMMAND = listen

@@ -1,0 +1,32 @@
+"""The command that prints JSON Schemas."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+
+@click.command(
+    epilog="""\b
+Examples:
+  airhilt schema > messages.json
+  airhilt schema --scenario > scenario.schema.json
+"""
+)
+@click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
+def schema(scenario: bool) -> None:
+    """Print the JSON Schemas of all messages on the bus."""
+    if scenario:
+        from airhilt.scenario import Scenario
+
+        document = Scenario.model_json_schema()
+    else:
+        from airhilt.messages import json_schemas
+        from airhilt.sensors.base import sensor_messages
+
+        document = json_schemas(sensor_messages())
+    click.echo(json.dumps(document, indent=2))
+
+
+COMMAND = schema

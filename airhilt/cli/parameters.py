@@ -1,0 +1,36 @@
+"""Parameters that several commands have."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import click
+
+from airhilt.sensors.cameras import AUTO
+
+
+class Finite(click.FloatRange):
+    """A finite number; click's own range lets NaN pass."""
+
+    def __init__(self, what: str, **limits: Any) -> None:
+        super().__init__(**limits)
+        self._what = what
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the number of a text."""
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value} is no {self._what}", param, ctx)
+        return number
+
+
+SECONDS = Finite("time in seconds", min=0.0, max=86_400.0, min_open=True)
+renderer_option = click.option(
+    "--renderer",
+    default=AUTO,
+    show_default=True,
+    metavar="NAME",
+    help="What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
+    "open3d, moderngl, or a renderer of another package.",
+)

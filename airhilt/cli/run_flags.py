@@ -1,0 +1,106 @@
+"""The flags of a run, made of the fields of `airhilt.options.Options`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal, get_args, get_origin
+
+import click
+from click.core import ParameterSource
+from pydantic import ValidationError
+from pydantic.fields import FieldInfo
+
+from airhilt.errors import AirhiltError
+from airhilt.options import Flag, Options, flag_of
+
+
+def run_flags() -> list[click.Parameter]:
+    """Return the flags of all options that the command line spells."""
+    return [
+        _click_option(name, field, flag)
+        for name, field in Options.model_fields.items()
+        if (flag := flag_of(field)) is not None
+    ]
+
+
+def options_given(context: click.Context) -> Options:
+    """Return the options of a command line; those that were not given have their defaults.
+
+    Raises
+    ------
+    click.BadParameter
+        A value is not what the option takes.
+    AirhiltError
+        An option was given that does nothing, because another leaves out what it is about.
+    """
+    given = {
+        name: value
+        for name, value in context.params.items()
+        if name in Options.model_fields
+        and context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+    }
+    try:
+        options = Options(**given)
+    except ValidationError as error:
+        problem = error.errors()[0]
+        flag = flag_of(Options.model_fields[str(problem["loc"][0])])
+        message = str(problem["msg"])
+        raise click.BadParameter(
+            f"{problem['input']!r}: {message[0].lower()}{message[1:]}.",
+            context,
+            param_hint=None if flag is None else f"'{flag.name}'",
+        ) from None
+    for name, value in given.items():
+        flag = flag_of(Options.model_fields[name])
+        if flag is not None and flag.needs and not getattr(options, flag.needs):
+            switch = flag_of(Options.model_fields[flag.needs])
+            shown = flag.name if value is True else f"{flag.name} {value!r}"
+            raise AirhiltError(
+                f"{shown} would do nothing with {switch.name if switch else flag.needs}; "
+                "expected only one of the two"
+            )
+    return options
+
+
+def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:
+    spellings = [flag.name, *flag.former, name]
+    default = flag.default
+    if field.annotation is bool:
+        is_on = bool(field.default)
+        return _Flag(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=flag.help)
+    if not default and field.default not in (None, ()):
+        default = f"{field.default:g}" if isinstance(field.default, float) else str(field.default)
+    return _Flag(
+        spellings,
+        type=_type(field.annotation),
+        multiple=get_origin(field.annotation) is tuple,
+        metavar=flag.metavar,
+        help=f"{flag.help}  [default: {default}]" if default else flag.help,
+    )
+
+
+class _Flag(click.Option):
+    """An option whose former spellings are understood, but left out of the help."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        """Return the present spelling and the explanation."""
+        shown, self.opts = self.opts, self.opts[:1]
+        try:
+            return super().get_help_record(ctx)
+        finally:
+            self.opts = shown
+
+
+def _type(annotation: Any) -> Any:
+    """Return click's type of a value; its limits are checked by the model."""
+    members = [member for member in get_args(annotation) if member is not type(None)]
+    inner = annotation
+    if get_origin(annotation) is not Literal and members:
+        inner = members[0]
+    if get_origin(inner) is Literal:
+        return click.Choice(get_args(inner))
+    while hasattr(inner, "__metadata__"):
+        inner = get_args(inner)[0]
+    if inner is Path:
+        return click.Path(path_type=Path)
+    return inner if inner in (int, float) else str

@@ -1,0 +1,124 @@
+"""Programs of other processes that publish by themselves: they take no grants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from pydantic import ValidationError
+
+from airhilt.bus.session import Bus
+from airhilt.commands import Command
+from airhilt.cosim.events import EventPublisher
+from airhilt.cosim.modalities import Modalities
+from airhilt.cosim.observer import Observer
+from airhilt.cosim.router import MessageRouter
+from airhilt.errors import WorkerError, first_problem
+from airhilt.messages import UNREGISTERED, ActorCommand, Advisory, Message
+from airhilt.sim import Director, RealTime, Virtual
+from airhilt.workers.pool import parse_output
+
+PATTERNS = ("advisory/*", "asr/*", "vision/*", "command/*")
+"""Keys on which any program may publish."""
+
+
+class ExternalPrograms:
+    """Lets messages that no grant asked for count when they arrive, in real time.
+
+    Attributes
+    ----------
+    heard
+        Whether such a program has published.
+    has_decision
+        Whether somebody decides, so that its first advisory changes nothing.
+
+    Parameters
+    ----------
+    obey
+        Lets an actor carry out a command.
+    is_strict
+        Whether a message that is refused stops the run.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        router: MessageRouter,
+        event: EventPublisher,
+        modalities: Modalities,
+        observer: Observer,
+        *,
+        obey: Callable[[str, Command], None],
+        has_decision: bool,
+        is_strict: bool,
+    ) -> None:
+        self.heard = False
+        self.has_decision = has_decision
+        self._director = director
+        self._router = router
+        self._event = event
+        self._modalities = modalities
+        self._observer = observer
+        self._obey = obey
+        self._is_strict = is_strict
+
+    def serve(self, bus: Bus) -> None:
+        """Hear what programs put on the bus."""
+        for pattern in PATTERNS:
+            bus.hear(
+                pattern,
+                lambda key, data: self._director.post(lambda: self._hear(key, data)),
+            )
+
+    def _hear(self, key: str, data: bytes) -> None:
+        """Take a message from the bus; a program that takes no grants needs real time."""
+        if isinstance(self._director.pace, Virtual):
+            self._director.change_pace(RealTime())
+            self._observer.notice(
+                f"a program that takes no grants published on {key}: going on in real time"
+            )
+        self.take(key, data)
+
+    def take(self, key: str, data: bytes) -> None:
+        """Let a message count now.
+
+        Raises
+        ------
+        WorkerError
+            The message is not what belongs on its key, and the run is strict.
+        """
+        if not self.heard:
+            self.heard = True
+            self._event("unregistered", key, "a program that takes no grants has published")
+        try:
+            message = _parse(key, data, self._director.now_ns)
+        except WorkerError as error:
+            self._event("refused", key, str(error))
+            self._observer.notice(str(error))
+            if self._is_strict:
+                raise
+            return
+        stamped = message.model_copy(update={"t_ns": self._director.now_ns})
+        if isinstance(stamped, Advisory) and not self.has_decision:
+            self.has_decision = True
+            self._modalities.set("decision", "on")
+        self._router.heard(key, stamped, UNREGISTERED)
+        if isinstance(stamped, ActorCommand):
+            self._obey(key.split("/")[1], stamped.command)
+
+
+def _parse(key: str, data: bytes, now_ns: int) -> Message:
+    """Return the message that a program put on a key.
+
+    Raises
+    ------
+    WorkerError
+        It is not what belongs there.
+    """
+    if not key.startswith("command/"):
+        return parse_output(UNREGISTERED, key, data, now_ns)
+    try:
+        return ActorCommand.model_validate_json(data)
+    except ValidationError as error:
+        raise WorkerError(
+            f"{key}: not a command: {first_problem(error)}; see `airhilt schema`"
+        ) from None

@@ -1,0 +1,291 @@
+"""Reads from the folder of an earlier run what its replay cannot compute afresh."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pydantic import TypeAdapter
+
+from airhilt.audio.wav import SAMPLE_BYTES
+from airhilt.cosim.recorded import Recorded, UnregisteredMessage
+from airhilt.errors import SpeechError
+from airhilt.messages import (
+    UNREGISTERED,
+    WORKER_OUTPUTS,
+    AdvisoryAudio,
+    Event,
+    SpokenTruth,
+    Status,
+    Transcript,
+    Transmission,
+    TransmissionAudio,
+    TransmissionClosed,
+    WorkerDescription,
+)
+from airhilt.options import Options
+from airhilt.record import Logged, RunFolder, RunInfo
+from airhilt.record.audio import recorded_pcm
+from airhilt.record.latency import RecordedLatencies
+from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.services import is_service
+from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
+from airhilt.units import SECOND_NS
+from airhilt.workers.pool import Participant
+
+if TYPE_CHECKING:
+    from airhilt.sensors.radio.channel import BackgroundNoise
+
+UNENDING_S = 86_400.0
+"""Length of a call, in s, that its run has cut off: longer than any run."""
+_AUDIO = TypeAdapter[TransmissionAudio](TransmissionAudio)
+
+
+def read_recorded(
+    folder: RunFolder, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
+) -> Recorded:
+    """Return what a replay takes from the record of a run.
+
+    Raises
+    ------
+    RunFolderError
+        A sound of the run cannot be read.
+    """
+    breaks_off = info.phase != "finished"
+    attached = {worker.description.name for worker in info.workers if worker.where == "attached"}
+    programs = tuple(set(info.options.attach) - attached)
+    losses = {name: loss for name, loss in latencies.losses.items() if name in programs}
+    workers = []
+    for description in _elsewhere(info):
+        name = description.name
+        loss, unfinished = latencies.losses.get(name), latencies.unfinished.get(name)
+        failure = None
+        if loss is not None and unfinished is not None and unfinished.due_ns == loss.t_ns:
+            failure = (unfinished.seq, loss.cause)
+        elif loss is not None:
+            losses[name] = loss
+        given = [_given(folder, logged) for logged in log if logged.publisher == name]
+        worker = ReplayedWorker(
+            given, latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {}), failure
+        )
+        workers.append(Participant(description, worker, where="attached"))
+    return Recorded(
+        latency=LatencySpec(
+            "replay",
+            replay_of=str(folder.path),
+            recorded=latencies.latencies_ns,
+            breaks_off=breaks_off,
+        ),
+        end_ns=log[-1].t_ns if breaks_off and log else None,
+        unavailable_reason=_unavailable_reason(log),
+        cameras_lost=_cameras_lost(log),
+        has_pictures=any(logged.key.startswith("camera/") for logged in log),
+        sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
+        workers=tuple(workers),
+        programs=programs,
+        losses=losses,
+        foreign=tuple(
+            UnregisteredMessage(logged.key, logged.t_ns, logged.data)
+            for logged in log
+            if logged.publisher == UNREGISTERED
+        ),
+    )
+
+
+def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
+    """Return the workers whose results cannot be had again by computing them here."""
+    options = info.options
+    engines = {"asr": options.asr, "tts": options.tts, "vision": options.detector}
+    return [
+        worker.description
+        for worker in info.workers
+        if worker.where != "in process" or is_service(engines.get(worker.description.modality, ""))
+    ]
+
+
+def _unavailable_reason(log: Sequence[Logged]) -> str:
+    """Return why no pictures could be drawn from the start; empty if they could."""
+    for logged in log:
+        if logged.key == "status/vision":
+            status = Status.model_validate_json(logged.data)
+            return status.cause if status.state == "not evaluated" else ""
+    return ""
+
+
+def _cameras_lost(log: Sequence[Logged]) -> tuple[int, str] | None:
+    """Return when there were no more pictures, and why; None if there were to the end."""
+    for logged in log:
+        if logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            if event.kind == "cameras_lost":
+                return event.t_ns, event.text
+    return None
+
+
+def _is_spoken_elsewhere(options: Options) -> bool:
+    return options.speech and is_service(options.tts)
+
+
+def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
+    """Return what was on the air, and why that ended."""
+    durations_s: dict[tuple[str, str], float] = {}
+    received: dict[str, Transmission | TransmissionClosed] = {}
+    lost: Event | None = None
+    is_over = False
+    for logged in log:
+        kind = logged.key.split("/")
+        if kind[:2] == ["truth", "radio"]:
+            said = SpokenTruth.model_validate_json(logged.data)
+            if lost is None or said.t_tx_ns < lost.t_ns:
+                duration_s = (said.t_end_ns - said.t_tx_ns) / SECOND_NS
+                durations_s.setdefault(
+                    (said.speaker, said.text), UNENDING_S if is_over else duration_s
+                )
+        elif kind[0] == "radio" and kind[-1] == "tx":
+            header = Transmission.model_validate_json(logged.data)
+            if header.samples:
+                received[header.id] = header
+        elif kind[0] == "radio" and kind[-1] == "audio":
+            audio = _AUDIO.validate_json(logged.data)
+            if isinstance(audio, TransmissionClosed) and not audio.is_complete:
+                received[audio.id] = audio
+        elif logged.key == "truth/event":
+            event = Event.model_validate_json(logged.data)
+            is_over = is_over or event.kind in ("finished", "stopped")
+            lost = event if event.kind == "radio_lost" else lost
+    return ReplayedRadio(folder.audio_path, durations_s, received, lost.text if lost else None)
+
+
+def _given(folder: RunFolder, logged: Logged) -> Output:
+    """Return what a worker gave: the message, or the raw bytes that it is the header of."""
+    model = WORKER_OUTPUTS[logged.key.split("/")[0]]
+    if not issubclass(model, AdvisoryAudio):
+        return Output(logged.key, logged.data, logged.t_ns)
+    header = model.model_validate_json(logged.data)
+    pcm = recorded_pcm(folder.audio_path, header)
+    return Output(logged.key, pcm, logged.t_ns, header.model_dump(mode="json"))
+
+
+class ReplayedWorker:
+    """Gives what a worker of another process gave, step by step.
+
+    Parameters
+    ----------
+    given
+        All that it gave, in order.
+    outputs
+        How many of them each step gave.
+    wakes_ns
+        When each step asked to be called again.
+    failure
+        The step in which it was lost, and why; None if it was lost between steps or not at all.
+    """
+
+    def __init__(
+        self,
+        given: Sequence[Output],
+        outputs: dict[int, int],
+        wakes_ns: dict[int, int | None],
+        failure: tuple[int, str] | None,
+    ) -> None:
+        self._given = deque(given)
+        self._outputs = outputs
+        self._wakes_ns = wakes_ns
+        self._failure = failure
+
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> ReplayedStep:  # noqa: ARG002
+        """Return the step as it was."""
+        if self._failure is not None and self._failure[0] == seq:
+            return ReplayedStep(Reply((), 0.0), self._failure[1])
+        count = min(self._outputs.get(seq, 0), len(self._given))
+        outputs = tuple(self._given.popleft() for _ in range(count))
+        return ReplayedStep(Reply(outputs, 0.0, self._wakes_ns.get(seq)), None)
+
+
+@dataclass(frozen=True)
+class ReplayedStep:
+    """A step of an earlier run."""
+
+    reply: Reply
+    failure: str | None
+
+    def result(self) -> Reply:
+        """Return what it gave.
+
+        Raises
+        ------
+        WorkerLost
+            The worker was lost in it.
+        """
+        if self.failure is not None:
+            raise WorkerLost(self.failure)
+        return self.reply
+
+
+class ReplayedRadio:
+    """The voices of an earlier run, and what its receiver gave out.
+
+    Parameters
+    ----------
+    audio
+        Folder with the sound of what was received.
+    durations_s
+        Of each text, by its speaker.
+    received
+        Headers of the sound that was received, by the ids of the calls.
+    failure
+        Why the sound was lost; None if it was not.
+    """
+
+    def __init__(
+        self,
+        audio: Path,
+        durations_s: Mapping[tuple[str, str], float],
+        received: Mapping[str, Transmission | TransmissionClosed],
+        failure: str | None,
+    ) -> None:
+        self._audio = audio
+        self._durations_s = durations_s
+        self._received = received
+        self._failure = failure
+
+    def speak(self, speaker: str, text: str) -> tuple[None, float]:
+        """Return how long it took to say a text.
+
+        Raises
+        ------
+        SpeechError
+            It was this text that could not be said.
+        """
+        duration_s = self._durations_s.get((speaker, text))
+        if duration_s is None and self._failure is not None:
+            raise SpeechError(self._failure)
+        return None, UNENDING_S if duration_s is None else duration_s
+
+    def receive(
+        self,
+        on_air: OnAir,
+        mixed_with: tuple[OnAir, ...],  # noqa: ARG002
+        background: BackgroundNoise,  # noqa: ARG002
+        begin: int,
+        now_ns: int,  # noqa: ARG002
+    ) -> bytes:
+        """Return the samples as they were received.
+
+        Raises
+        ------
+        SpeechError
+            It was in this transmission that the sound was lost.
+        """
+        header = self._received.get(on_air.utterance.id)
+        pcm = b"" if header is None else recorded_pcm(self._audio, header)[SAMPLE_BYTES * begin :]
+        if not pcm:
+            raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")
+        return pcm
+
+    def transcript(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:  # noqa: ARG002
+        """Return None: a recogniser found the words."""
+        return None

@@ -1,0 +1,234 @@
+"""The true world of a run: actors that move and act, and monitors of what is true of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from airhilt.commands import Command
+from airhilt.cosim.conflict_window import ConflictWindow
+from airhilt.cosim.events import EventPublisher
+from airhilt.cosim.router import MessageRouter
+from airhilt.cosim.setup import TICK_S, Setup
+from airhilt.messages import ConflictPhase, ConflictTruth
+from airhilt.metrics.collector import pair_of
+from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
+from airhilt.sim import Director, Priority
+from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.world.actors import Actor, Unable
+from airhilt.world.actors.triggers import Triggers
+from airhilt.world.flight import Aircraft
+from airhilt.world.truth.conditions import ConditionCompiler
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair
+from airhilt.world.truth.runways import Incursion, RunwayMonitor
+from airhilt.world.truth.states import minima_of, truth_of, zone_of
+
+TRUTH_PERIOD_NS = SECOND_NS // 5
+"""Period of the true states that are published, in ns."""
+CONDITION_PERIOD_NS = SECOND_NS // 10
+"""Period at which triggers and the conflict window are evaluated, in ns."""
+RUNWAY_PERIOD_NS = SECOND_NS // 5
+"""Period at which the occupancy of runways is evaluated, in ns."""
+
+
+class WorldLoop:
+    """Moves the actors of a run tick by tick, and publishes what becomes true of them.
+
+    Attributes
+    ----------
+    pair
+        Actors of the declared conflict; None if the scenario declares none.
+    monitor
+        Truth about each pair of actors.
+    runways
+        Truth about runways; None without an airport.
+    misled
+        Callsigns of actors that act under a failure which has happened.
+    ended_lines
+        Ids of the radio lines that have been on the air.
+    ticked_ns
+        Time of the last physics tick, of which all states are.
+    """
+
+    def __init__(
+        self, director: Director, setup: Setup, router: MessageRouter, event: EventPublisher
+    ) -> None:
+        scenario, site, actors = setup.scenario, setup.site, setup.actors
+        self._director = director
+        self._scenario = scenario
+        self._actors = actors
+        self._publish = router.publish
+        self._event = event
+        self._triggers = Triggers()
+        self.misled: set[str] = set()
+        self.ended_lines: set[str] = set()
+        self.ticked_ns = 0
+        self.pair = pair_of(scenario)
+        self.monitor = ConflictMonitor(
+            {c: a.body for c, a in actors.items() if isinstance(a.body, Aircraft)},
+            {c: a.body for c, a in actors.items() if not isinstance(a.body, Aircraft)},
+            minima_of(scenario.separation),
+            site.ground_m,
+            zone_of(site),
+            TICK_S,
+            frozenset(
+                spec.callsign
+                for spec in scenario.actors
+                if isinstance(spec, AircraftSpec) and spec.transponder.equipped
+            ),
+            frozenset() if self.pair is None else frozenset({self.pair}),
+            self._became_true,
+        )
+        self.runways: RunwayMonitor | None = None
+        if site.layout is not None:
+            self.runways = RunwayMonitor(
+                site.layout, actors, self.misled, self._publish, self._incurred
+            )
+        conditions = ConditionCompiler(actors, self.monitor, self.runways, self.ended_lines)
+        self._compile = conditions.compile
+        conflict = scenario.conflict
+        opens = None if conflict is None else self._compile(conflict.opens_when)
+        self._window = ConflictWindow(self.pair, opens, self.monitor, self._publish_conflict)
+        self._ends = [self._compile(condition) for condition in scenario.end_when]
+
+    def schedule(self) -> None:
+        """Schedule physics, truth and the evaluation of conditions."""
+        every, tick_ns = self._director.every, seconds_to_ns(TICK_S)
+        every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
+        every(TRUTH_PERIOD_NS, self._publish_states, Priority.SENSOR)
+        if self.runways is not None:
+            look = self.runways.look
+            every(RUNWAY_PERIOD_NS, lambda: look(self._director.now_ns), Priority.OBSERVE)
+        every(CONDITION_PERIOD_NS, self._evaluate, Priority.OBSERVE)
+
+    def schedule_occurrences(self) -> None:
+        """Let engines fail, and wildlife move, when the scenario says so."""
+        for failure in self._scenario.failures:
+            if isinstance(failure, EngineFailure):
+                self.once(failure.when, partial(self._fail_engine, failure))
+        for actor in self._actors.values():
+            if isinstance(actor.spec, WildlifeSpec):
+                for cue in actor.spec.plan:
+                    self.once(cue.when, partial(self.do, actor.spec.callsign, cue.command))
+
+    def once(self, condition: Condition, action: Callable[[], None]) -> None:
+        """Do an action as soon as a condition of the scenario is true."""
+        self._triggers.once(self._compile(condition), action)
+
+    def do(self, callsign: str, command: Command) -> None:
+        """Let an actor do what a radio line or its plan says, and publish that it does."""
+        if self._actors[callsign].body.ended is None:
+            self._event("command", callsign, command.model_dump_json(exclude_none=True))
+            self.obey(callsign, command)
+
+    def obey(self, callsign: str, command: Command) -> None:
+        """Let an actor carry out a command, or say that it cannot; nobody else obeys."""
+        actor = self._actors.get(callsign)
+        if actor is None or actor.body.ended is not None:
+            return
+        try:
+            actor.command(command)
+        except Unable as unable:
+            self._event("unable", callsign, str(unable))
+
+    def has_ended(self) -> bool:
+        """Return whether all actors have ended, or a condition that ends the run is true."""
+        now_ns = self._director.now_ns
+        all_ended = all(actor.body.ended is not None for actor in self._actors.values())
+        return all_ended or any(test(now_ns) for test in self._ends)
+
+    def closest_approach_ns(self) -> int | None:
+        """Return when the pair of the conflict was nearest up to now; None if there is none."""
+        truth = None if self.pair is None else self.monitor.pairs.get(self.pair)
+        return None if truth is None or truth.closest is None else truth.closest.t_ns
+
+    def distances_m(self) -> tuple[float, float] | None:
+        """Return how far the pair of the conflict is apart, horizontally and vertically."""
+        if self.pair is None or not self.monitor.flying(self.pair):
+            return None
+        motion, first, second = self.monitor.motion(self.pair)
+        return motion.distance_m, abs(first.altitude_m - second.altitude_m)
+
+    def _tick(self) -> None:
+        now_ns = self._director.now_ns
+        for actor in self._actors.values():
+            if actor.body.ended is None:
+                actor.body.advance()
+                if actor.body.ended is not None:
+                    self._tell_end(actor)
+        self.ticked_ns = now_ns
+        self.monitor.tick(now_ns)
+
+    def _tell_end(self, actor: Actor) -> None:
+        self._event("actor_ended", actor.spec.callsign, actor.body.ended or "")
+
+    def _evaluate(self) -> None:
+        """Let actors go on with what they began, and evaluate triggers and conflict window."""
+        now_ns = self._director.now_ns
+        for actor in self._actors.values():
+            if actor.body.ended is None:
+                try:
+                    actor.attend()
+                except Unable as unable:
+                    self._event("unable", actor.spec.callsign, str(unable))
+        self._triggers.look(now_ns)
+        self._window.look(now_ns)
+
+    def _fail_engine(self, failure: EngineFailure) -> None:
+        body = self._actors[failure.actor].body
+        if isinstance(body, Aircraft) and body.ended is None:
+            body.fail_engine(failure.engine)
+            self._event("failure", failure.actor, f"engine {failure.engine} stops")
+
+    def _publish_states(self) -> None:
+        now_ns = self._director.now_ns
+        for callsign, actor in self._actors.items():
+            if actor.body.ended is None:
+                self._publish(f"truth/state/{callsign}", truth_of(actor, now_ns))
+
+    def _publish_conflict(self, phase: ConflictPhase, pair: Pair) -> None:
+        conflict = ConflictTruth(t_ns=self._director.now_ns, phase=phase, actors=pair)
+        self._publish("truth/conflict", conflict)
+
+    def _became_true(
+        self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
+    ) -> None:
+        """Publish what became true of a pair; whatever collides, ends."""
+        if all(self._actors[callsign].category == "wildlife" for callsign in pair):
+            return  # A herd.
+        self._publish(
+            "truth/conflict",
+            ConflictTruth(
+                t_ns=self._director.now_ns,
+                phase=phase,
+                actors=pair,
+                horizontal_m=horizontal_m,
+                vertical_m=vertical_m,
+            ),
+        )
+        if phase != "collision":
+            return
+        if self.runways is not None:
+            self.runways.collided(*pair)
+        for callsign, other in (pair, pair[::-1]):
+            actor, struck = self._actors[callsign], self._actors[other]
+            if struck.category == "wildlife" and not struck.body.on_ground:
+                continue  # An aircraft flies on after a bird strike.
+            actor.body.ended = f"collision with {other}"
+            self._tell_end(actor)
+
+    def _incurred(self, incursion: Incursion) -> None:
+        """Publish an incursion of a runway."""
+        actors = (incursion.user, incursion.intruder)
+        closest = incursion.closest
+        self._publish(
+            "truth/conflict",
+            ConflictTruth(
+                t_ns=self._director.now_ns,
+                phase="runway_incursion",
+                actors=tuple(actor for actor in actors if actor is not None),
+                horizontal_m=closest.horizontal_m if closest else None,
+                vertical_m=closest.vertical_m if closest else None,
+                runway=incursion.runway.replace("/", "-"),
+            ),
+        )

@@ -1,0 +1,65 @@
+"""Options are written once: Python, the command line and run.json take them from one model."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import airhilt
+from airhilt.cli.run_flags import run_flags
+from airhilt.errors import AirhiltError
+from airhilt.options import Options, flag_of, options_of
+from airhilt.record import RunFolder
+from airhilt.scenario import Scenario
+
+
+def test_a_wrong_name_is_answered_with_the_nearest_right_one() -> None:
+    with pytest.raises(TypeError, match="no option named 'latenzy'; did you mean 'latency'"):
+        airhilt.run("s02a_headon", latenzy="fixed")
+
+
+def test_a_wrong_value_is_named_with_its_option() -> None:
+    with pytest.raises(AirhiltError, match="option snr_db"):
+        airhilt.run("s02a_headon", snr_db=1000.0)
+
+
+def test_a_former_name_is_still_understood() -> None:
+    assert options_of({"listen": "tcp/127.0.0.1:7447"}).endpoint == "tcp/127.0.0.1:7447"
+
+
+def test_every_option_that_the_command_line_spells_is_a_flag_of_a_run() -> None:
+    spelled = {name for name, field in Options.model_fields.items() if flag_of(field)}
+    assert {flag.name for flag in run_flags()} == spelled
+    assert spelled >= {"seed", "latency", "endpoint", "snr_db"}
+
+
+def test_run_json_holds_the_options_whole(encounter: Scenario, tmp_path: Path) -> None:
+    given = Options(
+        seed=3, out=tmp_path / "run", latency="fixed", snr_db=12.5, speech=False, cameras=False,
+        assistant="none", step_timeout_s=7.0,
+    )  # fmt: skip
+    airhilt.run(encounter, **dict(given))
+    assert RunFolder(tmp_path / "run").info().options == given
+
+
+def test_a_record_of_the_first_format_is_understood(encounter: Scenario, tmp_path: Path) -> None:
+    folder = airhilt.run(
+        encounter, out=tmp_path / "run", latency="fixed", speech=False, cameras=False
+    ).folder
+    path = folder / "run.json"
+    record = json.loads(path.read_text())
+    record["format"] = 1
+    assistant, pace = record.pop("assistant"), record.pop("pace")
+    record["options"] = {
+        "seed": 0, "assistant": assistant, "pace": pace, "latency": "fixed", "attached": ["mine"],
+        "cameras": False, "speech": False, "strict": False, "snr_db": None,
+        "radio_profile": None, "topology": None, "asr": "", "tts": "", "renderer": "",
+        "detector": "",
+    }  # fmt: skip
+    path.write_text(json.dumps(record))
+    info = RunFolder(folder).info()
+    assert (info.assistant, info.pace) == ("reference", "virtual")
+    assert info.options.attach == ("mine",)
+    assert info.options.asr == Options().asr

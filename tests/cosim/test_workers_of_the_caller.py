@@ -1,0 +1,66 @@
+"""Whoever starts a run from Python may give it workers of the same process."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+import airhilt
+from airhilt import Input, Output, Scenario, Step
+from airhilt.cosim.replay import replay
+from airhilt.errors import WorkerError
+from airhilt.messages import Advisory, Evidence, InputSpec, Severity, WorkerDescription
+from airhilt.record import RunFolder, read_log
+
+
+class WarnsOnce:
+    """Warns one crew, as soon as it hears of an aircraft."""
+
+    description = WorkerDescription(
+        name="warner", modality="decision", inputs=(InputSpec(key="adsb/*", policy="batch"),)
+    )
+
+    def __init__(self) -> None:
+        self._told = False
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        """Return the one advisory."""
+        if self._told:
+            return Step()
+        self._told = True
+        advisory = Advisory(
+            id="warner-1", recipient="AAL123", severity=Severity.CAUTION, kind="loss_of_separation",
+            traffic=("AAL123", "DAL456"), message="traffic ahead", t_ready_ns=t_ns, revision=0,
+            recipients=("AAL123",), evidence=Evidence(sources=("adsb",)),
+        )  # fmt: skip
+        return Step((Output("advisory/AAL123", advisory.model_dump_json().encode()),))
+
+
+def test_a_worker_of_the_caller_takes_the_place_of_the_reference_worker(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    result = airhilt.run(
+        encounter, out=tmp_path / "run", workers=[WarnsOnce()], latency="fixed", speech=False,
+        cameras=False,
+    )  # fmt: skip
+    publishers = {one.publisher for one in read_log(result.folder / "log.mcap")}
+    assert "warner" in publishers
+    assert "decision" not in publishers
+    assert result.summary.assistant == "external"
+    assert [one.id for one in result.summary.advisories] == ["warner-1"]
+    assert [one.where for one in RunFolder(result.folder).info().workers] == ["caller"]
+
+
+def test_its_run_replays_from_the_record_without_it(encounter: Scenario, tmp_path: Path) -> None:
+    folder = airhilt.run(
+        encounter, out=tmp_path / "run", workers=[WarnsOnce()], speech=False, cameras=False
+    ).folder
+    assert replay(folder).identical
+
+
+def test_two_workers_of_one_name_are_refused(encounter: Scenario, tmp_path: Path) -> None:
+    with pytest.raises(WorkerError, match="two workers are named 'warner'"):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[WarnsOnce(), WarnsOnce()])
+    assert not (tmp_path / "run").exists()
