@@ -1,6 +1,6 @@
 """A recogniser of one's own, with AIRHILT's SDK: put your model where `recognise` is.
 
-    airhilt cosim --scenario s01a_bad_readback --snr 10 --listen tcp/127.0.0.1:7447 --attach mine
+    airhilt cosim --scenario s01a_bad_readback --snr 10 --endpoint tcp/127.0.0.1:7447 --attach mine
     python examples/asr_worker.py tcp/127.0.0.1:7447
 
 This one writes down how long each call was. It takes the place of the embedded recogniser, and the

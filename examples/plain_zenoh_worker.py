@@ -1,6 +1,6 @@
 """A decision program in plain Zenoh: it imports nothing of AIRHILT and takes no time grants.
 
-    airhilt cosim --scenario s02a_headon --listen tcp/127.0.0.1:7447 --attach plain
+    airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach plain
     python examples/plain_zenoh_worker.py tcp/127.0.0.1:7447
 
 Because it takes no grants the run goes by the wall clock, and what it says counts when it arrives.

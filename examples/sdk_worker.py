@@ -1,6 +1,6 @@
 """A decision worker of one's own, in about thirty lines, with AIRHILT's SDK.
 
-    airhilt cosim --scenario s02a_headon --listen tcp/127.0.0.1:7447 --attach simple
+    airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach simple
     python examples/sdk_worker.py tcp/127.0.0.1:7447
 
 It warns the controller once when two aircraft at one level come within 0.45 degrees (some 40 km)

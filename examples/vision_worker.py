@@ -1,6 +1,6 @@
 """A detector of one's own, with AIRHILT's SDK: put your model where `look` is.
 
-    airhilt cosim --scenario s01b_nominal --listen tcp/127.0.0.1:7447 --attach mine
+    airhilt cosim --scenario s01b_nominal --endpoint tcp/127.0.0.1:7447 --attach mine
     python examples/vision_worker.py tcp/127.0.0.1:7447
 
 This one takes the brightest spots of a picture for aircraft. It takes the place of the embedded

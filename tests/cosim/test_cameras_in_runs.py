@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import os
 import signal
@@ -77,7 +76,7 @@ def test_each_picture_is_looked_at_and_told_as_late_as_the_detector_is(
 def test_pictures_wait_for_nobody_and_old_ones_are_dropped_and_counted(
     short: Scenario, tmp_path: Path
 ) -> None:
-    options = dataclasses.replace(SEEN, latency="fixed:0.3", out=tmp_path / "run")
+    options = SEEN.model_copy(update={"latency": "fixed:0.3", "out": tmp_path / "run"})
     summary = run(short, options).summary
     dropped = [n for key, n in summary.inputs_dropped.items() if "camera/nose" in key]
     assert sum(dropped) > 10
@@ -122,7 +121,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
                 opened[0]._process.wait()
 
     monkeypatch.setattr(vision, "_open_renderer_process", opening)
-    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), Killer())
+    result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())
     monkeypatch.undo()
     assert result.summary.outcome == "finished"
     log = list(read_log(tmp_path / "run" / "log.mcap"))
@@ -137,7 +136,7 @@ def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
 ) -> None:
     monkeypatch.setattr(vision, "_open_renderer_process", missing)
     notices = Notices()
-    result = run(short, dataclasses.replace(SEEN, out=tmp_path / "run"), notices)
+    result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), notices)
     log = list(read_log(tmp_path / "run" / "log.mcap"))
     assert states_of_vision(log) == [("not evaluated", "no renderer here")]
     assert result.summary.outcome == "finished"
@@ -153,7 +152,7 @@ def test_without_a_renderer_a_strict_run_does_not_begin(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(vision, "_open_renderer_process", missing)
-    options = dataclasses.replace(SEEN, strict=True, out=tmp_path / "run")
+    options = SEEN.model_copy(update={"strict": True, "out": tmp_path / "run"})
     with pytest.raises(RunStopped, match="--no-cameras"):
         run(short, options)
     assert not (tmp_path / "run").exists()
