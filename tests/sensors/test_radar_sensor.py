@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +16,7 @@ from pydantic import TypeAdapter
 from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
+from airhilt.errors import ScenarioError
 from airhilt.geodesy.positions import Position
 from airhilt.messages import RadarInfo, RadarPlot
 from airhilt.options import Options
@@ -26,6 +28,7 @@ from airhilt.shapes.sizes import Dimensions
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.surveillance.radar import RADARS, Antenna
 from airhilt.units import DEGREE, FOOT, SECOND_NS
+from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState, carried_on
 from airhilt.world.site import ScenarioSite
 
@@ -327,6 +330,19 @@ def test_the_intruder_of_s02c_is_seen_as_primary_only(intruder_run: Path) -> Non
 
 def test_a_replay_gives_the_same_plots(intruder_run: Path) -> None:
     assert replay(intruder_run).identical
+
+
+@pytest.mark.parametrize(
+    ("radars", "problem"),
+    [
+        ([{"name": "R1", "position": {"type": "node", "node": "J9"}}], "radars/0/position"),
+        ([{"name": "R1", "position": CENTRE}] * 2, "radars/1/name"),
+    ],
+)
+def test_a_radar_that_cannot_be_is_refused(radars: list[Any], problem: str) -> None:
+    document = load("s02a_headon").model_dump(mode="json") | {"radars": radars}
+    with pytest.raises(ScenarioError, match=problem):
+        load_text(json.dumps(document), "headon")
 
 
 def test_there_is_no_radar_unless_it_is_asked_for(encounter: Scenario, tmp_path: Path) -> None:

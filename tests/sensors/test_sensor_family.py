@@ -117,6 +117,19 @@ def test_it_reaches_a_worker_that_asks_for_its_key(
     assert len(worker.inputs) >= 5
 
 
+def test_raw_bytes_reach_the_worker_with_their_header(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    source = (installed / "loop.py").read_text()
+    source = source.replace("import Message", "import Header").replace("(Message)", "(Header)")
+    source = source.replace('publish("loop/1", state)', 'publish("loop/1", state, raw=bytes(3))')
+    (installed / "loop.py").write_text(source)
+    worker = Subscriber()
+    assert go(scenario, tmp_path / "run", worker)
+    assert {item.payload for item in worker.inputs} == {bytes(3)}
+    assert all(item.attachment["occupied"] is False for item in worker.inputs)
+
+
 def test_it_comes_again_in_a_replay(installed: Path, scenario: Scenario, tmp_path: Path) -> None:
     assert go(scenario, tmp_path / "run")
     assert replay(tmp_path / "run").identical
