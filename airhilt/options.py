@@ -17,6 +17,7 @@ from pydantic.fields import FieldInfo
 from airhilt.engines import ASR, DETECTOR, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.library import nearest
+from airhilt.messages import RadarKind
 from airhilt.scenario.models import Topology
 
 FORMER_NAMES = {"listen": "endpoint"}
@@ -202,6 +203,18 @@ class Options(BaseModel):
             default="the scenario's",
         ),
     ] = None
+    radar: Annotated[
+        RadarKind | None,
+        Flag(
+            "--radar",
+            "Add a surveillance radar: terminal (4.8 s a turn) or en_route (12 s).",
+            "KIND",
+            default="those of the scenario",
+        ),
+    ] = None
+    cockpit: Annotated[
+        bool, Flag("--cockpit", "Publish what the instruments of all aircraft show.")
+    ] = False
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
 
     @model_validator(mode="before")

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
+from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.options import Options
 from airhilt.record import RunFolder, RunInfo, read_latencies
@@ -100,6 +101,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     """
     scenario, draws = draw(given, options.seed)
     scenario = _with_radio_of(options, scenario)
+    scenario = with_requested_sensors(scenario, options.radar, options.cockpit)
     latency = recorded.latency or _latency(options.latency, given, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{given.name}-{options.seed}"

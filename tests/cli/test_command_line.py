@@ -104,6 +104,7 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         (("cosim", "--scenario", "s02a_headon", "--snr", "99"), "60"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),
         (("cosim", "--scenario", "s02a_headon", "--topology", "serial"), "gated_fusion"),
+        (("cosim", "--scenario", "s02a_headon", "--radar", "tower"), "en_route"),
         (("cosim", "--scenario", "s02a_headon", "--asr", ""), "recogniser ''"),
         (("cosim", "--scenario", "s02a_headon", "--tts", ""), "voice ''"),
         *(
