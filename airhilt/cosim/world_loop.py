@@ -171,7 +171,7 @@ class WorldLoop:
                     actor.attend()
                 except Unable as unable:
                     self._event("unable", actor.spec.callsign, str(unable))
-        self._triggers.look(now_ns)
+        self._triggers.evaluate(now_ns)
         self._window.look(now_ns)
 
     def _fail_engine(self, failure: EngineFailure) -> None:

@@ -1,4 +1,4 @@
-"""Which lines of a script follow from which others."""
+"""Dependencies between the radio lines of a scenario."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from airhilt.scenario.models import AllOf, AnyOf, Condition, LineEnded, RadioLin
 
 
 def needed_lines(scenario: Scenario) -> dict[str, tuple[str, ...]]:
-    """Return, for each line, those that its speaker must have understood to say it.
+    """Return, for each line, the lines that its speaker must have understood to say it.
 
-    These are the one that it answers, first, and those to him whose end it waits for.
+    These are first the line that it answers, then the lines to its speaker whose end it waits for.
     """
     answered = _answered(scenario)
     lines = {line.id: line for line in scenario.radio.lines}
@@ -24,10 +24,10 @@ def needed_lines(scenario: Scenario) -> dict[str, tuple[str, ...]]:
 
 
 def _answered(scenario: Scenario) -> dict[str, str]:
-    """Return which line each of them answers: the one that it names, or that it reads back.
+    """Return the line that each line answers: the one that it names, or the one it reads back.
 
-    An actor reads back the last line before on the frequency, if that was from whom this is for
-    and for whom this is from.
+    An actor reads back the last line before on the frequency, if the addressee of the readback
+    said that line to the actor.
     """
     callsigns = {actor.callsign for actor in scenario.actors}
     found: dict[str, str] = {}
@@ -36,13 +36,13 @@ def _answered(scenario: Scenario) -> dict[str, str]:
         before = last.get(line.frequency_khz)
         if line.answers is not None:
             found[line.id] = line.answers
-        elif line.speaker in callsigns and before is not None and _is_back(line, before):
+        elif line.speaker in callsigns and before is not None and _is_readback(line, before):
             found[line.id] = before.id
         last[line.frequency_khz] = line
     return found
 
 
-def _is_back(line: RadioLine, before: RadioLine) -> bool:
+def _is_readback(line: RadioLine, before: RadioLine) -> bool:
     return (before.speaker, before.to) == (line.to, line.speaker)
 
 

@@ -1,12 +1,13 @@
-"""What a scenario's failures make of its radio lines.
+"""Radio lines with the failures of their scenario applied.
 
-The lines of a scenario say how everything should go. This is the only place where that changes.
+The lines of a scenario say how everything should go. Only this module changes them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 from airhilt.scenario.models import (
     Blocked,
@@ -24,83 +25,89 @@ from airhilt.scenario.models import (
     StuckMicrophone,
 )
 
+LineFailure = ReadbackWrong | NotReceived | CallsignConfused | Delayed | Dropped | Ignored | Blocked
+
 
 @dataclass(frozen=True)
 class EffectiveLine:
-    """A line as it really happens."""
+    """Radio line with its failures applied."""
 
     declared: RadioLine
+    """Line as the scenario declares it."""
     line: RadioLine | None
-    """None if it is never said."""
-    late_s: float
-    failures: tuple[str, ...]
-    """What went wrong with it, in words."""
-    misled: frozenset[str]
-    """Actors that do, or leave undone, something because of that."""
+    """Line as it is said; None if it is never said."""
+    late_s: float = 0.0
+    """Delay of the line, in s."""
+    failures: tuple[str, ...] = ()
+    """Failures of the line, in words."""
+    misled: frozenset[str] = frozenset()
+    """Actors that act wrongly because of the failures."""
     deaf: frozenset[str] = frozenset()
-    """Actors that do not take it for theirs, however well they hear it."""
+    """Actors that do not take the line for theirs, however well they hear it."""
     listens_first: bool = True
-    """False: it is said over whatever is being said."""
+    """False if it is said over whatever is being said."""
 
 
 def apply_failures(scenario: Scenario) -> list[EffectiveLine]:
     """Return the lines of a scenario with its failures, in the order of the file."""
-    return [_happening(line, scenario.failures) for line in scenario.radio.lines]
+    return [_effective(line, scenario.failures) for line in scenario.radio.lines]
 
 
-def _happening(declared: RadioLine, failures: tuple[Failure, ...]) -> EffectiveLine:
-    line: RadioLine | None = declared
-    late_s = 0.0
-    texts: list[str] = []
-    misled: set[str] = set()
-    deaf: set[str] = set()
-    listens_first = True
+def _effective(declared: RadioLine, failures: tuple[Failure, ...]) -> EffectiveLine:
+    effective = EffectiveLine(declared, declared)
     for failure in failures:
-        if isinstance(failure, EngineFailure | StuckMicrophone):
+        if isinstance(failure, EngineFailure | StuckMicrophone) or failure.line != declared.id:
             continue
-        if failure.line != declared.id or line is None:
-            continue
-        match failure:
-            case ReadbackWrong(text=text, commands=commands):
-                misled |= {declared.speaker, *_actors(commands)}
-                line = line.model_copy(update={"text": text, "commands": commands})
-                texts.append(f"{declared.speaker} reads back otherwise")
-            case NotReceived(actor=actor):
-                misled.add(actor)
-                deaf.add(actor)
-                line = _without(line, actor)
-                texts.append(f"{actor} does not receive it")
-            case Ignored(actor=actor):
-                misled.add(actor)
-                line = _without(line, actor)
-                texts.append(f"{actor} ignores it")
-            case CallsignConfused(meant=meant, taken_by=taken_by, text=text):
-                misled |= {meant, taken_by}
-                deaf.add(meant)
-                line = _retarget(line, meant, taken_by)
-                if text is not None:
-                    line = line.model_copy(update={"text": text})
-                texts.append(f"{taken_by} takes it, {meant} was meant")
-            case Delayed(by_s=by_s):
-                misled |= _actors(declared.commands)
-                late_s += by_s
-                texts.append(f"it comes {by_s:g} s late")
-            case Dropped():
-                misled |= _actors(declared.commands)
-                line = None
-                texts.append("it is never said")
-            case Blocked():
-                misled |= _actors(declared.commands)
-                listens_first = False
-                texts.append(f"{declared.speaker} does not listen before speaking")
-    return EffectiveLine(
-        declared,
-        line,
-        late_s,
-        tuple(texts),
-        frozenset(misled),
-        frozenset(deaf),
-        listens_first,
+        if effective.line is not None:
+            effective = _failed(effective, effective.line, failure)
+    return effective
+
+
+def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> EffectiveLine:
+    """Return a line with one more failure."""
+    declared = effective.declared
+    match failure:
+        case ReadbackWrong(text=text, commands=commands):
+            said = line.model_copy(update={"text": text, "commands": commands})
+            what = f"{declared.speaker} reads back otherwise"
+            return _with(effective, what, {declared.speaker, *_actors(commands)}, line=said)
+        case NotReceived(actor=actor):
+            return _with(
+                effective,
+                f"{actor} does not receive it",
+                {actor},
+                line=_without(line, actor),
+                deaf=effective.deaf | {actor},
+            )
+        case Ignored(actor=actor):
+            return _with(effective, f"{actor} ignores it", {actor}, line=_without(line, actor))
+        case CallsignConfused(meant=meant, taken_by=taken_by, text=text):
+            said = _retarget(line, meant, taken_by)
+            if text is not None:
+                said = said.model_copy(update={"text": text})
+            what = f"{taken_by} takes it, {meant} was meant"
+            return _with(
+                effective, what, {meant, taken_by}, line=said, deaf=effective.deaf | {meant}
+            )
+        case Delayed(by_s=by_s):
+            what = f"it comes {by_s:g} s late"
+            return _with(
+                effective, what, _actors(declared.commands), late_s=effective.late_s + by_s
+            )
+        case Dropped():
+            return _with(effective, "it is never said", _actors(declared.commands), line=None)
+        case Blocked():
+            what = f"{declared.speaker} does not listen before speaking"
+            return _with(effective, what, _actors(declared.commands), listens_first=False)
+
+
+def _with(effective: EffectiveLine, what: str, misled: set[str], **changes: Any) -> EffectiveLine:
+    """Return a line with one more failure in words, and the changes that it makes."""
+    return replace(
+        effective,
+        failures=(*effective.failures, what),
+        misled=effective.misled | misled,
+        **changes,
     )
 
 

@@ -195,8 +195,8 @@ def plans(*climbs):
         )
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
-    happening = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
-    return Plans(happening, planned_ends_ns(happening, TextRadio(160.0)))
+    effective = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
+    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)))
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)

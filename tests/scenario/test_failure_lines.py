@@ -14,30 +14,30 @@ FAILURES = TypeAdapter(tuple[Failure, ...])
 HOLD = next(line for line in SCENARIO.radio.lines if line.id == "hold")
 
 
-def happening(*failures, line="hold"):
+def effective(*failures, line="hold"):
     scenario = SCENARIO.model_copy(update={"failures": FAILURES.validate_python(failures)})
-    lines = {happens.declared.id: happens for happens in apply_failures(scenario)}
-    others = [happens for name, happens in lines.items() if name != line]
-    assert all(happens.line is happens.declared and not happens.failures for happens in others)
+    lines = {each.declared.id: each for each in apply_failures(scenario)}
+    others = [each for name, each in lines.items() if name != line]
+    assert all(each.line is each.declared and not each.failures for each in others)
     return lines[line]
 
 
 def test_without_failures_all_happens_as_it_is_written():
-    hold = happening()
+    hold = effective()
     assert hold.line is hold.declared
     assert (hold.late_s, hold.failures, hold.misled) == (0.0, (), frozenset())
 
 
 @pytest.mark.parametrize("kind", ["not_received", "ignored"])
 def test_who_does_not_hear_or_heed_a_line_does_nothing(kind):
-    hold = happening({"type": kind, "line": "hold", "actor": "OPS1"})
+    hold = effective({"type": kind, "line": "hold", "actor": "OPS1"})
     assert hold.line.commands == ()
     assert hold.line.text == HOLD.text
     assert hold.misled == {"OPS1"}
 
 
 def test_a_line_taken_by_another_makes_the_other_act():
-    hold = happening(
+    hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
     )
     assert [scripted.actor for scripted in hold.line.commands] == ["OPS2"]
@@ -47,7 +47,7 @@ def test_a_line_taken_by_another_makes_the_other_act():
 
 
 def test_the_wrong_callsign_may_be_said():
-    hold = happening(
+    hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
          "text": "Ops two, stop."}
     )  # fmt: skip
@@ -55,7 +55,7 @@ def test_the_wrong_callsign_may_be_said():
 
 
 def test_a_late_line_is_late_by_the_sum_of_its_delays():
-    hold = happening(
+    hold = effective(
         {"type": "delayed", "line": "hold", "by_s": 5.0},
         {"type": "delayed", "line": "hold", "by_s": 2.5},
     )
@@ -65,13 +65,13 @@ def test_a_late_line_is_late_by_the_sum_of_its_delays():
 
 
 def test_a_dropped_line_is_never_said():
-    hold = happening({"type": "dropped", "line": "hold"})
+    hold = effective({"type": "dropped", "line": "hold"})
     assert hold.line is None
     assert hold.misled == {"OPS1"}
 
 
 def test_a_wrong_readback_has_other_words_and_other_deeds():
-    wrong = happening(
+    wrong = effective(
         {"type": "readback_wrong", "line": "hold_readback", "text": "Proceeding, Ops one.",
          "commands": [{"actor": "OPS1", "command": {"action": "continue"}}]},
         line="hold_readback",
@@ -86,11 +86,11 @@ def test_an_engine_failure_is_no_matter_of_lines():
         "type": "engine_failure", "actor": "AAL123", "engine": 0,
         "when": {"type": "time", "at_s": 5.0},
     }  # fmt: skip
-    assert happening(failure).failures == ()
+    assert effective(failure).failures == ()
 
 
 def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left():
-    hold = happening(
+    hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"},
         {"type": "not_received", "line": "hold", "actor": "OPS2"},
         {"type": "delayed", "line": "hold", "by_s": 3.0},
@@ -114,7 +114,7 @@ def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind):
 
 
 def test_a_confusion_leaves_when_and_after_how_long_a_line_acts():
-    hold = happening(
+    hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
     )
     meant = HOLD.commands[0]

@@ -107,8 +107,8 @@ def test_a_microphone_sticks_on_a_frequency():
 def test_a_blocked_line_does_not_wait_for_the_frequency():
     scenario = load("s01a_nominal")
     failures = FAILURES.validate_python([{"type": "blocked", "line": "takeoff"}])
-    happening = apply_failures(scenario.model_copy(update={"failures": failures}))
-    listens = {happens.declared.id: happens.listens_first for happens in happening}
+    effective = apply_failures(scenario.model_copy(update={"failures": failures}))
+    listens = {each.declared.id: each.listens_first for each in effective}
     assert listens.pop("takeoff") is False
     assert all(listens.values())
 

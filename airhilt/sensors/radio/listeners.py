@@ -190,7 +190,7 @@ class Listeners:
         if not stations.is_actor(listener):
             names = [call.speaker]
         known_by = tuple(name for name in names if stations.is_actor(name))
-        return self._listener(call).make_sense(
+        return self._listener(call).understand(
             heard, said.text, known_by, stations.bound_runway(listener), confidences
         )
 

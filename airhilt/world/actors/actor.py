@@ -1,4 +1,4 @@
-"""What all that act in a scenario have in common, and what they need of the run."""
+"""Protocol of the actors of a scenario."""
 
 from __future__ import annotations
 
@@ -15,54 +15,54 @@ Category = Literal["aircraft", "vehicle", "wildlife"]
 
 
 class Unable(Exception):
-    """An actor cannot do what it was told, in the words in which it would say so."""
+    """An actor cannot carry out a command; the text is what it would say on the radio."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reaction:
-    """What an actor will do about an advisory, and after how long."""
+    """Action of an actor after an advisory, and the delay of that action."""
 
     delay_s: float
     act: Callable[[], bool]
-    """Does it; tells whether there still was anything to do. Raises `Unable` for what an advisory
-    has put off and cannot be done any more."""
+    """Carries out the action; returns False if there was nothing left to do. Raises `Unable` for a
+    deferred command that cannot be carried out any more."""
     text: str
 
 
 class Actor(Protocol):
-    """An actor of the scenario with the body that it moves."""
+    """Actor of the scenario, with the body that it moves."""
 
     @property
     def spec(self) -> ActorSpec:
-        """As the scenario declares it."""
+        """Declaration of the actor in the scenario."""
 
     @property
     def category(self) -> Category:
-        """What it is."""
+        """Sort of the actor."""
 
     @property
     def body(self) -> Mover:
-        """What moves."""
+        """Aircraft, vehicle or animal that moves."""
 
     @property
     def bound_runway(self) -> str | None:
-        """The runway that it means to use, in the direction in which it will."""
+        """Runway that it is going to use, in the direction of use."""
 
     @property
     def emitter_category(self) -> EmitterCategory:
-        """What its transponder says that it is."""
+        """ADS-B emitter category that its transponder sends."""
 
     def command(self, command: Command) -> None:
-        """Do as told.
+        """Carry out a command.
 
         Raises
         ------
         Unable
-            It cannot.
+            The actor cannot.
         """
 
     def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return how it will react to an advisory, None if it will not."""
+        """Return the reaction to an advisory; None if there is none."""
 
     def attend(self) -> None:
-        """Look after what was begun: several times a second."""
+        """Go on with what waits for its moment; called several times a second."""

@@ -1,4 +1,4 @@
-"""How advisories reach crews and drivers, and what they make them do."""
+"""Delivery of advisories to crews and drivers, and their reactions."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from airhilt.world.actors.reactions import FOLLOWED_FROM
 
 
 class AdvisoryDelivery:
-    """Lets actors react to advisories: to one that is spoken, when its voice begins to be heard.
+    """Delivers advisories to actors, and schedules the reactions.
 
-    Spoken are those at or above `FOLLOWED_FROM` that are active; others, and all of them without a
-    voice, are read as soon as they are decided.
+    An active advisory at or above `FOLLOWED_FROM` is spoken: its recipient gets it when the voice
+    begins to be heard. All others, and all in a run without a voice, are read as soon as they are
+    published.
 
     Parameters
     ----------
     is_voiced
-        Whether somebody speaks advisories.
+        True if a worker speaks advisories.
     event
-        Called with kind, subject and text of what comes of one.
+        Called with the kind, the subject and the text of a reaction.
     """
 
     def __init__(
@@ -46,10 +47,10 @@ class AdvisoryDelivery:
         self._by_address: dict[str, Actor] = {**addresses, **actors}
         """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
         self._unspoken: dict[tuple[str, str], Advisory] = {}
-        """The last revision of those that wait for their voice, by id and recipient."""
+        """Latest revision of each advisory that waits for its voice, by id and recipient."""
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
-        """Take in what was published."""
+        """Receive a message of the bus."""
         match message:
             case Advisory() if message.recipient in self._by_address:
                 name = (message.id, message.recipient)
@@ -57,25 +58,25 @@ class AdvisoryDelivery:
                     self._unspoken[name] = message
                 else:
                     self._unspoken.pop(name, None)
-                    self._tell(message)
+                    self._deliver(message)
             case AdvisoryAudio(id=identity, recipient=recipient, revision=revision):
                 waiting = self._unspoken.get((identity, recipient))
                 if waiting is not None and waiting.revision == revision:
                     del self._unspoken[identity, recipient]
-                    self._tell(waiting)
+                    self._deliver(waiting)
 
     def voice_lost(self) -> None:
-        """Go on without a voice: what waits for it is read now."""
+        """Go on without a voice: deliver now what waits for it."""
         self._is_voiced = False
         waiting: Sequence[Advisory] = list(self._unspoken.values())
         self._unspoken.clear()
         for advisory in waiting:
-            self._tell(advisory)
+            self._deliver(advisory)
 
     def _is_spoken(self, advisory: Advisory) -> bool:
         return self._is_voiced and advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
 
-    def _tell(self, advisory: Advisory) -> None:
+    def _deliver(self, advisory: Advisory) -> None:
         actor = self._by_address[advisory.recipient]
         reaction = actor.hear(advisory)
         if reaction is not None:

@@ -1,4 +1,4 @@
-"""The crew of an aircraft: carries out commands, and reacts to advisories after a while."""
+"""Crew of an aircraft: it carries out commands, and reacts to advisories after a delay."""
 
 from __future__ import annotations
 
@@ -30,24 +30,24 @@ from airhilt.messages import (
 )
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
-from airhilt.world.actors.departure_arrival import DepartureArrival
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 
 
 class Crew:
-    """Flies as told, unless an advisory that it follows says otherwise.
+    """Carries out commands, unless it follows an advisory.
 
-    A command that comes while an advisory is followed is remembered and flown once the conflict
-    is over. Runways and taxiways are the matter of its `DepartureArrival`.
+    A command that comes while an advisory is followed is deferred until the conflict is over.
+    `RunwayOperations` carries out commands about runways and taxiways.
     """
 
-    def __init__(self, person: ReactionModel, aircraft: Aircraft, site: ScenarioSite) -> None:
-        self.callsign = person.callsign
+    def __init__(self, reactions: ReactionModel, aircraft: Aircraft, site: ScenarioSite) -> None:
+        self.callsign = reactions.callsign
         self.aircraft = aircraft
-        self.runway_work = DepartureArrival(aircraft, site)
-        self._person = person
+        self.runway_operations = RunwayOperations(aircraft, site)
+        self._reactions = reactions
         self._site = site
         self._return_lateral: Callable[[], None] = partial(
             aircraft.en_route.hold_track, aircraft.state.track_rad
@@ -60,18 +60,18 @@ class Crew:
         self._has_route = False
 
     def fly_route(self, waypoints: list[Place]) -> None:
-        """Take a route and fly it."""
+        """Fly a route; it is the one to go back to after an advisory."""
         self.aircraft.en_route.fly_route(waypoints)
         self._return_lateral = self.aircraft.en_route.resume_route
         self._has_route = True
 
     def command(self, command: Command) -> None:
-        """Carry a command out, now or after the advisory in hand.
+        """Carry out a command, now or after the advisory that is followed.
 
         Raises
         ------
         Unable
-            It cannot be done.
+            The command cannot be carried out.
         """
         if self._followed:
             self._deferred.append(command)
@@ -84,16 +84,16 @@ class Crew:
         Raises
         ------
         Unable
-            It cannot be done.
+            It cannot be carried out.
         """
         try:
-            self.runway_work.attend()
+            self.runway_operations.attend()
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
         try:
-            if not self.runway_work.carry_out(command):
+            if not self.runway_operations.carry_out(command):
                 self._fly(command)
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
@@ -129,22 +129,22 @@ class Crew:
     # --- advisories -------------------------------------------------------------------------
 
     def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return how the crew will react to an advisory, None if it will not."""
-        person, again = self._person, advisory.id in self._followed
+        """Return the crew's reaction to an advisory; None if there is none."""
+        reactions, again = self._reactions, advisory.id in self._followed
         if not advisory.active:
             self._over.add(advisory.id)
             if not again:
                 return None
-            delay_s = person.delay_s(advisory, again)
+            delay_s = reactions.delay_s(advisory, again)
             return Reaction(delay_s, lambda: self._resume(advisory.id), "resumes")
         self._over.discard(advisory.id)
         recommendation = advisory.recommendation
         if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
             return None
-        if not person.complies(advisory.id):
+        if not reactions.complies(advisory.id):
             return None
         return Reaction(
-            person.delay_s(advisory, again),
+            reactions.delay_s(advisory, again),
             lambda: self._follow(advisory, recommendation),
             f"follows {recommendation.action}",
         )
@@ -155,11 +155,11 @@ class Crew:
         try:
             match recommendation:
                 case GoAround():
-                    return self.runway_work.go_around()
+                    return self.runway_operations.go_around()
                 case CancelTakeoff():
-                    return self.runway_work.cancel_takeoff()
+                    return self.runway_operations.cancel_takeoff()
                 case HoldPosition():
-                    return self.runway_work.hold_position()
+                    return self.runway_operations.hold_position()
                 case Climb() | MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
         except ValueError as error:
@@ -180,7 +180,7 @@ class Crew:
         return True
 
     def _resume(self, advisory_id: str) -> bool:
-        """Go back to what was flown before, unless another advisory still holds."""
+        """Resume the flight before the advisory, unless another advisory is still followed."""
         if self._followed.pop(advisory_id, None) is None or self._followed:
             return False
         self.aircraft.en_route.hold_altitude(self._altitude_before_m)

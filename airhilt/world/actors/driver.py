@@ -1,4 +1,4 @@
-"""The driver of a ground vehicle."""
+"""Driver of a ground vehicle."""
 
 from __future__ import annotations
 
@@ -10,36 +10,36 @@ from airhilt.messages import Advisory, EmitterCategory, HoldPosition
 from airhilt.scenario.models import VehicleSpec
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Reaction, Unable
-from airhilt.world.actors.ground_paths import taxi_path
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.taxi_paths import taxi_path
 from airhilt.world.mover import Driven
 from airhilt.world.site import ScenarioSite
 
 
 @dataclass(frozen=True)
 class Driver:
-    """Drives as told, and stops when an advisory says so."""
+    """Carries out commands, and stops when an advisory says so."""
 
     spec: VehicleSpec
     body: Driven
     site: ScenarioSite
-    person: ReactionModel
+    reactions: ReactionModel
     category: Literal["vehicle"] = "vehicle"
     bound_runway: None = None
-    """A vehicle is on runways only to get across or to work there."""
+    """None: a vehicle uses a runway only to cross it or to work on it."""
 
     @property
     def emitter_category(self) -> EmitterCategory:
-        """What its transponder says that it is."""
+        """ADS-B emitter category that its transponder sends."""
         return "C1" if "fire" in self.spec.kind else "C2"
 
     def command(self, command: Command) -> None:
-        """Do as told.
+        """Carry out a command.
 
         Raises
         ------
         Unable
-            There is no way there, or it is nothing that a driver does.
+            There is no way there, or drivers have no such command.
         """
         try:
             self._carry_out(command)
@@ -62,15 +62,15 @@ class Driver:
                 raise Unable(f"unable, a driver does not {command.action.replace('_', ' ')}")
 
     def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return how the driver will react to an advisory, None if it is nothing to act on."""
+        """Return the driver's reaction to an advisory; None if there is none."""
         if (
             not advisory.active
             or not isinstance(advisory.recommendation, HoldPosition)
             or advisory.severity.rank < FOLLOWED_FROM.rank
-            or not self.person.complies(advisory.id)
+            or not self.reactions.complies(advisory.id)
         ):
             return None
-        return Reaction(self.person.delay_s(advisory, again=False), self._stop, "holds position")
+        return Reaction(self.reactions.delay_s(advisory, again=False), self._stop, "holds position")
 
     def _stop(self) -> bool:
         if self.body.phase != "driving":
@@ -79,4 +79,4 @@ class Driver:
         return True
 
     def attend(self) -> None:
-        """Do nothing: a driver has no plans of its own."""
+        """Do nothing: nothing of a driver waits for its moment."""

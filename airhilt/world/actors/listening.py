@@ -1,4 +1,4 @@
-"""What somebody makes of the words that reached him: whether they are for him, and what to do."""
+"""A listener's understanding of a call: whether it is addressed, and what it commands."""
 
 from __future__ import annotations
 
@@ -23,30 +23,30 @@ from airhilt.commands import (
 from airhilt.phraseology import Call, Instruction, parse_call
 
 TAU_ASR = 0.8
-"""Below this confidence of a call its addressee asks again: the guard of arXiv 2511.18718."""
+"""Confidence below which the addressee of a call asks again (guard of arXiv 2511.18718)."""
 
 Parse = Callable[[str, Iterable[str], Sequence[float] | None], Call]
 
 
 @dataclass(frozen=True, slots=True)
 class Understanding:
-    """What a listener makes of a call."""
+    """Understanding of a call by one listener."""
 
     kind: Literal["as_said", "otherwise", "unclear", "not_for_me"]
     call: Call | None = None
-    """As it was heard; None where it did not have to be taken apart."""
+    """Call as it was heard; None where it did not have to be parsed."""
     commands: tuple[Command, ...] = ()
-    """What to do, of a call that means something else than was said."""
+    """Commands of a call that was heard otherwise than it was said."""
 
 
 @dataclass(frozen=True, slots=True)
 class Listener:
-    """Makes sense of words, with the callsigns that are on a frequency."""
+    """Understands calls, with the callsigns that are on a frequency."""
 
     callsigns: tuple[str, ...]
     parse: Parse = parse_call
 
-    def make_sense(
+    def understand(
         self,
         heard: str,
         said: str,
@@ -54,20 +54,20 @@ class Listener:
         bound_runway: str | None = None,
         word_confidences: Sequence[float] | None = None,
     ) -> Understanding:
-        """Return what somebody makes of a call that is for him.
+        """Return the understanding of a call by its addressee.
 
-        By ear, the words that were said are sure. Who reads does not know what was said: he goes by
-        the confidence of what he reads.
+        A listener by ear who heard the words that were said is certain of them. A reader of a
+        transcript does not know what was said, and goes by its confidence.
 
         Parameters
         ----------
         known_by
-            Callsigns by which he knows that it is: his own, or the caller's. Without any he takes
-            it as it comes.
+            Callsigns that show the listener that the call is addressed: its own, or the caller's.
+            Without any, the listener takes the call as addressed.
         bound_runway
-            Where he is going, which is what a call without a runway is about.
+            Runway of a call that names none: the one that the listener is going to use.
         word_confidences
-            Of what he reads; None by ear.
+            Confidence of each word of a transcript; None by ear.
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:
@@ -94,7 +94,7 @@ class Listener:
         bound_runway: str | None = None,
         word_confidences: Sequence[float] | None = None,
     ) -> Understanding:
-        """Return what somebody makes of a call that is not for him."""
+        """Return the understanding of a call by somebody else than its addressee."""
         if words(heard) == words(said):
             return Understanding("not_for_me")
         taken = self.parse(heard, self.callsigns, word_confidences)
@@ -108,7 +108,7 @@ class Listener:
         return Understanding("otherwise", taken, commands)
 
     def differs(self, read_back: str, said: str) -> bool:
-        """Return whether a readback says something that the call does not; less is no mistake."""
+        """Return whether a readback contradicts the call; a shorter readback does not."""
         meant = self.parse(said, self.callsigns, None).instructions
         return not all(
             any(_agree(instruction, other) for other in meant)
@@ -119,7 +119,7 @@ class Listener:
     def _is_not_for(
         taken: Call, known_by: tuple[str, ...]
     ) -> Literal["unclear", "not_for_me"] | None:
-        """Return why a call is not surely the one that is known by some callsigns, or None."""
+        """Return why a call may not be for a listener with these callsigns; None if it is."""
         match = taken.match
         if match.ambiguous and any(one.callsign in known_by for one in match.candidates):
             return "unclear"
@@ -127,12 +127,12 @@ class Listener:
 
 
 def _wants_something(call: Call) -> bool:
-    """Return whether a call orders or asks something, so that its words matter."""
+    """Return whether a call instructs or asks, so that its words matter."""
     return bool(call.instructions) or call.kind in ("request", "say_again", "disregard")
 
 
 def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
-    """Return whether instructions come to the same: conditions may be worded in many ways."""
+    """Return whether instructions mean the same, however their conditions are worded."""
     return len(heard) == len(said) and all(
         _agree(one, other) and _numbers(one) == _numbers(other)
         for one, other in zip(heard, said, strict=True)
@@ -140,7 +140,7 @@ def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) ->
 
 
 def _agree(one: Instruction, other: Instruction) -> bool:
-    """Return whether two are of one action, and nothing that both say differs."""
+    """Return whether two instructions have one action and do not contradict each other."""
     return one.action == other.action and all(
         first is None or second is None or first == second
         for first, second in zip(_details(one), _details(other), strict=True)
@@ -148,7 +148,7 @@ def _agree(one: Instruction, other: Instruction) -> bool:
 
 
 def _details(instruction: Instruction) -> tuple[object, ...]:
-    """Return what may not differ; of a condition, which has many wordings, that there is one."""
+    """Return the details that may not differ; of a condition only whether there is one."""
     return (
         instruction.condition is not None,
         instruction.runway,
@@ -169,17 +169,17 @@ def _numbers(instruction: Instruction) -> tuple[float | None, ...]:
 
 
 def words(text: str) -> list[str]:
-    """Return the words of a call, however it is written."""
+    """Return the words of a call without case and punctuation."""
     return re.findall(r"[a-z0-9]+", text.lower())
 
 
 def commands_of(
     instructions: Iterable[Instruction], bound_runway: str | None
 ) -> tuple[Command, ...]:
-    """Return what instructions make their addressee do, as far as there is a command for it.
+    """Return the commands that instructions give, as far as there is a command for each.
 
-    What only holds on a condition is left undone: words do not tell when it is met. A level that
-    comes with a takeoff or a go-around is where that climbs to.
+    Instructions with a condition give none: their words do not say when it is met. A level that
+    comes with a takeoff or a go-around is the level that it climbs to.
     """
     now = [instruction for instruction in instructions if instruction.condition is None]
     level_ft = next((one.altitude_ft for one in now if one.altitude_ft is not None), None)

@@ -1,25 +1,25 @@
-"""Things that wait until something is true of the world."""
+"""Actions that wait for a condition on the true state."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 Test = Callable[[int], bool]
-"""Tells whether a condition is true at a time in nanoseconds."""
+"""Returns whether a condition is true at a time in ns."""
 
 
 class Triggers:
-    """Actions, each done once, as soon as its test is true."""
+    """Actions that each run once, as soon as their condition is true."""
 
     def __init__(self) -> None:
         self._waiting: list[tuple[Test, Callable[[], None]]] = []
 
     def once(self, test: Test, action: Callable[[], None]) -> None:
-        """Do an action as soon as a test is true."""
+        """Run an action as soon as a test is true."""
         self._waiting.append((test, action))
 
-    def look(self, now_ns: int) -> None:
-        """Do what is due, in the order in which it began to wait."""
+    def evaluate(self, now_ns: int) -> None:
+        """Evaluate the pending triggers; run the due actions in the order of their registration."""
         waiting, self._waiting = self._waiting, []
         due = []
         for test, action in waiting:

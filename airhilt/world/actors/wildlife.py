@@ -1,4 +1,4 @@
-"""Wildlife: does what its plan says, and flees what comes too near."""
+"""Wildlife: it follows its plan, and flees from what comes too near."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from airhilt.world.site import ScenarioSite
 
 @dataclass(frozen=True)
 class Animal:
-    """An animal, or a flock, of the scenario."""
+    """Animal or flock of the scenario."""
 
     spec: WildlifeSpec
     body: Creature
@@ -37,7 +37,7 @@ class Animal:
         Raises
         ------
         Unable
-            It is nothing that an animal does, or there is no such place.
+            Animals have no such command, or there is no such place.
         """
         match command:
             case StandCommand():
@@ -60,11 +60,11 @@ class Animal:
                 self.body.fly_to(there, height_m)
 
     def hear(self, advisory: Advisory) -> Reaction | None:  # noqa: ARG002
-        """Return None: nobody talks to animals."""
+        """Return None: animals get no advisories."""
         return None
 
     def attend(self) -> None:
-        """Flee what has come too near and moves."""
+        """Flee from what has come too near and moves."""
         within_m = self.spec.startles_within_m
         if within_m <= 0.0 or self.body.startled:
             return

@@ -56,15 +56,15 @@ class Told:
         def event(kind, subject, text):
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
 
-        advised = AdvisoryDelivery(director, {"AAL123": self.crew}, event, is_voiced=voiced)
+        delivery = AdvisoryDelivery(director, {"AAL123": self.crew}, event, is_voiced=voiced)
         for at_s, message in messages:
             director.at(
                 seconds_to_ns(at_s),
-                lambda message=message: advised.take("", message, b""),
+                lambda message=message: delivery.take("", message, b""),
                 Priority.RESULT,
             )
         if lost_at_s is not None:
-            director.at(seconds_to_ns(lost_at_s), advised.voice_lost, Priority.RESULT)
+            director.at(seconds_to_ns(lost_at_s), delivery.voice_lost, Priority.RESULT)
         director.run()
 
     @property

@@ -97,9 +97,9 @@ def test_a_driver_says_what_it_cannot_do(driver):
 def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
     deer = cast_of("s01c_deer_undetected")["DEER1"]
     assert deer.hear(advisory(HoldPosition(runway="01"))) is None
-    cue = deer.spec.plan[0]
+    planned = deer.spec.plan[0]
     before = deer.body.state
-    deer.command(cue.command)
+    deer.command(planned.command)
     advance(deer, 20.0)
     after = deer.body.state
     walked = distance_m(
@@ -131,13 +131,13 @@ def test_a_deer_that_startles_flees_what_comes_near_and_moves():
 
 def test_what_waits_is_done_once_as_soon_as_it_is_true():
     done: list[str] = []
-    cues = Triggers()
-    cues.once(lambda now_ns: now_ns >= 5, lambda: done.append("a"))
-    cues.once(
-        lambda now_ns: now_ns >= 3, lambda: cues.once(lambda _: True, lambda: done.append("b"))
+    triggers = Triggers()
+    triggers.once(lambda now_ns: now_ns >= 5, lambda: done.append("a"))
+    triggers.once(
+        lambda now_ns: now_ns >= 3, lambda: triggers.once(lambda _: True, lambda: done.append("b"))
     )
     for now_ns in range(8):
-        cues.look(now_ns)
+        triggers.evaluate(now_ns)
     assert done == ["b", "a"]
 
 
@@ -197,23 +197,25 @@ def test_an_animal_stands_still_when_its_plan_says_so():
     assert deer.body.phase == "standing"
 
 
-def test_what_a_cue_sets_waiting_is_looked_at_the_next_time():
-    """Also where it is true already: nothing is done twice or forgotten within one look."""
+def test_a_trigger_that_another_sets_is_evaluated_the_next_time():
+    """Also where it is true already: no action runs twice or is forgotten."""
     done: list[str] = []
-    cues = Triggers()
-    cues.once(lambda _: True, lambda: cues.once(lambda _: True, lambda: done.append("second")))
-    cues.look(0)
+    triggers = Triggers()
+    triggers.once(
+        lambda _: True, lambda: triggers.once(lambda _: True, lambda: done.append("second"))
+    )
+    triggers.evaluate(0)
     assert done == []
-    cues.look(1)
-    cues.look(2)
+    triggers.evaluate(1)
+    triggers.evaluate(2)
     assert done == ["second"]
 
 
 def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first():
     done: list[str] = []
-    cues = Triggers()
+    triggers = Triggers()
     for name in "abc":
-        cues.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))
+        triggers.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))
     for now_ns in range(5):
-        cues.look(now_ns)
+        triggers.evaluate(now_ns)
     assert done == ["a", "b", "c"]

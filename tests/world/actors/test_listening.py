@@ -13,7 +13,7 @@ LISTENER = Listener(ON_FREQUENCY)
 
 
 def sense(heard, said=SAID, known_by=("AAL123",), **more):
-    return LISTENER.make_sense(heard, said, known_by, **more)
+    return LISTENER.understand(heard, said, known_by, **more)
 
 
 def test_the_same_words_mean_the_same_however_they_are_written():
@@ -52,14 +52,14 @@ def test_a_call_that_could_be_for_two_is_asked_for_again():
     match = dataclasses.replace(parse_call(SAID, ("AAL123",)).match, ambiguous=True)
     ambiguous = dataclasses.replace(parse_call(SAID, ("AAL123",)), match=match)
     unsure = Listener(listener.callsigns, lambda *_: ambiguous)
-    assert unsure.make_sense("something like it", SAID, ("AAL123",)).kind == "unclear"
+    assert unsure.understand("something like it", SAID, ("AAL123",)).kind == "unclear"
 
 
 @pytest.mark.parametrize(("confidence", "kind"), [(TAU_ASR - 0.01, "unclear"), (1.0, "as_said")])
 def test_what_he_is_not_sure_of_he_asks_for_again(confidence, kind):
     call = dataclasses.replace(parse_call(SAID, ON_FREQUENCY), confidence=confidence)
     listener = Listener(ON_FREQUENCY, lambda *_: call)
-    assert listener.make_sense("nearly that", SAID, ("AAL123",)).kind == kind
+    assert listener.understand("nearly that", SAID, ("AAL123",)).kind == kind
 
 
 def read(text, confidence, said=None):
@@ -82,7 +82,7 @@ def test_who_reads_a_callsign_that_may_be_two_asks_again_though_the_words_are_ri
     match = dataclasses.replace(call.match, ambiguous=True)
     listener = Listener(ON_FREQUENCY, lambda *_: dataclasses.replace(call, match=match))
     sure = [1.0] * len(SAID.split())
-    assert listener.make_sense(SAID, SAID, ("AAL123",), None, sure).kind == "unclear"
+    assert listener.understand(SAID, SAID, ("AAL123",), None, sure).kind == "unclear"
 
 
 def test_nobody_asks_for_a_call_again_that_orders_and_asks_nothing():

@@ -1,43 +1,41 @@
-"""Ways over the airport, for crews and drivers alike."""
+"""Paths over the airport for crews and drivers: taxi routes, hold-short positions, exits."""
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from airhilt.commands import TaxiCommand
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.positions import HoldShortPosition
 from airhilt.geodesy.wgs84 import Place, azimuth, distance_m, onward
-from airhilt.units import wrap_angle
 from airhilt.world.actors.actor import Unable
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 
 if TYPE_CHECKING:
-    from airhilt.world.surface.layout import Exit, Hold, Layout
+    from airhilt.world.surface.layout import Exit, Hold
 
 NOSE_MARGIN_M = 3.0
-"""Kept between the nose and a hold line."""
+"""Distance between the nose and a hold line, in m."""
 HOLD_REACH_M = 150.0
-"""From a hold-short position, an aircraft within this can line up by it."""
+"""Greatest distance from a hold-short position at which an aircraft lines up from it, in m."""
 TOUCHDOWN_M = 450.0
-"""Past the threshold, where a normal landing has touched down."""
+"""Distance past the threshold at which a normal landing has touched down, in m."""
 BRAKING_M_S2 = 2.0
-"""Of a firm rollout."""
+"""Deceleration of a firm rollout, in m/s2."""
 EXIT_SPEED_M_S = 8.0
-"""At which a taxiway is turned on to."""
+"""Speed of the turn onto a taxiway, in m/s."""
 
 
 def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
-    """Return the way to the end of a taxi command, its last place for the actor's centre.
+    """Return the path of a taxi command for the actor's centre.
 
-    Short of a hold line the nose stops before it.
+    If it ends at a hold line, the nose stops before the line.
 
     Raises
     ------
     Unable
-        There is no such way.
+        There is no such path.
     """
     try:
         end = site.place(command.to)
@@ -52,7 +50,7 @@ def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: flo
 
 
 def shortened(path: list[Place], by_m: float) -> list[Place]:
-    """Return a path without its last metres; at least its first place is left."""
+    """Return a path without its last ``by_m`` metres; its first place always remains."""
     left = list(path)
     while len(left) > 1:
         length = distance_m(left[-2], left[-1])
@@ -70,7 +68,7 @@ def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
     Raises
     ------
     Unable
-        It stands at none.
+        The actor stands at none.
     """
     airport = site.airport
     try:
@@ -87,7 +85,7 @@ def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
 def exit_for(
     site: ScenarioSite, runway: RunwayEnd, speed_m_s: float, name: str | None
 ) -> Exit | None:
-    """Return the exit by that name, or the first that a normal rollout makes; None: none does.
+    """Return the exit of a name, or the first that a normal rollout can take; None: no such exit.
 
     Raises
     ------
@@ -105,38 +103,10 @@ def exit_for(
     made = [each for each in exits if each.along_m >= needed_m]
     if not made:
         return None
-    # Where a taxiway crosses the runway, to the side of the stands.
+    # Where a taxiway crosses the runway, the exit is on the side of the stands.
     stands = [site.airport.node(stand) for stand in site.airport.stands]
     both_sides = [each for each in made if each.along_m < made[0].along_m + 1.0]
     return min(
         both_sides,
         key=lambda way: min((distance_m(way.path[-1], stand) for stand in stands), default=0.0),
     )
-
-
-class FinalApproach:
-    """Where an aircraft is with regard to a final approach, cheap enough to ask all the time."""
-
-    def __init__(self, airport: Layout, runway: RunwayEnd) -> None:
-        self.runway = runway
-        self._frame = airport.frame
-        self._east, self._north = airport.frame.to_local(runway.threshold)
-        self._sin, self._cos = math.sin(runway.course_rad), math.cos(runway.course_rad)
-
-    def before_m(self, here: Place) -> float:
-        """Return the distance to the threshold along the approach, negative beyond it."""
-        east, north = self._off_threshold(here)
-        return -(east * self._sin + north * self._cos)
-
-    def right_m(self, here: Place) -> float:
-        """Return the distance to the right of the approach."""
-        east, north = self._off_threshold(here)
-        return east * self._cos - north * self._sin
-
-    def angle_rad(self, track_rad: float) -> float:
-        """Return the angle of a track against the approach, positive to the right."""
-        return wrap_angle(track_rad - self.runway.course_rad)
-
-    def _off_threshold(self, here: Place) -> tuple[float, float]:
-        east, north = self._frame.to_local(here)
-        return east - self._east, north - self._north

@@ -151,7 +151,7 @@ def test_from_a_hold_it_lines_up_along_the_way_in():
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "line_up", runway="01")
-    assert crew.runway_work.bound_runway == "01"
+    assert crew.runway_operations.bound_runway == "01"
     ((name, path, then),) = plane.told
     assert (name, then) == ("taxi", "lined_up")
     assert len(path) > 10
@@ -199,7 +199,7 @@ def test_once_it_climbs_out_it_is_bound_for_no_runway():
     tell(crew, "line_up", runway="01")
     plane.phase = "climb_out"
     crew.attend()
-    assert crew.runway_work.bound_runway is None
+    assert crew.runway_operations.bound_runway is None
 
 
 # --- arrivals -------------------------------------------------------------------------------
@@ -208,19 +208,19 @@ def test_once_it_climbs_out_it_is_bound_for_no_runway():
 def test_without_a_landing_clearance_it_goes_around_at_200_ft():
     plane = on_final(2_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     crew.attend()
     assert plane.names == ["land"]
     plane.height_m = 190 * FOOT
     crew.attend()
     assert plane.names == ["land", "go_around"]
-    assert crew.runway_work.bound_runway is None
+    assert crew.runway_operations.bound_runway is None
 
 
 def test_with_one_it_goes_on():
     plane = on_final(2_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     tell(crew, "land", runway="01")
     plane.height_m = 100 * FOOT
     crew.attend()
@@ -245,7 +245,7 @@ def test_over_a_circuit_it_lands_once_it_is_on_final():
 def test_over_the_threshold_and_far_too_high_it_goes_around():
     plane = on_final(4_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     tell(crew, "land", runway="01")
     plane.place = on_final(-100.0).place
     crew.attend()
@@ -300,7 +300,7 @@ def test_who_is_unable_to_line_up_is_bound_for_no_runway():
     for action in ("line_up", "take_off"):
         with pytest.raises(Unable):
             tell(crew, action, runway="01")
-    assert crew.runway_work.bound_runway is None
+    assert crew.runway_operations.bound_runway is None
 
 
 def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there():
@@ -310,7 +310,7 @@ def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there():
     tell(crew, "take_off", runway="01", climb_to_ft=4000)
     crew.attend()
     assert plane.told == []
-    assert crew.runway_work.bound_runway == "01"
+    assert crew.runway_operations.bound_runway == "01"
     for phase in ("standing", "line_up", "lined_up"):
         plane.phase = phase
         crew.attend()
@@ -335,7 +335,7 @@ def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold():
 def test_a_cancelled_takeoff_is_not_taken_up_by_itself():
     plane = Plane("lined_up", kdca().airport.runway("01").start)
     crew = crew_of(plane)
-    crew.runway_work.bind("01")
+    crew.runway_operations.bind("01")
     tell(crew, "cancel_takeoff")
     crew.attend()
     assert plane.told == []
@@ -366,12 +366,12 @@ def test_a_go_around_climbs_from_wherever_it_begins(height_ft, climb_to_ft):
 def test_after_a_go_around_it_needs_another_clearance_to_land():
     plane = on_final(2_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     tell(crew, "land", runway="01")
     tell(crew, "go_around")
-    assert crew.runway_work.bound_runway is None
+    assert crew.runway_operations.bound_runway is None
     plane.phase, plane.told = "glide", []
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     plane.height_m = 190 * FOOT
     crew.attend()
     assert plane.names == ["land", "go_around"]
@@ -380,12 +380,12 @@ def test_after_a_go_around_it_needs_another_clearance_to_land():
 def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles():
     plane = on_final(5_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     with pytest.raises(Unable, match="on final approach to runway 01"):
         tell(crew, "land", runway="33")
-    assert crew.runway_work.bound_runway == "01"
+    assert crew.runway_operations.bound_runway == "01"
     tell(crew, "land", runway="33", via=[{"type": "runway", "runway": "33", "along_m": -5_000}])
-    assert crew.runway_work.bound_runway == "33"
+    assert crew.runway_operations.bound_runway == "33"
 
 
 def test_on_the_ground_it_is_unable_to_land():
@@ -397,11 +397,11 @@ def test_on_the_ground_it_is_unable_to_land():
 def test_who_leaves_an_approach_is_bound_for_no_runway(command):
     plane = on_final(5_000.0)
     crew = crew_of(plane)
-    crew.runway_work.begin_on_final("01")
+    crew.runway_operations.begin_on_final("01")
     tell(crew, **command)
     plane.phase = "en_route"
     crew.attend()
-    assert crew.runway_work.bound_runway is None
+    assert crew.runway_operations.bound_runway is None
     plane.height_m = 150 * FOOT
     crew.attend()
     assert plane.names == ["land", "hold_track"]
@@ -440,4 +440,4 @@ def test_the_final_approach_is_joined_near_it_and_about_along_it(
     crew = crew_of(plane)
     tell(crew, "land", runway="01")
     assert plane.names == (["land"] if lands else [])
-    assert crew.runway_work.bound_runway == "01"
+    assert crew.runway_operations.bound_runway == "01"

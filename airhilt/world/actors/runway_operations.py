@@ -1,4 +1,4 @@
-"""What a crew does about runways and taxiways: line up, take off, land, taxi, or not."""
+"""Runway operations of a crew: taxi, line up, take off, land, go around."""
 
 from __future__ import annotations
 
@@ -24,48 +24,51 @@ from airhilt.commands import (
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.ground_paths import FinalApproach, exit_for, hold_beside, taxi_path
+from airhilt.world.actors.final_approach import FinalApproach
+from airhilt.world.actors.taxi_paths import exit_for, hold_beside, taxi_path
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 
 DECISION_SPEED_PART = 0.95
-"""V1 as a part of the rotation speed: with dry runways the two lie within a few knots."""
+"""V1 as a part of the rotation speed: on dry runways the two lie within a few knots."""
 DECISION_HEIGHT_M = 200.0 * FOOT
-"""Without a landing clearance here, the crew goes around (the usual minimum of category I)."""
+"""Height in m at which a crew without a landing clearance goes around (category I minimum)."""
 GO_AROUND_CLIMB_M = 3000.0 * FOOT
-"""Above the airport, where nothing else was said."""
+"""Height above the airport that a go-around climbs to by default, in m."""
 LEAST_CLIMB_M = 500.0 * FOOT
-"""Of a go-around that begins above that."""
+"""Least climb of a go-around that begins above that, in m."""
 TOO_HIGH_M = 150.0 * FOOT
-"""Over the threshold; 50 ft is normal (ICAO Annex 10 volume I, 3.1.5.1.4)."""
+"""Height over the threshold from which a landing is broken off, in m. The normal height is 50 ft
+(ICAO Annex 10 volume I, 3.1.5.1.4)."""
 CAPTURE_ANGLE_RAD = math.radians(40.0)
+"""Greatest angle to the final approach course at which it is joined, in rad."""
 CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
-"""From the extended centre line, where the final approach is joined."""
+"""Greatest distance from the extended centre line at which the final approach is joined, in m."""
 
 
-class DepartureArrival:
-    """One aircraft's dealings with runways."""
+class RunwayOperations:
+    """Carries out the commands of one crew about runways and taxiways."""
 
     def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
         self._final: FinalApproach | None = None
-        """That of the runway it is bound for."""
+        """Final approach of the runway that the crew is going to use."""
         self._aircraft = aircraft
         self._site = site
         self._cleared_to_land = False
         self._next: Callable[[], bool] | None = None
-        """What comes next once its moment has come; tells whether it was done."""
+        """Next step, tried several times a second until it returns True."""
 
     @property
     def bound_runway(self) -> str | None:
-        """The runway that the crew means to use, in the direction in which it will.
+        """Runway that the crew is going to use, in the direction of use.
 
-        None before it has one, and once it is done with it.
+        None before it has one, and after it has left it.
         """
         return None if self._final is None else self._final.runway.ident
 
     def bind(self, runway: str) -> RunwayEnd:
-        """Mean to use a runway from now on; return it.
+        """Set the runway that the crew is going to use; return it.
 
         Raises
         ------
@@ -76,15 +79,15 @@ class DepartureArrival:
         self._final = FinalApproach(self._site.airport, end)
         return end
 
-    # --- as told ----------------------------------------------------------------------------
+    # --- commands -----------------------------------------------------------------------------
 
     def carry_out(self, command: Command) -> bool:
-        """Do as told; return False for what is no matter of runways or taxiways.
+        """Carry out a command; return False for one that is not about runways or taxiways.
 
         Raises
         ------
         Unable, ValueError, ScenarioError
-            It cannot be done.
+            The command cannot be carried out.
         """
         match command:
             case TaxiCommand():
@@ -124,7 +127,7 @@ class DepartureArrival:
         Raises
         ------
         Unable, ValueError, ScenarioError
-            Its moment has come, and it cannot be done.
+            Its moment has come, and it cannot be carried out.
         """
         following, self._next = self._next, None
         if following is not None and not following() and self._next is None:
@@ -136,10 +139,10 @@ class DepartureArrival:
         elif phase == "glide" and self._final is not None:
             self._go_around_if_too_high(self._final)
 
-    # --- advised ----------------------------------------------------------------------------
+    # --- advisories ---------------------------------------------------------------------------
 
     def go_around(self) -> bool:
-        """Break the approach off, if there is one; return whether there was."""
+        """Break off the approach; return whether there was one."""
         aircraft = self._aircraft
         if aircraft.phase not in ("glide", "flare") or aircraft.on_ground:
             return False
@@ -148,7 +151,7 @@ class DepartureArrival:
         return True
 
     def cancel_takeoff(self) -> bool:
-        """Do not take off, or reject the takeoff below the decision speed."""
+        """Cancel a takeoff, or reject it below the decision speed; return False above that."""
         aircraft = self._aircraft
         match aircraft.phase:
             case "takeoff_roll":
@@ -173,7 +176,7 @@ class DepartureArrival:
         self._aircraft.procedures.hold_position()
         return True
 
-    # --- how --------------------------------------------------------------------------------
+    # --- steps --------------------------------------------------------------------------------
 
     def _here(self) -> Place:
         state = self._aircraft.state
@@ -194,7 +197,7 @@ class DepartureArrival:
         elif aircraft.phase not in ("lined_up", "line_up"):
             hold = hold_beside(self._site, here, runway)
             path = self._site.airport.entry_path(hold, runway)
-            # Held on its way in, it goes on from there, and not back to the hold line.
+            # After a hold on the way in, the aircraft goes on from there, not from the hold line.
             aside_m = abs(final.right_m(here))
             ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
             aircraft.procedures.taxi([here, *(ahead or path[-1:])], then="lined_up")
@@ -268,7 +271,7 @@ class DepartureArrival:
         return self.go_around()
 
     def _go_around_if_too_high(self, final: FinalApproach) -> None:
-        """Break an approach off that has come over the threshold far above it."""
+        """Break off an approach that has crossed the threshold too high."""
         too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
         if too_high and final.before_m(self._here()) < 0.0:
             self.go_around()

@@ -1,0 +1,58 @@
+"""An aircraft of the scenario, with its crew."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from airhilt.commands import Command
+from airhilt.messages import Advisory, EmitterCategory
+from airhilt.scenario.models import AircraftSpec
+from airhilt.world.actors.actor import Reaction
+from airhilt.world.actors.crew import Crew
+from airhilt.world.flight.aircraft import Aircraft
+
+EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
+    "jet": "A3",
+    "heavy_jet": "A5",
+    "piston_single": "A1",
+    "piston_twin": "A1",
+}
+
+
+@dataclass(frozen=True)
+class Flight:
+    """One aircraft of the scenario, with its crew."""
+
+    spec: AircraftSpec
+    body: Aircraft
+    crew: Crew
+    category: Literal["aircraft"] = "aircraft"
+
+    @property
+    def bound_runway(self) -> str | None:
+        """Runway that the crew is going to use."""
+        return self.crew.runway_operations.bound_runway
+
+    @property
+    def emitter_category(self) -> EmitterCategory:
+        """ADS-B emitter category that its transponder sends."""
+        return EMITTER_CATEGORIES[self.body.kind.category]
+
+    def command(self, command: Command) -> None:
+        """Give a command to the crew.
+
+        Raises
+        ------
+        Unable
+            The crew cannot carry it out.
+        """
+        self.crew.command(command)
+
+    def hear(self, advisory: Advisory) -> Reaction | None:
+        """Return the crew's reaction to an advisory; None if there is none."""
+        return self.crew.hear(advisory)
+
+    def attend(self) -> None:
+        """Let the crew go on with what waits for its moment."""
+        self.crew.attend()
