@@ -17,7 +17,6 @@ from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
-from airhilt.assistant.wording.engines import advisory_wording
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
@@ -29,6 +28,7 @@ from airhilt.messages import (
     AdvisoryAudio,
     Detections,
     Evidence,
+    GoAround,
     Message,
     Severity,
     Transcript,
@@ -39,6 +39,7 @@ from airhilt.voices.engines import FAMILY as VOICES
 from camera_run import passing
 from engine_package import installed
 from oracle import BlankSceneRenderer
+from paths import DOCS
 
 M = TypeVar("M", bound=Message)
 HEAD = """
@@ -99,54 +100,10 @@ class Deer:
 ENGINE = Engine("everything_is_a_deer", "finds a deer in every picture", lambda _: Deer())
 """
 )
-ASSISTANT = """
-from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision
-from airhilt.engines import Engine
-from airhilt.messages import AdsbReport, Evidence, Severity
-
-
-class Nervous:
-    name, reads = "nervous", (AdsbReport,)
-
-    def __init__(self):
-        self.heard = {}
-
-    def receive(self, received):
-        self.heard.setdefault(received.message.callsign, False)
-
-    def decide(self, t_ns):
-        new = [callsign for callsign, told in self.heard.items() if callsign and not told]
-        self.heard |= dict.fromkeys(new, True)
-        return Decision([self.alert(callsign) for callsign in new])
-
-    def alert(self, callsign):
-        return Alert(
-            id=f"heard-{callsign}",
-            revision=0,
-            kind="loss_of_separation",
-            severity=Severity.ADVISORY,
-            recipients=("ATC",),
-            traffic=(callsign,),
-            evidence=Evidence(sources=("adsb",), note=f"heard {callsign}"),
-        )
-
-
-ENGINE = Engine("nervous", "warns of everybody that it hears", lambda _: Nervous())
-"""
-WORDING = """
-from airhilt.engines import Engine
-
-
-class Shouting:
-    name = "shouting"
-
-    def message(self, alert, recipient):
-        return f"{recipient}! {alert.severity}! {alert.evidence.note}".upper()
-
-
-ENGINE = Engine("shouting", "shouts", lambda _: Shouting())
-"""
+ASSISTANT, WORDING = re.findall(
+    r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), flags=re.DOTALL
+)
+"""The examples of the guide."""
 UNUSABLE = (
     HEAD
     + """
@@ -210,18 +167,26 @@ def test_a_run_looks_with_a_detector_of_another_package(
     assert any(one.detections for one in seen)
 
 
-def test_a_run_decides_with_an_assistant_of_another_package(
+def test_a_run_decides_and_words_with_engines_of_other_packages(
     encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT):
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT),
+        installed(tmp_path, monkeypatch, "airhilt.wording", "shouting", WORDING),
+    ):
         result = run(
-            encounter, out=tmp_path / "run", latency="fixed", speech=False, assistant="nervous"
+            encounter,
+            out=tmp_path / "run",
+            latency="fixed",
+            speech=False,
+            assistant="nervous",
+            wording="shouting",
         )
     assert result.summary.assistant == "nervous"
     told = messages(result, "advisory/", Advisory)
     assert {(one.id, one.recipient, one.message) for one in told} == {
-        ("decision-heard-AAL123", "ATC", "AAL123, heard AAL123"),
-        ("decision-heard-DAL456", "ATC", "DAL456, heard DAL456"),
+        ("decision-heard-AAL123", "ATC", "ATC! ADVISORY! HEARD AAL123"),
+        ("decision-heard-DAL456", "ATC", "ATC! ADVISORY! HEARD DAL456"),
     }
 
 
@@ -234,21 +199,22 @@ def test_a_worker_of_its_own_process_takes_engines_of_other_packages(
     assert [one.key for one in worker.description.inputs] == ["adsb/*"]
 
 
-def test_a_wording_of_another_package_says_it_otherwise(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with installed(tmp_path, monkeypatch, "airhilt.wording", "shouting", WORDING):
-        wording = advisory_wording("shouting")
+def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None:
     alert = Alert(
         id="a",
         revision=0,
         kind="runway_conflict",
         severity=Severity.WARNING,
-        recipients=("ATC",),
+        recipients=("AAL123", "ATC"),
         traffic=("AAL123",),
-        evidence=Evidence(sources=("vision",), note="deer on runway 01"),
+        evidence=Evidence(sources=("vision",), note="deer on runway 01", time_to_go_s=12.0),
+        recommendations={"AAL123": GoAround(runway="01")},
     )
-    assert wording.message(alert, "ATC") == "ATC! WARNING! DEER ON RUNWAY 01"
+    words = [Template().message(alert, recipient) for recipient in alert.recipients]
+    assert words == [
+        "AAL123 go around, deer on runway 01, 12 s to go",
+        "AAL123, deer on runway 01, 12 s to go; AAL123 go around",
+    ]
 
 
 def test_an_assistant_that_is_none_is_named_with_what_there_is() -> None:
