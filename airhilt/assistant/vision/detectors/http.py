@@ -1,11 +1,11 @@
-"""A detector behind an address: a PNG picture goes there, ``{detections: [...]}`` comes back."""
+"""A detector at an address: it takes a PNG picture and answers ``{detections: [...]}``."""
 
 from __future__ import annotations
 
-import struct
-import zlib
+import io
 from collections.abc import Sequence
 
+from PIL import Image
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
@@ -17,17 +17,13 @@ from airhilt.services import USAGE, HttpService, is_service
 
 TIMEOUT_S = 10.0
 MAXIMUM_BYTES = 1_000_000
-"""Of one answer."""
+"""Size of the largest answer."""
 MOST_FOUND = 1_000
-"""In one picture."""
+"""Largest number of detections in one picture."""
 MOST_FAILURES = 3
-"""So many requests in a row without an answer end it."""
+"""Number of requests in a row without an answer that end it."""
 PNG_LEVEL = 1
-"""Of compression: it goes to the same machine or the next, so fast comes before small."""
-RGB8 = (8, 2, 0, 0, 0)
-"""Bit depth, colour type, and the only methods of compression, filter and interlace that suit."""
-SUB = b"\x01"
-"""Filter of a row: each pixel less the one before it."""
+"""Compression: pictures go to the same machine or the next, so fast comes before small."""
 
 
 class _Detection(BaseModel):
@@ -48,8 +44,8 @@ class HttpDetector:
     The answer is JSON such as ``{"detections": [{"label": "airplane", "confidence": 0.9, "box":
     [10, 20, 40, 30]}]}``, boxes in pixels: left, top, right, bottom.
 
-    A request without an answer costs one picture, and `MOST_FAILURES` of them in a row end it; an
-    answer that is none ends it at once.
+    A request without an answer loses one picture, and `MOST_FAILURES` of them in a row lose the
+    detector; an invalid answer does so at once.
     """
 
     name = "http"
@@ -58,7 +54,7 @@ class HttpDetector:
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
         self._service = HttpService("detector http", url, timeout_s, MAXIMUM_BYTES, VisionError)
         self._failures = 0
-        """Since the last answer."""
+        """Failed requests since the last answer."""
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what the service finds in a picture; see `Detector.detect`."""
@@ -78,7 +74,7 @@ class HttpDetector:
         return answer
 
     def _placed(self, each: _Detection, picture: Picture) -> Found:
-        """Return what was found, cut to the picture: of what lies beside it nothing is left."""
+        """Return a detection with its box cut to the picture."""
         rows, columns = picture.shape[:2]
         left, top, right, bottom = each.box
         if left > right or top > bottom:
@@ -101,23 +97,10 @@ class HttpDetector:
 
 
 def encode_png(picture: Picture) -> bytes:
-    """Return a picture as PNG (W3C, Portable Network Graphics, 2nd ed.)."""
-    rows, columns = picture.shape[:2]
-    filtered = picture.copy()
-    filtered[:, 1:] -= picture[:, :-1]
-    lines = b"".join(SUB + row.tobytes() for row in filtered)
-    return b"".join(
-        (
-            b"\x89PNG\r\n\x1a\n",
-            _chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, *RGB8)),
-            _chunk(b"IDAT", zlib.compress(lines, PNG_LEVEL)),
-            _chunk(b"IEND", b""),
-        )
-    )
-
-
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    """Return a picture as PNG."""
+    png = io.BytesIO()
+    Image.fromarray(picture).save(png, "PNG", compress_level=PNG_LEVEL)
+    return png.getvalue()
 
 
 ENGINE = Engine(
