@@ -1,4 +1,4 @@
-"""Networks in ONNX, run so that the same input gives the same bytes, and one core is enough."""
+"""ONNX networks, run so that the same input gives the same bytes and one core is enough."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def open_network(
     Parameters
     ----------
     subject
-        What it is for, at the head of messages.
+        Words for its purpose, at the head of error messages.
     expected
-        What kind of network, at their end.
+        Kind of network, at the end of error messages.
     error
-        Class of what is raised.
+        Class of all errors.
     threads
-        That share the work; they do not change what comes out.
+        Number of threads; it does not change the output.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The workers of a run: who they are, what reaches them, what they may say."""
+"""The workers of a run: their inputs are routed, and their outputs checked."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every worker implements, in this process or another."""
+"""The protocol of workers, in this process or another."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What a worker gives back: messages to publish, and when to call again without inputs.
+    """The result of a step: messages to publish, and when to call again without inputs.
 
     Leave ``t_ns`` out of the messages: the run stamps it when the worker's latency has passed.
     """
@@ -23,15 +23,15 @@ class Step:
 
 
 class Worker(Protocol):
-    """A part of the assistant. It sees what arrives on its keys and nothing else."""
+    """A part of the assistant, which sees what arrives on its keys and nothing else."""
 
     @property
     def description(self) -> WorkerDescription:
-        """Its name, modality, inputs and declared latency."""
+        """Name, modality, inputs and declared latency."""
         ...
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
-        """Take what has arrived, at simulation time ``t_ns``, and answer."""
+        """Return what follows from the inputs that have arrived at simulation time ``t_ns``."""
         ...
 
 
@@ -51,7 +51,7 @@ class LocalWorker:
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> LocalStep:  # noqa: ARG002
         """Compute the step at once.
 
-        What the worker raises counts as its loss, so that it cannot take the run down.
+        An exception of the worker counts as its loss, so that it cannot end the run.
         """
         try:
             return LocalStep(timed_step(self._worker, t_ns, inputs), None)

@@ -1,4 +1,4 @@
-"""What a second look learns from: places with bodies and without, drawn and varied."""
+"""Training data of the refiner: places with bodies and without, drawn and varied."""
 
 from __future__ import annotations
 

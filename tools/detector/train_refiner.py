@@ -1,4 +1,4 @@
-"""Train the second look of the detector that ships with AIRHILT, and write it as ONNX.
+"""Train the refiner of the detector that ships with AIRHILT, and write it as ONNX.
 
     python tools/detector/train_refiner.py data/train1 data/train2 \
         --network detector/detector.onnx --scratch places

@@ -1,1 +1,1 @@
-"""Recognition of speech: audio from the radio in, transcripts out."""
+"""Speech recognition: audio from the radio in, transcripts out."""

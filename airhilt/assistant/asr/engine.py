@@ -1,4 +1,4 @@
-"""What every engine of speech recognition does."""
+"""The protocol of speech recognisers."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ class Recognised:
     """The words of one transmission."""
 
     text: str
-    """Empty when nothing was said."""
+    """The words; empty when nothing was said."""
     words: tuple[tuple[str, float], ...]
     """The words of `text` one by one with their confidences; empty if the engine has none."""
     confidence: float
-    """In [0, 1], of the whole; of an empty one, that nothing was said."""
+    """Confidence in the whole, in [0, 1]; where it is empty, that nothing was said."""
 
 
 class AsrEngine(Protocol):
@@ -37,7 +37,7 @@ class AsrEngine(Protocol):
         audio
             One transmission, 16 kHz.
         callsigns
-            Of the roster: who may be on the frequency.
+            Callsigns of the roster, which may be on the frequency.
 
         Raises
         ------

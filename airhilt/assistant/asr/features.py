@@ -1,4 +1,4 @@
-"""What the embedded recogniser sees of a call: the logarithm of a mel spectrum, 100 times a second.
+"""Features of the embedded recogniser: the logarithm of a mel spectrum, 100 times a second.
 
 The mel scale is that of O'Shaughnessy (Speech Communication, 1987): 2595 log10(1 + f / 700).
 """
@@ -16,14 +16,14 @@ from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 BINS = 64
 BLOCK_FRAMES = 3_000
-"""So many at a time are worked on, so that a microphone that is stuck for long takes little
-memory: half a minute."""
+"""Frames that are computed at a time, half a minute, so that a stuck microphone takes little
+memory."""
 HOP = SAMPLE_RATE_HZ // 100
 WINDOW = SAMPLE_RATE_HZ // 40
 LOW_HZ, HIGH_HZ = 150.0, 3_900.0
-"""The band of an aeronautical radio."""
+"""Band of an aeronautical radio, in Hz."""
 FLOOR = 1e-7
-"""Power added before the logarithm: far below the noise of any receiver."""
+"""Power added before the logarithm, far below the noise of any receiver."""
 _SIZE = 512
 
 
@@ -43,7 +43,7 @@ def filters() -> NDArray[np.float32]:
 
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
 _FILTERS = csr_array(filters())
-"""Sparse, which also keeps the product on one core: NumPy's is spread over all, and waits there."""
+"""Mel filters as a sparse matrix, whose product stays on one core; NumPy's would use all."""
 
 
 def mel_power(audio: Audio) -> NDArray[np.float32]:

@@ -1,9 +1,9 @@
-"""Finds the callsigns of a roster in what a recogniser made of a call.
+"""Finds the callsigns of a roster in the posteriors of a call.
 
-Who may be on the frequency is known, and a name that is half heard is more likely one of theirs
-than nothing. For each way to say a callsign the likeliest alignment is found (Viterbi over the
-CTC states of its words, begun and ended anywhere in the call), and compared with the likeliest
-path of all over the same time. If little is lost, the callsign is what was said.
+The roster says who may be on the frequency, and a name that is half heard is probably one of
+those. For each way to say a callsign the likeliest alignment is found (Viterbi over the CTC states
+of its words, which may begin and end anywhere in the call). It is compared with the likeliest path
+of all over the same time. If little is lost, the callsign counts as said.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from airhilt.phraseology.numbers import speak_digits, speak_group
 from airhilt.phraseology.telephony import names
 
 SAME = (("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower"))
-"""Words for the same digit."""
+"""Words that stand for the same digit."""
 MOST_LOSS = 2.5
 """Of `Spotted.loss`: with more, the callsign was not said. Chosen on calls like those of training
 (``tools/asr/calibrate_asr.py``), and on calls by somebody whose callsign is one digit off."""
 MARGIN = 0.3
-"""By so much another callsign must fit worse."""
+"""Least loss, per word, by which every other callsign must fit worse."""
 LEAST_POSTERIOR = 1e-8
 _AIRLINE = re.compile(r"([A-Z]{3})([0-9]{1,4})([A-Z]{0,2})")
 _AMERICAN = re.compile(r"N([1-9][0-9]{0,4}[A-Z]{0,2})")
@@ -40,9 +40,9 @@ class Spotted:
     begin: int
     """First step of its alignment."""
     end: int
-    """One past the last."""
+    """Step after the last one of its alignment."""
     loss: float
-    """Log-likelihood against the likeliest path there, per word; 0 if it is that path."""
+    """Log-likelihood lost against the likeliest path there, per word; 0 if it is that path."""
 
 
 def spoken_forms(callsign: str) -> Iterator[tuple[str, ...]]:
@@ -75,7 +75,7 @@ class Spotter:
     Parameters
     ----------
     words
-        Of the recogniser; unit 0 is the blank, unit i is word i - 1.
+        Words of the recogniser; unit 0 is the blank, unit i is word i - 1.
     """
 
     def __init__(self, words: Sequence[str], callsigns: Sequence[str]) -> None:
@@ -103,7 +103,7 @@ class Spotter:
         Parameters
         ----------
         posteriors
-            Shape (steps, units).
+            Posteriors of each unit at each step, shape (steps, units).
         """
         if not self._forms or not len(posteriors):
             return None
@@ -130,9 +130,9 @@ class Spotter:
         return log
 
     def _aligned(self, log: NDArray[np.float32]) -> Iterator[Spotted]:
-        """Yield where each form fits best.
+        """Yield the best alignment of each form.
 
-        Each has a state for each of its words and one for the gap after it.
+        A form has a state for each of its words and one for the gap after it.
         """
         count, size = self._units.shape
         repeats = np.zeros((count, size), bool)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 class WindowedModel(WhisperModel):  # type: ignore[misc]
-    """A `WhisperModel` whose encoder gets as much as its ``preprocessor_config.json`` says.
+    """A `WhisperModel` whose windows are as long as its ``preprocessor_config.json`` says.
 
     faster-whisper 1.2 pads every window to the 3000 frames of Whisper's own models.
     """

@@ -1,4 +1,4 @@
-"""The worker that listens: transmissions in, transcripts out."""
+"""The ASR worker: transmissions in, transcripts out."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from airhilt.workers.protocol import Step
 
 
 class AsrWorker:
-    """Gives each transmission to an engine, one after the other, and publishes what it hears."""
+    """Gives each transmission to an engine, one after the other, and publishes the transcript."""
 
     def __init__(self, engine: AsrEngine, name: str = "asr") -> None:
         self._engine = engine
@@ -77,7 +77,7 @@ def pcm_to_audio(header: Transmission, pcm: bytes) -> Audio:
     Raises
     ------
     SpeechError
-        There are not as many as the header says, or they have another rate.
+        Their number or their rate is not what the header says.
     """
     if header.sample_rate_hz != SAMPLE_RATE_HZ or len(pcm) != SAMPLE_BYTES * header.samples:
         raise SpeechError(

@@ -22,24 +22,25 @@ if TYPE_CHECKING:
 
 ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
 ZONE_HEIGHT_M = 2500.0 * FOOT
-"""The airspace of a tower: class D reaches up to 2,500 ft above the airport (FAA AIM, 3-2-5), by
-custom within some 5 NM."""
-SURELY_INSIDE = 1.25
-"""Times the 95 % error of its position: who is so far inside an area does not stand outside."""
+"""Height of a tower's airspace above the airport, in m.
+
+Class D reaches up to 2,500 ft (FAA AIM, 3-2-5), by custom within some 5 NM."""
+CERTAINLY_INSIDE = 1.25
+"""Factor on the 95 % position error: who is this far inside an area does not stand outside it."""
 CLEAR_OF_PAVEMENT_M = 10.0
-"""However inaccurate its position, who is nearer to the pavement is on the runway."""
+"""Who is nearer to the pavement, in m, is on the runway, however inaccurate the position."""
 RAY_M = 3000.0
 
 
 class Vector(NamedTuple):
-    """East and north, in metres from the airport's centre or without a unit."""
+    """East and north components, in m from the airport's centre, or without a unit."""
 
     east: float
     north: float
 
 
 class TrafficZone(NamedTuple):
-    """Where the tower keeps aircraft apart by sight."""
+    """Airspace in which a tower keeps aircraft apart by sight."""
 
     latitude_rad: float
     longitude_rad: float
@@ -68,15 +69,15 @@ class Direction:
     ident: str
     threshold: Vector
     ahead: Vector
-    """Of length 1, down the runway."""
+    """Unit vector down the runway."""
     length_m: float
-    """From the threshold to the end."""
+    """Length from the threshold to the end, in m."""
     half_width_m: float
     elevation_m: float
 
     @property
     def course_rad(self) -> float:
-        """Towards the end."""
+        """Course towards the end, in rad from north."""
         return math.atan2(self.ahead.east, self.ahead.north)
 
     def along_m(self, point: Vector) -> float:
@@ -96,9 +97,9 @@ class Strip:
     Attributes
     ----------
     name
-        Such as ``01/19``.
+        Name such as ``01/19``.
     directions
-        One or both.
+        One or both directions.
     """
 
     def __init__(self, directions: tuple[Direction, ...], area: Polygon) -> None:
@@ -120,16 +121,17 @@ class Strip:
         self._pavement: Polygon = self.centreline.buffer(first.half_width_m, cap_style="flat")
         room_m = float(self._pavement.distance(area.exterior)) - CLEAR_OF_PAVEMENT_M
         self._margins_m = [
-            max(min(SURELY_INSIDE * error_m, room_m), 0.0) for error_m in NACP_95_PERCENT_M
+            max(min(CERTAINLY_INSIDE * error_m, room_m), 0.0) for error_m in NACP_95_PERCENT_M
         ]
         self._cores = [area.buffer(-margin_m) for margin_m in self._margins_m]
         for core in (area, *self._cores):
             shapely.prepare(core)
 
     def core(self, nacp: int) -> Polygon:
-        """Return the part of the area in which a position of an accuracy category surely is.
+        """Return the part of the area in which a position is certain to be in the area.
 
-        It is the area less a margin for the error, but at least the pavement.
+        It is the area less a margin for the error of an accuracy category (NACp), but at least the
+        pavement.
         """
         return self._cores[nacp]
 
@@ -150,21 +152,21 @@ class Strip:
         return float(shapely.contains_xy(self._area, points[:, 0], points[:, 1]).mean())
 
     def room_m(self, point: Vector, heading_rad: float) -> float:
-        """Return how far it is straight on to the pavement: 0 on it, or if it is not ahead."""
+        """Return the distance straight on to the pavement, in m: 0 on it, or if it is not ahead."""
         way = way_through(self._pavement, point, heading_rad)
         return 0.0 if way is None else way.entry_m
 
 
 class Way(NamedTuple):
-    """How far it is along a heading to a runway's area, and until it is left behind."""
+    """Distances along a heading to a runway's area, and to where it is left behind, in m."""
 
     entry_m: float
-    """0 inside."""
+    """Distance to the area; 0 inside."""
     exit_m: float
 
 
 def way_through(core: Polygon, point: Vector, heading_rad: float) -> Way | None:
-    """Return how a way straight on leads through an area; None if it does not."""
+    """Return how a straight way leads through an area; None if it does not."""
     import shapely
 
     end = (

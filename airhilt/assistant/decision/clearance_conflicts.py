@@ -20,7 +20,7 @@ def clearance_conflicts(outlook: Outlook) -> Iterator[Threat]:
 
 
 def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
-    """Yield that a readback is wrong, or somebody else's, and the runway is active."""
+    """Yield the threat of a readback that is wrong, or somebody else's, for an active runway."""
     strip, activity = _activity(outlook, discrepancy)
     if strip is None or not activity:
         return
@@ -69,7 +69,7 @@ def _active(outlook: Outlook, strip: Strip) -> Iterator[str]:
 
 
 def _opposed(outlook: Outlook) -> Iterator[Threat]:
-    """Yield that two are cleared to use one runway in opposite directions."""
+    """Yield the threat of two clearances to use one runway in opposite directions."""
     using = [
         clearance
         for clearance in outlook.in_force

@@ -1,4 +1,4 @@
-"""What was cleared and read back about runways, and where the two do not agree."""
+"""Clearances and readbacks about runways, and where the two do not agree."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ LIFETIME_S: dict[Action, float] = {
     "cross": 60.0,
     "proceed": 180.0,
 }
-"""How long a clearance on to a runway is taken to be in force if nothing ends it."""
+"""Time for which a clearance on to a runway is in force if nothing ends it, in s."""
 READBACK_WINDOW_NS = 30 * SECOND_NS
-"""A readback later than this after its instruction belongs to something else."""
+"""A readback later than this after its instruction, in ns, belongs to something else."""
 DISCREPANCY_NS = 120 * SECOND_NS
-"""How long a wrong readback matters that nobody corrects."""
+"""Time for which an uncorrected wrong readback matters, in ns."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """A clearance on to a runway, as it was read back if it was."""
+    """A clearance on to a runway, in the words of its readback if there was one."""
 
     callsign: str
     action: Action
@@ -39,9 +39,9 @@ class Discrepancy:
     """A readback that does not agree with what was said, or comes from somebody else."""
 
     callsign: str
-    """Who read back."""
+    """Callsign of who read back."""
     addressed: str
-    """Who was meant."""
+    """Callsign of who was meant."""
     given: Instruction | None
     read: Instruction
     t_end_ns: int
@@ -66,7 +66,7 @@ class Clearances:
         self._discrepancies: dict[str, Discrepancy] = {}
 
     def take(self, call: Call, transcript: Transcript) -> None:
-        """Take in a call."""
+        """Update clearances and discrepancies with a call."""
         said = tuple(each for each in call.instructions if each.action not in REPORTS)
         if call.callsign is None:
             return
@@ -87,17 +87,17 @@ class Clearances:
                     yield clearance
 
     def is_holding(self, callsign: str, runways: tuple[str, ...]) -> bool:
-        """Return whether somebody was last told to hold, short of one of these runways."""
+        """Return whether the last instruction was to hold, short of one of these runways."""
         return callsign in self._holding and self._holding[callsign] in (None, *runways)
 
     def discrepancies(self, t_ns: int) -> Iterator[Discrepancy]:
-        """Yield what nobody has cleared up yet."""
+        """Yield the discrepancies that nobody has corrected."""
         for discrepancy in self._discrepancies.values():
             if t_ns - discrepancy.t_end_ns <= DISCREPANCY_NS:
                 yield discrepancy
 
     def finish(self, callsign: str, *actions: Action) -> None:
-        """Take in that somebody has done what it was cleared to do."""
+        """End clearances that somebody has used."""
         clearances = self._in_force.get(callsign, ())
         self._in_force[callsign] = tuple(c for c in clearances if c.action not in actions)
 
@@ -115,7 +115,7 @@ class Clearances:
     def _compare(
         self, callsign: str, read: tuple[Instruction, ...], transcript: Transcript
     ) -> tuple[Instruction, ...]:
-        """Note where a readback is wrong; return it with the runways that it leaves out."""
+        """Note where a readback is wrong, and return it with the runways that it leaves out."""
         begun_ns = transcript.t_tx_ns
         given = self._recent(callsign, begun_ns)
         complete = []
@@ -144,7 +144,7 @@ class Clearances:
         return given if given and t_ns - given.t_end_ns <= READBACK_WINDOW_NS else None
 
     def _unanswered(self, action: Action, but: str, t_ns: int) -> str | None:
-        """Return who else was told the same a moment ago and has not answered."""
+        """Return who else was given the same instruction a moment ago and has not answered."""
         for callsign in reversed(self._addressed):
             given = self._recent(callsign, t_ns)
             if callsign == but or given is None or given.answered:
@@ -164,7 +164,7 @@ class Clearances:
         self._discrepancies[callsign] = Discrepancy(callsign, addressed, given, read, t_end_ns)
 
     def _settle(self, callsign: str) -> None:
-        """Drop what was wrong with somebody's last readback: there is a new call."""
+        """Drop the discrepancy of somebody's last readback, because there is a new call."""
         self._discrepancies = {
             reader: each
             for reader, each in self._discrepancies.items()

@@ -1,4 +1,4 @@
-"""When an alert is told: a severity that has held, only higher ones after it, and its end."""
+"""When an alert is told: once a severity has held, again when it rises, and at its end."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ class Escalation:
     """The severity of one conflict from first suspicion to its end."""
 
     severity: Severity | None = None
-    """Told last; None before the first advisory."""
+    """Severity told last; None before the first advisory."""
     _rising: Severity | None = None
     _rising_since_ns: int = 0
     _quiet_since_ns: int | None = None
 
     def rises(self, level: Severity, t_ns: int, persistence_s: float) -> bool:
-        """Take in how severe it is now; return whether a higher severity is to be told.
+        """Update with the present level, and return whether a higher severity is to be told.
 
-        It is, once all levels for so long were higher than the one told last; ``severity`` is the
-        least of them.
+        It is, once all levels for ``persistence_s`` were higher than the one told last; `severity`
+        is the least of them.
         """
         self._quiet_since_ns = None
         if self.severity is not None and level.rank <= self.severity.rank:
@@ -36,11 +36,11 @@ class Escalation:
         return True
 
     def stays(self) -> None:
-        """Take in that nothing is wrong now, but that it is not over."""
+        """Note that nothing is wrong now, but that the conflict is not over."""
         self._rising = self._quiet_since_ns = None
 
     def is_over(self, t_ns: int, release_s: float) -> bool:
-        """Take in that nothing is wrong now; return whether that has held for long enough."""
+        """Note that nothing is wrong now, and return whether that has held for ``release_s``."""
         self._rising = None
         if self._quiet_since_ns is None:
             self._quiet_since_ns = t_ns

@@ -1,4 +1,4 @@
-"""What a decision engine can find to be wrong, and a short statement of each finding.
+"""Findings of a decision engine, and a short statement of each.
 
 A finding is structure: callsigns, runways, actions. A wording makes messages of it; the statement
 is what the evidence of an advisory notes.

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from airhilt.assistant.decision.aerodrome import Vector
 from airhilt.assistant.decision.findings import Obstructs
-from airhilt.assistant.decision.line_of_sight import Fix
+from airhilt.assistant.decision.line_of_sight import AirFix
 from airhilt.assistant.decision.mobiles import FINAL_M, TOUCHDOWN_M, Use
 from airhilt.assistant.decision.occupancy import SeenAloft
 from airhilt.assistant.decision.threats import (
@@ -33,7 +33,7 @@ BIRDS_FORESEEN_S = 25.0
 CLIMB_OUT_HEIGHT_M = 150.0
 """Height below which birds over a runway are in the way of a departure, in m."""
 LEAST_CLOSING = 0.1
-"""Share of an arrival's speed: who flies ahead of it and is slower by less is not met."""
+"""Least closing speed, as a share of the arrival's speed, at which something ahead is met."""
 BIRDS_LIKELY = 0.3
 """Share of the places of birds of unknown distance that must be in the path."""
 
@@ -45,7 +45,7 @@ def in_flight_path(outlook: Outlook, use: Use) -> Iterator[Threat]:
 
 
 def _aloft(outlook: Outlook, use: Use, thing: SeenAloft) -> Iterator[Threat]:
-    """Yield that something is, or will be, where a runway's user flies."""
+    """Yield the threat of something in the air that a runway's user will meet."""
     if use.kind == "rollout" or use.is_climbing:
         return
     times = (_meets_s(outlook, use, thing, place) for place in thing.places)
@@ -71,8 +71,8 @@ def _aloft(outlook: Outlook, use: Use, thing: SeenAloft) -> Iterator[Threat]:
         )
 
 
-def _meets_s(outlook: Outlook, use: Use, thing: SeenAloft, place: Fix) -> float | None:
-    """Return when a runway's user meets what flies straight on; None if it does not."""
+def _meets_s(outlook: Outlook, use: Use, thing: SeenAloft, place: AirFix) -> float | None:
+    """Return the time until a runway's user meets what flies straight on; None if it does not."""
     east, north, up = thing.velocity
     ahead = use.direction.ahead
     time_s = _time_abeam_s(outlook, use, place, east * ahead.east + north * ahead.north)
@@ -91,15 +91,17 @@ def _meets_s(outlook: Outlook, use: Use, thing: SeenAloft, place: Fix) -> float 
     return time_s if low_m - room_m <= path_m <= high_m + room_m else None
 
 
-def _are_beside(outlook: Outlook, use: Use, place: Fix) -> bool:
+def _are_beside(outlook: Outlook, use: Use, place: AirFix) -> bool:
     """Return whether birds in the air are near enough to get into the flight path."""
     path_m = _height_m(outlook, use, use.direction.along_m(place.point))
     is_near = abs(use.direction.across_m(place.point)) <= BIRDS_BESIDE_M
     return is_near and place.height_m <= path_m + BIRDS_ABOVE_M
 
 
-def _time_abeam_s(outlook: Outlook, use: Use, place: Fix, ahead_m_s: float = 0.0) -> float | None:
-    """Return when a runway's user draws level with a place that moves on; None if never."""
+def _time_abeam_s(
+    outlook: Outlook, use: Use, place: AirFix, ahead_m_s: float = 0.0
+) -> float | None:
+    """Return the time until a runway's user is abeam of a moving position; None if never."""
     along_m = use.direction.along_m(place.point)
     if not -FINAL_M <= along_m <= use.direction.length_m:
         return None
@@ -111,7 +113,7 @@ def _time_abeam_s(outlook: Outlook, use: Use, place: Fix, ahead_m_s: float = 0.0
 
 
 def _height_m(outlook: Outlook, use: Use, along_m: float) -> float:
-    """Return how high above the ground, as cameras give heights, an arrival will be."""
+    """Return the height of an arrival above the ground at a distance past the threshold, in m."""
     mobile = use.mobile
     if mobile.altitude_m is None:
         return 0.0

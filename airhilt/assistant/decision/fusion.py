@@ -12,7 +12,7 @@ Noise, and calls that blocked each other, may never give one."""
 
 
 class FusionGate:
-    """Is closed while a call has ended and its transcript has not come.
+    """A gate that is closed from the end of a call until its transcript has come.
 
     Nothing waits for ADS-B reports: they come once a second at least.
     """

@@ -1,7 +1,7 @@
-"""Aircraft that no transponder shows (S02C), seen by cameras of aircraft in flight.
+"""Aircraft without a transponder (S02C), seen by cameras of aircraft in flight.
 
-Who stays in one direction and grows is on a collision course. How far away it is cannot be told
-without knowing how large it is; when it will be there can.
+An aircraft that stays in one direction and grows is on a collision course. Its distance cannot be
+told without its size; the time to contact can.
 """
 
 from __future__ import annotations
@@ -37,57 +37,58 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS, wrap_angle
 
 FLOCK_M = 20.0
 AIRLINER_M = 80.0
-"""Across them. What is no larger than this where its line of sight meets the ground may stand
-there."""
+"""Largest sizes of a flock and of an aircraft, in m.
+
+What is no larger where its line of sight meets the ground may stand there."""
 SAME_DIRECTION_RAD = 4.0 * DEGREE
-"""A new track so near to where one was lost is the same aircraft."""
+"""Angle, in rad, within which a new track is the same aircraft as one that was lost."""
 GROUNDED_M = 20.0
-"""A camera without ADS-B that is no higher above the ground is on an aircraft that stands on it."""
+"""Height, in m, below which the carrier of a camera stands on the ground if it has no ADS-B."""
 LEAST_CLIMB_FT = 500.0
 LEVEL_STEP_FT = 100.0
 LEAST_HEIGHT_M = 600.0
-"""Lower, nobody is sent down."""
+"""Height, in m, below which nobody is recommended to descend."""
 LEVEL_RAD = 0.5 * DEGREE
-"""Who is seen so little above or below the horizon is at about the same level."""
+"""Angle from the horizon, in rad, within which an aircraft is at about the same level."""
 ABOVE_SIZES = 1.0
-"""Who will pass so many of its sizes higher passes above."""
+"""Height in its own sizes from which an aircraft passes above."""
 AHEAD_RAD = 15.0 * DEGREE
 BESIDE_RAD = 60.0 * DEGREE
 BEHIND_RAD = 120.0 * DEGREE
 UNRELIABLE_S = 90.0
-"""A longer time to contact is not worth telling."""
+"""Longest time to contact that is told, in s."""
 
 
 @dataclass(frozen=True)
 class IntruderConfig:
-    """Thresholds for aircraft that are only seen.
+    """Thresholds for aircraft that only cameras show.
 
     An airliner's camera finds a light aircraft at some 2 or 3 km: there is a quarter of a minute
-    until the encounter, of which a crew takes 5 s to react. So there is no long way from CAUTION
-    to WARNING, and a doubtful WARNING is told.
+    until the encounter, of which a crew takes 5 s to react. So a CAUTION soon becomes a WARNING,
+    and a doubtful WARNING is told.
     """
 
     advisory_s: float = 90.0
     caution_s: float = 60.0
     warning_s: float = 25.0
     near_sizes: float = 25.0
-    """Who passes so many of its own sizes away is near: 275 m for a light aircraft."""
+    """Distance in its own sizes at which an aircraft passes near: 275 m for a light one."""
     warning_sizes: float = 12.0
-    """Likewise for a WARNING: 130 m, somewhat less than the 500 ft between VFR and IFR levels."""
+    """Likewise for a WARNING: 130 m, less than the 500 ft between VFR and IFR levels."""
     persistence_s: float = 0.4
-    """How long a severity must hold before it is told."""
+    """Time for which a severity must hold before it is told, in s."""
     release_s: float = 20.0
-    """How long it must be past before it is told so: who is overtaken falls back slowly."""
+    """Time for which it must be past before that is told, in s: overtaking is slow."""
 
 
 class _Encounter(NamedTuple):
-    """An aircraft that sees something come, as it is now."""
+    """Something that comes towards an aircraft with a camera, as of now."""
 
     carrier: str
     track: VisualTrack
     approach: Approach
     severity: Severity | None
-    """None: it passes by, or is far."""
+    """None if it passes by or is far."""
 
     @property
     def ray(self) -> Ray:
@@ -95,7 +96,7 @@ class _Encounter(NamedTuple):
 
     @property
     def past_ns(self) -> int:
-        """When the two have surely met."""
+        """Time at which the two have met, with a margin for the error."""
         error_s = self.approach.closing_error * self.approach.time_s**2
         left_s = min(self.approach.time_s + error_s, UNRELIABLE_S)
         return self.track.last.t_ns + round(left_s * SECOND_NS)
@@ -120,7 +121,7 @@ class IntruderWatch:
     Parameters
     ----------
     runway_of
-        Returns the runway that an aircraft, by its callsign, is on final for; None if it is not.
+        Returns the runway for which a callsign is on final; None if it is not.
     """
 
     def __init__(
@@ -166,7 +167,7 @@ class IntruderWatch:
         found = []
         for track in self._visual_tracks:
             carrier = track.carrier
-            if carrier is None or not self._is_flying(track.last.eye.view):
+            if carrier is None or not self._is_flying(track.last.geometry.view):
                 continue
             if not self._is_unknown(track) or _may_stand(track):
                 continue
@@ -183,32 +184,32 @@ class IntruderWatch:
         return view.height_m > GROUNDED_M if report is None else not report.on_ground
 
     def _is_unknown(self, track: VisualTrack) -> bool:
-        """Return whether nobody else keeps a camera's carrier and what it sees apart.
+        """Return whether the carrier of a camera or what it sees has no transponder.
 
-        That takes a transponder of both.
+        If both have one, the watch for separation keeps them apart.
         """
-        is_carrier_known = self._visual_tracks.traffic.carrier(track.last.eye.view) is not None
+        is_carrier_known = self._visual_tracks.traffic.carrier(track.last.geometry.view) is not None
         return track.explained_by is None or not is_carrier_known
 
     def _grade(self, track: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
-        """Return how urgent it is that something comes."""
+        """Return the severity of an approach; None if it passes by or is far."""
         config, miss = self.config, approach.least_miss()
         left_s = approach.time_s - (t_ns - track.last.t_ns) / SECOND_NS
         if miss > config.near_sizes or approach.closing < approach.closing_error:
             return None
         if left_s < 0.0:
             return None
-        is_sure = is_established((track,)) and approach.is_growing
-        if is_sure and left_s <= config.warning_s and miss <= config.warning_sizes:
+        is_certain = is_established((track,)) and approach.is_growing
+        if is_certain and left_s <= config.warning_s and miss <= config.warning_sizes:
             return Severity.WARNING
-        if is_sure and left_s <= config.caution_s:
+        if is_certain and left_s <= config.caution_s:
             return Severity.CAUTION
         return Severity.ADVISORY if left_s <= config.advisory_s else None
 
     # --- what is told -----------------------------------------------------------------------
 
     def _known(self, encounter: _Encounter) -> _Ongoing | None:
-        """Return the alert of what a carrier sees, None if there is none yet."""
+        """Return the encounter that is known already, None if there is none."""
         for alert in self._alerts:
             last = alert.encounter
             if alert.carrier == encounter.carrier and (
@@ -233,7 +234,7 @@ class IntruderWatch:
         return [self._alert(t_ns, alert)]
 
     def _calm(self, t_ns: int, alert: _Ongoing) -> list[Alert]:
-        """End an encounter once it is past; who gives way is not to go back before."""
+        """End an encounter once it is past, so that nobody goes back before."""
         if alert.escalation.severity is None:
             if alert.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
                 self._alerts.remove(alert)
@@ -247,15 +248,15 @@ class IntruderWatch:
         return [self._alert(t_ns, alert, active=False)]
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
-        """Return how to stay clear: up or down, away from it; else to the right.
+        """Return how to stay clear: climb or descend away from it, or turn right.
 
-        Within half a minute more distance is gained vertically, and less of it is needed. To the
-        right is what either does who meets head-on, and who overtakes (14 CFR 91.113).
+        Within half a minute more distance is gained vertically, and less of it is needed. Aircraft
+        that meet head-on, and one that overtakes, turn right (14 CFR 91.113).
         """
         runway = self._runway_of(encounter.carrier)
         if runway is not None:
             return GoAround(runway=runway)
-        view = encounter.track.last.eye.view
+        view = encounter.track.last.geometry.view
         report = self._visual_tracks.traffic.carrier(view)
         if report is None or report.altitude_ft is None:
             return Turn(degrees=TURN_DEG)
@@ -310,10 +311,10 @@ def _rank(severity: Severity | None) -> int:
 
 
 def _may_stand(track: VisualTrack) -> bool:
-    """Return whether something may stand on the ground, by its size if it did."""
+    """Return whether something may stand on the ground, by the size that it would have there."""
     last = track.last
-    view: CameraView = last.eye.view
-    depression_rad = -last.eye.foot(last.box).elevation_rad
+    view: CameraView = last.geometry.view
+    depression_rad = -last.geometry.foot(last.box).elevation_rad
     if depression_rad <= 0.0 or view.height_m <= 0.0:
         return False
     distance_m = view.height_m / math.sin(depression_rad)
@@ -322,7 +323,7 @@ def _may_stand(track: VisualTrack) -> bool:
 
 
 def _sense(encounter: _Encounter, vertical_rate_m_s: float) -> int:
-    """Return 1 for up and -1 for down: away from where it is, or will be."""
+    """Return 1 to climb and -1 to descend, away from where it is or will be."""
     above = encounter.approach.passes_above()
     if abs(above) > ABOVE_SIZES and _is_told(encounter.approach):
         return -1 if above > 0.0 else 1
@@ -335,13 +336,13 @@ def _sense(encounter: _Encounter, vertical_rate_m_s: float) -> int:
 
 
 def _is_told(approach: Approach) -> bool:
-    """Return whether it surely turns upwards, or downwards."""
+    """Return whether it turns up or down by more than two standard deviations."""
     return abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
 
 
 def _where(encounter: _Encounter) -> Where:
-    """Return where something is as the crew sees it."""
-    heading_rad = encounter.track.last.eye.view.heading_deg * DEGREE
+    """Return the direction of something as the crew sees it."""
+    heading_rad = encounter.track.last.geometry.view.heading_deg * DEGREE
     right_rad = wrap_angle(encounter.ray.azimuth_rad - heading_rad)
     is_right = right_rad > 0.0
     if abs(right_rad) <= AHEAD_RAD:
@@ -354,7 +355,7 @@ def _where(encounter: _Encounter) -> Where:
 
 
 def _note(encounter: _Encounter) -> str:
-    """Return what the estimates rest on."""
+    """Return the estimates with their errors, for the evidence."""
     approach, track = encounter.approach, encounter.track
     turning = math.hypot(*approach.turning_rad_s) / DEGREE
     error_s = approach.closing_error * approach.time_s**2

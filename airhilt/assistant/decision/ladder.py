@@ -9,16 +9,16 @@ CAUTION_FROM, ADVISORY_FROM = 0.75, 0.50
 
 
 def fused_severity(vision: float, activity: float, communication: float) -> Severity | None:
-    """Return how severe hints are that none alone is enough for; None if not even together.
+    """Return the severity of several weak hints together; None if they do not suffice.
 
     Parameters
     ----------
     vision
-        How sure cameras are that a runway is occupied, 0 to 1.
+        Belief that a runway is occupied, by cameras, from 0 to 1.
     activity
-        Whether somebody uses it, 0 to 1.
+        Degree to which the runway is in use, from 0 to 1.
     communication
-        Whether what was said agrees with that, 0 to 1.
+        Degree to which what was said agrees with that, from 0 to 1.
     """
     score = VISION * vision + ACTIVITY * activity + COMMUNICATION * communication
     if score >= CAUTION_FROM:

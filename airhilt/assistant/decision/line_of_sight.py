@@ -1,7 +1,7 @@
-"""From a place in a picture to a direction, to a place on the ground, or to a place in the air.
+"""Directions, and positions on the ground and in the air, of what is at a place in a picture.
 
-Directions are unit vectors towards east, north and up where the camera is, whatever way the
-camera is turned: a carrier that banks does not move what it sees.
+Directions are unit vectors towards east, north and up at the camera, whatever its attitude: what a
+camera sees does not move when its carrier banks.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from airhilt.messages import Box, CameraView
 from airhilt.units import DEGREE
 
 BOX_ERROR_PX = 1.5
-"""Standard deviation of a side of a box, and of what is not known of the lens."""
+"""Standard deviation of a side of a box, in pixels, with what is not known of the lens."""
 LEAST_DEPRESSION_RAD = 0.1 * DEGREE
-"""Flatter than this, a line of sight meets no ground that a camera tells anything about."""
+"""A line of sight flatter than this, in rad, gives no position on the ground."""
 GREATEST_SHARE_OF_RANGE = 0.5
-"""A place is one if the error of its distance is no larger part of it."""
+"""Largest error of a distance, as a share of it, with which a position counts."""
 LEAST_PARALLAX_RAD = 1.0 * DEGREE
-"""Lines of sight that meet under a smaller angle tell no distance."""
+"""Lines of sight that meet under a smaller angle, in rad, give no distance."""
 MEETING_SIGMAS = 3.0
 SAME_OBJECT_M = 6.0
-"""Two cameras see different ends of one thing."""
+"""Distance between the ends of one thing that two cameras see, in m."""
 
 
 class Ray(NamedTuple):
-    """A direction, of length 1."""
+    """A direction, as a unit vector."""
 
     east: float
     north: float
@@ -42,22 +42,22 @@ class Ray(NamedTuple):
 
     @classmethod
     def towards(cls, east: float, north: float, up: float) -> Ray:
-        """Return the direction of an offset that is not nothing."""
+        """Return the direction of an offset other than 0."""
         length = math.sqrt(east * east + north * north + up * up)
         return cls(east / length, north / length, up / length)
 
     @property
     def elevation_rad(self) -> float:
-        """Above the horizon."""
+        """Angle above the horizon, in rad."""
         return math.asin(min(max(self.up, -1.0), 1.0))
 
     @property
     def azimuth_rad(self) -> float:
-        """From north, clockwise."""
+        """Angle from north, clockwise, in rad."""
         return math.atan2(self.east, self.north)
 
     def angle_to(self, other: Ray) -> float:
-        """Return the angle between two directions (rad)."""
+        """Return the angle between two directions, in rad."""
         cross = (
             self.north * other.up - self.up * other.north,
             self.up * other.east - self.east * other.up,
@@ -67,14 +67,14 @@ class Ray(NamedTuple):
         return math.atan2(math.hypot(*cross), dot)
 
     def offset_to(self, other: Ray) -> tuple[float, float]:
-        """Return how far another, near one lies to the right of this one, and above it (rad)."""
+        """Return the angles by which a near direction lies to the right and above, in rad."""
         turn = math.remainder(other.azimuth_rad - self.azimuth_rad, math.tau)
         middle = 0.5 * (self.elevation_rad + other.elevation_rad)
         return turn * math.cos(middle), other.elevation_rad - self.elevation_rad
 
 
-class Eye:
-    """A camera at the instant of a picture."""
+class PictureGeometry:
+    """Position, attitude and lens of a camera at the instant of a picture."""
 
     def __init__(self, view: CameraView) -> None:
         self.view = view
@@ -84,7 +84,7 @@ class Eye:
 
     @cached_property
     def _axes(self) -> tuple[Ray, Ray, Ray]:
-        """Its right, down and ahead in the world."""
+        """Directions in the world of the camera's right, down and ahead."""
         right, down, ahead = (Ray(*axis) for axis in self._lens.axes.T.tolist())
         return right, down, ahead
 
@@ -108,28 +108,28 @@ class Eye:
         return self.ray((box[0] + box[2]) / 2.0, box[3])
 
     def touches_edge(self, box: Box) -> bool:
-        """Return whether a box may go on outside of the picture."""
+        """Return whether a box reaches the edge of the picture, and may go on beyond it."""
         left, top, right, bottom = box
         width, height = self.view.width_px, self.view.height_px
         return left <= 1.0 or top <= 1.0 or right >= width - 1.0 or bottom >= height - 1.0
 
     def angular_size(self, box: Box) -> tuple[float, float]:
-        """Return how wide and how high a box is, in radians."""
+        """Return width and height of a box, in rad."""
         x, y, _ = self._lens.direction(*centre(box))
         shrunk = 1.0 / (1.0 + x * x + y * y) / self.focal_px
         return (box[2] - box[0]) * shrunk, (box[3] - box[1]) * shrunk
 
 
-class Spot(NamedTuple):
-    """A place on the ground and its error: variances and covariance in m2."""
+class GroundFix(NamedTuple):
+    """A position on the ground, with the variances and the covariance of its error in m2."""
 
     point: Vector
     east_m2: float
     north_m2: float
     both_m2: float
 
-    def is_same(self, other: Spot, sigmas: float = MEETING_SIGMAS) -> bool:
-        """Return whether two may be one place, by their errors."""
+    def is_same(self, other: GroundFix, sigmas: float = MEETING_SIGMAS) -> bool:
+        """Return whether two positions may be one, by their errors."""
         east, north = other.point.east - self.point.east, other.point.north - self.point.north
         a = self.east_m2 + other.east_m2 + SAME_OBJECT_M**2
         b = self.north_m2 + other.north_m2 + SAME_OBJECT_M**2
@@ -137,8 +137,8 @@ class Spot(NamedTuple):
         squared = (b * east * east - 2.0 * c * east * north + a * north * north) / (a * b - c * c)
         return squared <= sigmas * sigmas
 
-    def merged(self, other: Spot) -> Spot:
-        """Return the place that two independent ones give together."""
+    def merged(self, other: GroundFix) -> GroundFix:
+        """Return the position that two independent ones give together."""
         mine, its = self._information(), other._information()
         e, n, c = (a + b for a, b in zip(mine, its, strict=True))
         det = e * n - c * c
@@ -148,26 +148,26 @@ class Spot(NamedTuple):
         ]
         x, y = (weighed[0][axis] + weighed[1][axis] for axis in (0, 1))
         place = Vector((n * x - c * y) / det, (e * y - c * x) / det)
-        return Spot(place, n / det, e / det, -c / det)
+        return GroundFix(place, n / det, e / det, -c / det)
 
     def _information(self) -> tuple[float, float, float]:
         det = self.east_m2 * self.north_m2 - self.both_m2**2
         return self.north_m2 / det, self.east_m2 / det, -self.both_m2 / det
 
     def chance(self, is_inside: Callable[[npt.NDArray[np.float64]], float]) -> float:
-        """Return how probable it is that the place is one that counts.
+        """Return the probability that the position is in an area.
 
         Parameters
         ----------
         is_inside
-            Returns the share of some places, shape (n, 2), that does.
+            Returns the share of some positions, shape (n, 2), that is in the area.
         """
         spread = np.array(((self.east_m2, self.both_m2), (self.both_m2, self.north_m2)))
         return is_inside(np.asarray(self.point) + _PROBES @ np.linalg.cholesky(spread).T)
 
 
 def _probes() -> npt.NDArray[np.float64]:
-    """Return places of a normal distribution about 0 in the plane, all equally probable."""
+    """Return equally probable points of a normal distribution about 0 in the plane."""
     rings, turns = 6, 10
     radii = np.sqrt(-2.0 * np.log1p(-(np.arange(rings) + 0.5) / rings))
     angles = np.arange(turns) * math.tau / turns
@@ -178,16 +178,16 @@ def _probes() -> npt.NDArray[np.float64]:
 _PROBES = _probes()
 
 
-class Sightline(NamedTuple):
-    """A direction from a camera whose place is known; heights are above the ground."""
+class LineOfSight(NamedTuple):
+    """A direction from a camera whose position is known; heights are above the ground."""
 
     place: Vector
     height_m: float
     ray: Ray
     error_rad: float
 
-    def on_ground(self) -> Spot | None:
-        """Return where it meets flat ground; None where that is too far to be told.
+    def on_ground(self) -> GroundFix | None:
+        """Return where it meets flat ground; None where that is too far away.
 
         The error along it grows with the square of the distance over the height, the error
         across it with the distance.
@@ -203,19 +203,19 @@ class Sightline(NamedTuple):
         if along_m > GREATEST_SHARE_OF_RANGE * range_m:
             return None
         if level < 1e-6:
-            return Spot(self.place, along_m**2, along_m**2, 0.0)
+            return GroundFix(self.place, along_m**2, along_m**2, 0.0)
         east, north = self.ray.east / level, self.ray.north / level
         a2, c2 = along_m**2, across_m**2
-        return Spot(
+        return GroundFix(
             Vector(self.place.east + range_m * east, self.place.north + range_m * north),
             a2 * east * east + c2 * north * north,
             a2 * north * north + c2 * east * east,
             (a2 - c2) * east * north,
         )
 
-    def at(self, range_m: float) -> Fix:
-        """Return the place so far along it; its error is that across."""
-        return Fix(
+    def at(self, range_m: float) -> AirFix:
+        """Return the position at a range along it; its error is that across the line."""
+        return AirFix(
             Vector(
                 self.place.east + range_m * self.ray.east,
                 self.place.north + range_m * self.ray.north,
@@ -226,20 +226,20 @@ class Sightline(NamedTuple):
         )
 
 
-class Fix(NamedTuple):
-    """A place in the air: its height above the ground, and standard deviations."""
+class AirFix(NamedTuple):
+    """A position in the air with its height above the ground, and standard deviations."""
 
     point: Vector
     height_m: float
     error_m: float
-    """Horizontal, in the worst direction."""
+    """Horizontal standard deviation in the worst direction, in m."""
     height_error_m: float
 
 
-def meeting(first: Sightline, second: Sightline, size_m: float) -> Fix | None:
+def meeting(first: LineOfSight, second: LineOfSight, size_m: float) -> AirFix | None:
     """Return where two lines of sight meet, None if they do not.
 
-    They do if they pass each other within their errors, and the size of what they lead to.
+    They do if they pass each other within their errors and the size of what they lead to.
     """
     angle = first.ray.angle_to(second.ray)
     if not LEAST_PARALLAX_RAD <= angle <= math.pi - LEAST_PARALLAX_RAD:
@@ -267,4 +267,4 @@ def meeting(first: Sightline, second: Sightline, size_m: float) -> Fix | None:
     height_m = (ends[0].height_m + ends[1].height_m) / 2.0
     error_m = errors / math.sin(angle)
     steepest = max(abs(first.ray.up), abs(second.ray.up))
-    return Fix(middle, height_m, error_m, math.hypot(errors, error_m * steepest))
+    return AirFix(middle, height_m, error_m, math.hypot(errors, error_m * steepest))

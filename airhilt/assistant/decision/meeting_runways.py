@@ -10,7 +10,7 @@ from airhilt.messages import Severity
 
 
 def meeting_uses(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
-    """Yield that two users of runways will meet."""
+    """Yield the threat that two users of runways meet."""
     if first.strip is second.strip:
         yield from _head_on(outlook, first, second)
     else:
@@ -18,7 +18,7 @@ def meeting_uses(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
 
 
 def _head_on(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
-    """Yield that two use one runway in opposite directions."""
+    """Yield the threat of two users of one runway in opposite directions."""
     if first.direction is second.direction:
         return
     gap_m = first.direction.along_m(second.mobile.point) - first.along_m
@@ -38,7 +38,7 @@ def _head_on(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
 
 
 def _crossing(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
-    """Yield that two come to the crossing of their runways at about the same time."""
+    """Yield the threat of two users at the crossing of their runways at about the same time."""
     point = outlook.situation.aerodrome.crossing(first.strip, second.strip)
     if point is None:
         return

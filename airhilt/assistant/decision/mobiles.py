@@ -1,6 +1,6 @@
-"""What the assistant believes of each aircraft and vehicle at an airport, and how it uses runways.
+"""Belief about each aircraft and vehicle at an airport, and how it uses runways.
 
-A mobile, in the words of surface surveillance (ICAO Doc 9830), is either.
+A mobile, in the words of surface surveillance (ICAO Doc 9830), is an aircraft or a vehicle.
 """
 
 from __future__ import annotations
@@ -16,66 +16,67 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SE
 SPEED_MEMORY = 0.6
 """Weight of the earlier speed in the exponential mean; about 1 s at two reports a second."""
 MEMORY_NS = 2 * SECOND_NS
-"""After a longer silence the mean begins anew."""
+"""Silence after which the mean begins anew, in ns."""
 FINAL_M = 5.0 * NAUTICAL_MILE
-"""Looked at before a threshold."""
+"""Length of the final approach that is looked at, in m."""
 ALIGNED_RAD = 15.0 * DEGREE
 FINAL_WIDTH_M = 120.0
 FINAL_WIDENING = 0.08
-"""An aircraft on final is within the width, and this part of its distance, of the centre line."""
+"""An aircraft on final is this far from the centre line at most: a width in m, and a share of its
+distance."""
 STEEPEST = math.tan(5.0 * DEGREE)
 HEIGHT_ALLOWANCE_M = 150.0
-"""It is lower than a steep glide path, by no more than this above it."""
+"""Height above a steep glide path, in m, up to which an aircraft is on final."""
 DESCENDING_M_S = 100 * FOOT_PER_MINUTE
 LOW_M = 60.0
-"""Below this height it need not descend to be landing."""
+"""Height, in m, below which an aircraft need not descend to be landing."""
 CLIMBING_M_S = 200 * FOOT_PER_MINUTE
 CLIMB_OUT_M = 300.0
-"""An aircraft that climbs along the runway uses it up to this height."""
+"""Height, in m, up to which an aircraft that climbs along the runway uses it."""
 BEYOND_M = 2.0 * NAUTICAL_MILE
-"""And so far before or past it."""
+"""Distance before or past the runway, in m, up to which it does."""
 STANDING_M_S = 1.5
-"""Slower than this, somebody stands."""
+"""Speeds below this, in m/s, are treated as standing."""
 ROLLING_M_S = 25.0 * KNOT
-"""Faster than anybody taxies along a runway."""
+"""Speed that nobody reaches in taxiing along a runway, in m/s."""
 ACCELERATING_FROM_M_S = 5.0
 GAIN_M_S = 3.0
-"""Slower, a departure is known by how much its speed exceeds its own slow mean."""
+"""Excess of the speed over its slow mean, in m/s, by which a slow departure is known."""
 SLOW_SPEED_MEMORY = 0.9
-"""Of the slow mean; about 5 s."""
+"""Weight of the earlier speed in the slow mean; about 5 s."""
 BESIDE_M = 25.0
-"""Who is no farther from the pavement is on it: the position's error, and an aircraft's size."""
+"""Distance from the pavement, in m, within which a mobile is on it: position error and size."""
 TOUCHDOWN_M = 400.0
-"""Past the threshold, where a landing touches down."""
+"""Distance past the threshold at which a landing touches down, in m."""
 BRAKING_M_S2 = 1.8
-"""Of a normal rollout."""
+"""Deceleration of a normal rollout, in m/s2."""
 TAKEOFF_M_S2 = 1.8
-"""Of a normal takeoff."""
+"""Acceleration of a normal takeoff, in m/s2."""
 OVERRUN_M = 500.0
-"""Pavement before a displaced threshold or past the end, at most."""
+"""Longest pavement before a displaced threshold or past the end, in m."""
 VEHICLE_CATEGORIES = ("C1", "C2")
 
 
 @dataclass(slots=True)
 class Mobile:
-    """One aircraft or vehicle; all as of ``t_ns``."""
+    """One aircraft or vehicle, as of ``t_ns``."""
 
     icao24: str
     callsign: str
     t_ns: int
     point: Vector
     altitude_m: float | None
-    """None on the ground."""
+    """Pressure altitude; None on the ground."""
     speed_m_s: float
     heading_rad: float
-    """On the ground; in flight the track."""
+    """Heading on the ground, track in flight."""
     vertical_rate_m_s: float
     nacp: int
     is_vehicle: bool
     slow_speed_m_s: float
-    """The mean of the speed over some seconds."""
+    """Mean of the speed over some seconds."""
     landed: bool = False
-    """It has landed, and not left the runway since."""
+    """Whether it has landed and not left the runway since."""
 
     @property
     def on_ground(self) -> bool:
@@ -84,14 +85,14 @@ class Mobile:
 
     @property
     def is_rolling(self) -> bool:
-        """Whether it is faster, or gathers speed more, than in taxiing."""
+        """Whether it is faster, or accelerates more, than in taxiing."""
         gain_m_s = self.speed_m_s - self.slow_speed_m_s
         gathers = self.speed_m_s >= ACCELERATING_FROM_M_S and gain_m_s >= GAIN_M_S
         return self.speed_m_s >= ROLLING_M_S or (gathers and not self.landed)
 
     @classmethod
     def of(cls, report: AdsbReport, point: Vector) -> Mobile:
-        """Return a new one."""
+        """Return the mobile of a first report."""
         return cls(
             report.icao24,
             report.callsign or report.icao24,
@@ -107,7 +108,7 @@ class Mobile:
         )
 
     def update(self, report: AdsbReport, point: Vector) -> None:
-        """Take in a newer report."""
+        """Update with a newer report."""
         fresh = Mobile.of(report, point)
         recent = fresh.t_ns - self.t_ns < MEMORY_NS
         keep, keep_slow = (SPEED_MEMORY, SLOW_SPEED_MEMORY) if recent else (0.0, 0.0)
@@ -129,7 +130,7 @@ Kind = Literal["arrival", "departure", "rollout"]
 
 
 class Use(NamedTuple):
-    """How an aircraft uses a runway, as of the last report."""
+    """Use of a runway by an aircraft, as of the last report."""
 
     mobile: Mobile
     strip: Strip
@@ -143,11 +144,11 @@ class Use(NamedTuple):
         return self.kind == "departure" and not self.mobile.on_ground
 
     def time_to_threshold_s(self, t_ns: int) -> float:
-        """Return how long until it crosses the threshold; 0 once it has."""
+        """Return the time until it crosses the threshold, in s; 0 once it has."""
         return self._left_s(-self.along_m / max(self.mobile.speed_m_s, 1.0), t_ns)
 
     def time_to_s(self, along_m: float, t_ns: int) -> float | None:
-        """Return when it will be a distance past the threshold; None if it is past, or stops.
+        """Return the time until it is at a distance past the threshold; None if it will not be.
 
         An arrival brakes after it has touched down, a departure accelerates, both evenly.
         """
@@ -171,7 +172,7 @@ class Use(NamedTuple):
 
 
 def use_of(mobile: Mobile, strips: tuple[Strip, ...]) -> Use | None:
-    """Return how somebody uses a runway: the one whose centre line is nearest."""
+    """Return how a mobile uses a runway, the one whose centre line is nearest; None if none."""
     found: list[tuple[float, Use]] = []
     for strip in strips:
         for direction in strip.directions:

@@ -1,4 +1,4 @@
-"""What cameras show on the ground and low over it, by several of them together."""
+"""Things on the ground and low over it, as one or several cameras show them together."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
-from airhilt.assistant.decision.line_of_sight import Fix, Ray, Sightline, Spot, meeting
+from airhilt.assistant.decision.line_of_sight import AirFix, GroundFix, LineOfSight, Ray, meeting
 from airhilt.assistant.decision.visual_tracks import (
     Observation,
     VisualTrack,
@@ -24,34 +24,34 @@ from airhilt.units import SECOND_NS
 
 ANIMALS: frozenset[VisibleClass] = frozenset(("deer", "coyote", "bird"))
 MOTION_NS = 2 * SECOND_NS
-"""Over which a speed is measured."""
+"""Time over which a speed is measured, in ns."""
 LEAST_MOTION_NS = SECOND_NS
 SAME_INSTANT_NS = SECOND_NS // 4
-"""Two cameras that were to see one bird in the air saw it at times no farther apart."""
+"""Longest time between two cameras' observations of one thing in the air, in ns."""
 FLOCK_M = 20.0
-"""Across a flock, at most."""
+"""Largest size of a flock, in m."""
 SMALLEST_BIRD_M = 0.4
 ALOFT_SIGMAS = 2.0
 ALOFT_M = 4.0
-"""Birds that are higher are in the air."""
+"""Height, in m, above which birds are in the air."""
 STEADY_SIGMAS = 2.0
-"""A speed that is less surely one is none."""
+"""Speeds below this many standard deviations are treated as standing."""
 
 
 class SeenOnGround(NamedTuple):
     """Something on the ground, as one or more cameras show it."""
 
     label: VisibleClass
-    spot: Spot
+    fix: GroundFix
     belief: float
     is_established: bool
-    sighting: VisualTrack
-    """The surest."""
+    track: VisualTrack
+    """The visual track with the highest belief."""
     t_ns: int
 
     @property
     def is_animal(self) -> bool:
-        """Whether it is no vehicle and no aircraft."""
+        """Whether it is an animal, and neither vehicle nor aircraft."""
         return self.label in ANIMALS
 
 
@@ -62,50 +62,50 @@ class SeenAloft:
     Attributes
     ----------
     places
-        Where it may be; one, if cameras tell the distance.
+        Positions that it may have; one if cameras tell the distance.
     """
 
     are_birds: bool
 
-    places: tuple[Fix, ...]
+    places: tuple[AirFix, ...]
     velocity: tuple[float, float, float]
-    """East, north and up, in m/s; nothing where it is not known."""
+    """East, north and up, in m/s; 0 where it is not known."""
     is_located: bool
     t_ns: int
-    sightings: tuple[VisualTrack, ...]
+    tracks: tuple[VisualTrack, ...]
 
 
 def seen_on_ground(
     visual_tracks: VisualTracks, aerodrome: Aerodrome, aloft: Iterable[SeenAloft] = ()
 ) -> Iterator[SeenOnGround]:
-    """Yield what is on the ground and not known by ADS-B, the surest first."""
-    flying = {id(sighting) for thing in aloft for sighting in thing.sightings}
-    known: list[tuple[VisualTrack, Spot]] = []
-    for sighting in visual_tracks:
-        if id(sighting) in flying:
+    """Yield what is on the ground and not known by ADS-B, by falling belief."""
+    flying = {id(track) for thing in aloft for track in thing.tracks}
+    known: list[tuple[VisualTrack, GroundFix]] = []
+    for track in visual_tracks:
+        if id(track) in flying:
             continue
-        spot = _spot(sighting.last, aerodrome)
-        if sighting.explained_by is None and spot is not None:
-            known.append((sighting, spot))
+        fix = _ground_fix(track.last, aerodrome)
+        if track.explained_by is None and fix is not None:
+            known.append((track, fix))
     known.sort(key=lambda pair: -pair[0].belief)
     while known:
-        (first, spot), *known = known
+        (first, fix), *known = known
         together, rest = [first], []
         for other, place in known:
             is_new = all(other.camera != one.camera for one in together)
-            if is_new and _alike(first, other) and spot.is_same(place):
+            if is_new and _alike(first, other) and fix.is_same(place):
                 together.append(other)
-                spot = spot.merged(place)
+                fix = fix.merged(place)
             else:
                 rest.append((other, place))
         known = rest
         yield SeenOnGround(
             first.label,
-            spot,
+            fix,
             belief_in(together),
             is_established(together),
             first,
-            max(sighting.last.t_ns for sighting in together),
+            max(track.last.t_ns for track in together),
         )
 
 
@@ -113,13 +113,13 @@ def _alike(first: VisualTrack, second: VisualTrack) -> bool:
     return (first.label in ANIMALS) == (second.label in ANIMALS)
 
 
-def _spot(observation: Observation, aerodrome: Aerodrome) -> Spot | None:
-    return _line(observation, aerodrome, observation.eye.foot(observation.box)).on_ground()
+def _ground_fix(observation: Observation, aerodrome: Aerodrome) -> GroundFix | None:
+    return _line(observation, aerodrome, observation.geometry.foot(observation.box)).on_ground()
 
 
-def _line(observation: Observation, aerodrome: Aerodrome, ray: Ray) -> Sightline:
-    view = observation.eye.view
-    return Sightline(_place(view, aerodrome), view.height_m, ray, observation.eye.error_rad)
+def _line(observation: Observation, aerodrome: Aerodrome, ray: Ray) -> LineOfSight:
+    view = observation.geometry.view
+    return LineOfSight(_place(view, aerodrome), view.height_m, ray, observation.geometry.error_rad)
 
 
 def _place(view: CameraView, aerodrome: Aerodrome) -> Vector:
@@ -127,19 +127,19 @@ def _place(view: CameraView, aerodrome: Aerodrome) -> Vector:
 
 
 def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:
-    """Return how fast something on the ground moves (m/s); nothing unless it surely does."""
-    sighting = thing.sighting
-    last_ns = sighting.last.t_ns
+    """Return the velocity of something on the ground, in m/s; 0 unless it clearly moves."""
+    track = thing.track
+    last_ns = track.last.t_ns
     places = [
-        ((observation.t_ns - last_ns) / SECOND_NS, spot)
-        for observation in sighting.observations
+        ((observation.t_ns - last_ns) / SECOND_NS, fix)
+        for observation in track.observations
         if last_ns - observation.t_ns <= MOTION_NS
-        and (spot := _spot(observation, aerodrome)) is not None
+        and (fix := _ground_fix(observation, aerodrome)) is not None
     ]
     if len(places) < 3 or -places[0][0] < LEAST_MOTION_NS / SECOND_NS:
         return Vector(0.0, 0.0)
     times = np.array([time_s for time_s, _ in places])
-    points = np.array([spot.point for _, spot in places])
+    points = np.array([fix.point for _, fix in places])
     (slope, base), *_ = np.linalg.lstsq(
         np.column_stack((times, np.ones_like(times))), points, rcond=None
     )
@@ -157,7 +157,7 @@ def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:
 def seen_aloft(visual_tracks: VisualTracks, aerodrome: Aerodrome) -> Iterator[SeenAloft]:
     """Yield what two cameras see in the air, and birds that one sees above its horizon.
 
-    Far away, birds and aircraft are easily taken for each other.
+    Detectors easily take distant birds and aircraft for each other.
     """
     flying = [
         s for s in visual_tracks if s.label in ("bird", "airplane") and s.explained_by is None
@@ -169,18 +169,18 @@ def seen_aloft(visual_tracks: VisualTracks, aerodrome: Aerodrome) -> Iterator[Se
             if flock is not None:
                 located |= {id(first), id(second)}
                 yield flock
-    for bird in (sighting for sighting in flying if sighting.label == "bird"):
+    for bird in (track for track in flying if track.label == "bird"):
         if id(bird) not in located and is_established([bird]):
-            line = _line(bird.last, aerodrome, bird.last.eye.foot(bird.last.box))
+            line = _line(bird.last, aerodrome, bird.last.geometry.foot(bird.last.box))
             if line.ray.up > 2.0 * line.error_rad:
                 places = tuple(_along(bird.last, aerodrome))
                 yield SeenAloft(True, places, (0.0, 0.0, 0.0), False, bird.last.t_ns, (bird,))
 
 
 def _flock(first: VisualTrack, second: VisualTrack, aerodrome: Aerodrome) -> SeenAloft | None:
-    """Return where two cameras see one thing in the air, None if they do not."""
+    """Return the position at which two cameras see one thing in the air, None if they do not."""
     last_ns = min(first.last.t_ns, second.last.t_ns)
-    fixes: list[tuple[float, Fix]] = []
+    fixes: list[tuple[float, AirFix]] = []
     lately = (
         [g for g in each.observations if last_ns - g.t_ns <= MOTION_NS] for each in (first, second)
     )
@@ -206,15 +206,15 @@ def _flock(first: VisualTrack, second: VisualTrack, aerodrome: Aerodrome) -> See
 def _at_once(
     first: Sequence[Observation], second: Sequence[Observation]
 ) -> Iterator[tuple[Observation, Observation]]:
-    """Yield glimpses of two cameras that are of about the same instant, in order of time."""
+    """Yield pairs of observations of about the same instant, in order of time."""
     for one in first:
         other = min(second, key=lambda observation: abs(observation.t_ns - one.t_ns), default=None)
         if other is not None and abs(other.t_ns - one.t_ns) <= SAME_INSTANT_NS:
             yield one, other
 
 
-def _along(observation: Observation, aerodrome: Aerodrome) -> Iterator[Fix]:
-    """Yield where birds may be that look so large: one small bird, or a flock, or between."""
+def _along(observation: Observation, aerodrome: Aerodrome) -> Iterator[AirFix]:
+    """Yield positions along the line of sight for birds from one small bird to a flock."""
     line = _line(observation, aerodrome, observation.ray)
     size_rad = max(observation.size_rad)
     steps = 12

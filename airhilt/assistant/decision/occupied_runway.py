@@ -36,14 +36,14 @@ TURN_OFF_M_S = 8.0
 TURN_OFF_S = 12.0
 """Time from then until it has left the runway, in s."""
 LEAST_ENTRY_M_S = 2.0
-"""Who is slower, in m/s, is not about to enter a runway."""
+"""Speed, in m/s, below which nobody is about to enter a runway."""
 HARD_BRAKING_M_S2 = 4.0
 """Hardest braking of a vehicle in front of a hold line, in m/s2."""
 ONE_SIDED = 0.67
 """Share of the 95 % radius of a position error that is exceeded in 5 % of cases in one direction:
 1.645 / 2.4477."""
 CROSSING_NS = 30 * SECOND_NS
-"""Time after which somebody unseen who was cleared to cross is taken to be across, in ns."""
+"""Time after which an unseen mobile that was cleared to cross is taken to be across, in ns."""
 
 
 def occupied(outlook: Outlook, use: Use) -> Iterator[Threat]:
@@ -58,7 +58,7 @@ def occupied(outlook: Outlook, use: Use) -> Iterator[Threat]:
 
 
 def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
-    """Yield that somebody is on a runway before its user, or about to enter it."""
+    """Yield the threat of a mobile on a runway before its user, or about to enter it."""
     other = obstacle.mobile
     enters = not obstacle.is_inside
     coming = None if other is use.mobile else outlook.coming(use, other.point)
@@ -75,12 +75,12 @@ def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
 
 
 def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Threat]:
-    """Yield that cameras show something on a runway before its user.
+    """Yield the threat of something that only cameras show on a runway before its user.
 
-    While it is not sure yet, it is one hint among others.
+    While it is not certain, it is one hint among others.
     """
     thing = seen.thing
-    coming = outlook.coming(use, thing.spot.point)
+    coming = outlook.coming(use, thing.fix.point)
     if coming is None:
         return
     severity, time_to_go_s = coming
@@ -89,18 +89,18 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
         callsign = _sent_there(outlook, use.strip, thing.label == "truck")
     cleared_to = outlook.cleared_to(callsign, use.strip)
     clear_s = None if "proceed" in cleared_to else seen.clear_s
-    if seen.is_sure and _is_harmless(
+    if seen.is_certain and _is_harmless(
         outlook, clear_s, "cross" in cleared_to, severity, time_to_go_s
     ):
         severity = Severity.INFO
-    elif not seen.is_sure:
+    elif not seen.is_certain:
         reported = outlook.situation.has_wildlife(use.strip, outlook.t_ns)
         is_told = reported if thing.is_animal else callsign is not None
         hinted = fused_severity(seen.weight, 1.0, float(is_told))
         if hinted is None:
             return
         severity = min(severity, hinted, key=lambda each: each.rank)
-    sources: tuple[str, ...] = ("vision", "adsb") if seen.is_sure else ("adsb", "vision")
+    sources: tuple[str, ...] = ("vision", "adsb") if seen.is_certain else ("adsb", "vision")
     how: Obstructs
     what, unnamed = str(thing.label), None
     if thing.is_animal:
@@ -113,7 +113,7 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
 
 
 def _sent_there(outlook: Outlook, strip: Strip, vehicle: bool) -> str | None:
-    """Return the one vehicle, or aircraft, without ADS-B that was cleared on to a runway."""
+    """Return the only vehicle, or aircraft, without ADS-B that was cleared on to a runway."""
     situation = outlook.situation
     names = {
         clearance.callsign
@@ -131,7 +131,7 @@ def _is_harmless(
     severity: Severity,
     time_to_go_s: float,
 ) -> bool:
-    """Return whether what is on a runway leaves it in time, and may do so as late."""
+    """Return whether what is on a runway leaves it in time, and is allowed to do so that late."""
     if clear_s is None or clear_s + outlook.config.leaving_margin_s > time_to_go_s:
         return False
     is_late = time_to_go_s <= outlook.config.late_s
@@ -139,9 +139,9 @@ def _is_harmless(
 
 
 def _enters(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
-    """Return whether somebody outside can surely not stop short of the runway any more.
+    """Return whether a mobile outside cannot stop short of the runway any more.
 
-    Who was told to hold is given the benefit of the doubt.
+    One that was told to hold is given the benefit of the doubt.
     """
     mobile = obstacle.mobile
     idents = tuple(direction.ident for direction in strip.directions)
@@ -153,7 +153,7 @@ def _enters(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
 
 
 def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
-    """Return when somebody will be off the runway, or in the air; None if it will not."""
+    """Return the time until a mobile is off the runway or in the air, in s; None if it stays."""
     mobile, speed = obstacle.mobile, obstacle.mobile.speed_m_s
     own = outlook.situation.use(mobile)
     if own is not None and own.kind == "departure" and own.strip is use.strip:
@@ -168,7 +168,7 @@ def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
 
 
 def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:
-    """Return whether somebody has landed, takes off, or was cleared to cross a runway."""
+    """Return whether a mobile has landed, takes off, or was cleared to cross a runway."""
     return (
         mobile.landed
         or outlook.situation.use(mobile) is not None
@@ -177,7 +177,7 @@ def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:
 
 
 def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
-    """Yield that somebody unseen was cleared on to the runway; of less weight."""
+    """Yield the threat of an unseen mobile that was cleared on to the runway."""
     if use.is_climbing:
         return
     for clearance in outlook.cleared_on(use.strip):
@@ -196,7 +196,7 @@ def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
 
 
 def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
-    """Yield that wildlife was reported on the runway."""
+    """Yield the threat of wildlife that was reported on the runway."""
     if not outlook.situation.has_wildlife(use.strip, outlook.t_ns):
         return
     if use.kind == "rollout" or use.is_climbing:

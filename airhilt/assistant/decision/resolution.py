@@ -1,4 +1,4 @@
-"""Which manoeuvres, one for each of two aircraft, keep them apart with the least disturbance."""
+"""Manoeuvres, one for each of two aircraft, that keep them apart with the least disturbance."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
 
 VERTICAL_RATE_FPM = 1500.0
-"""Rate asked for; the one of TCAS II's initial climb and descend advisories (ICAO Doc 9863)."""
+"""Recommended rate, in ft/min: that of TCAS II's initial advisories (ICAO Doc 9863)."""
 STRONG_VERTICAL_RATE_FPM = 2500.0
-"""Rate asked for in a WARNING; that of the strengthened advisories."""
+"""Recommended rate in a WARNING, in ft/min: that of TCAS II's strengthened advisories."""
 TURN_DEG = 30.0
 RESPONSE_S = 10.0
-"""Allowed for speech, the crew's reaction and the aircraft's."""
+"""Time allowed for speech and for the reactions of crew and aircraft, in s."""
 BUFFER_FT = 200.0
-"""Aimed at beyond the vertical minimum."""
+"""Distance aimed at beyond the vertical minimum, in ft."""
 STEP_S = 2.0
 HORIZON_S = 600.0
 LEVEL_STEP_M = 100 * FOOT
 
 
 class Manoeuvre(NamedTuple):
-    """What one aircraft would do: a level to fly to at a rate, and a turn."""
+    """A manoeuvre of one aircraft: a level to fly to at a rate, and a turn."""
 
     target_m: float | None = None
     rate_m_s: float = 0.0
@@ -39,12 +39,12 @@ NONE = Manoeuvre()
 
 @dataclass(frozen=True)
 class Resolution:
-    """A recommendation for each of a pair; None for who need do nothing."""
+    """A recommendation for each of a pair; None for an aircraft that need do nothing."""
 
     first: Recommendation | None
     second: Recommendation | None
     margin: float
-    """Least distance in units of the minima: 1 or more keeps separation."""
+    """Least distance in units of the minima; 1 or more keeps separation."""
 
 
 def resolve(
@@ -57,10 +57,10 @@ def resolve(
 ) -> Resolution:
     """Return the first candidate that keeps separation, or the one that keeps most of it.
 
-    It aims at ``standard``; separation counts as lost below ``infringed``, which is a tolerance
-    less. A candidate that brings either into conflict with ``others`` is a last resort.
+    It aims at ``standard``; separation counts as lost below ``infringed``, the same less a
+    tolerance. A candidate that brings either into conflict with ``others`` is a last resort.
 
-    Who is in distress is told nothing: the other one gives way.
+    An aircraft in distress is told nothing: the other one gives way.
 
     Candidates are coordinated: of two that move vertically, the higher one climbs (of two at the
     same level the one with the higher address, so that the choice never flips).

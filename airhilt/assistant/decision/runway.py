@@ -1,4 +1,4 @@
-"""Conflicts on runways (S01A, S01B, S01C): told to those concerned, and to the controller."""
+"""Conflicts on runways (S01A, S01B, S01C), with what those concerned should do."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from airhilt.messages import (
 )
 
 FIRM_BRAKING_M_S2 = 2.5
-"""Who can stop so before the pavement is told to."""
+"""Deceleration, in m/s2, within which somebody who can stop short of the pavement is told to."""
 
 
 @dataclass(slots=True)
@@ -55,24 +55,24 @@ class RunwayWatch:
         return bool(self._ongoing)
 
     def runway_of_arrival(self, callsign: str) -> str | None:
-        """Return the runway that somebody is on final for, None if it is on none."""
+        """Return the runway for which a callsign is on final, None if it is not."""
         situation = self._situation
         mobile = None if situation is None else situation.mobile(callsign)
         use = None if situation is None or mobile is None else situation.use(mobile)
         return None if use is None or use.kind != "arrival" else use.direction.ident
 
     def take_briefing(self, briefing: Briefing) -> None:
-        """Take in the airport, and who is expected there."""
+        """Set the airport, and who is expected there."""
         if briefing.airport is not None and briefing.airport.runways:
             self._situation = Situation(briefing.airport, briefing.roster)
 
     def take_report(self, report: AdsbReport) -> None:
-        """Take in where an aircraft or a vehicle is."""
+        """Update the position of an aircraft or a vehicle."""
         if self._situation is not None:
             self._situation.take_report(report)
 
     def take_transcript(self, transcript: Transcript) -> None:
-        """Take in a call."""
+        """Update clearances with a call."""
         if self._situation is not None:
             self._situation.take_transcript(transcript)
 
@@ -129,10 +129,10 @@ class RunwayWatch:
     def _advice(
         self, mobile: Mobile, threat: Threat, severity: Severity, situation: Situation
     ) -> Recommendation | None:
-        """Return what somebody can do to stay clear.
+        """Return what a mobile should do to stay clear.
 
-        On final and while rolling that is for a WARNING only; on final also if a readback was
-        wrong and time is short.
+        On final and while rolling, something is recommended for a WARNING only; on final also if a
+        readback was wrong and time is short.
         """
         use = situation.use(mobile)
         if use is None:
@@ -178,9 +178,9 @@ class RunwayWatch:
 
 
 def _stop(mobile: Mobile, strip: Strip, runway: str) -> Recommendation | None:
-    """Return what somebody on the ground can do who does not use a runway yet.
+    """Return what a mobile on the ground should do that does not use a runway yet.
 
-    Who is on the pavement already, or leaves it, had better go on.
+    One that is on the pavement already, or leaves it, should go on: None.
     """
     if not mobile.on_ground:
         return None

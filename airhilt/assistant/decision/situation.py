@@ -1,4 +1,4 @@
-"""What is known of an airport's runways now: who uses them, what is on them, what was said."""
+"""The state of an airport's runways: who uses them, what is on them, what was said."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from airhilt.phraseology import Call, parse_call
 from airhilt.units import SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
-"""Age at which somebody is forgotten."""
+"""Age at which a mobile is forgotten, in ns."""
 STALE_STANDING_NS = 30 * SECOND_NS
-"""Likewise who stands, and squitters every five seconds."""
+"""Likewise for a standing mobile, which squitters every five seconds."""
 WILDLIFE_NS = 120 * SECOND_NS
-"""How long wildlife stays where it was reported."""
+"""Time for which wildlife stays where it was reported, in ns."""
 LEAST_CHANCE = 0.2
-"""What is less probably in a protected area is beside it."""
-SURE_CHANCE = 0.8
-"""What is at least so probably in it is there."""
+"""Probability below which something is beside a protected area."""
+CERTAIN_CHANCE = 0.8
+"""Probability from which it counts as certain that something is in the area."""
 ACCURATE_NACP = 11
 
 
 class Obstacle(NamedTuple):
-    """Somebody on the ground, by ADS-B, whose way straight on leads through a protected area."""
+    """A mobile on the ground, by ADS-B, whose straight way leads through a protected area."""
 
     mobile: Mobile
     way: Way
@@ -52,22 +52,22 @@ class SeenObstacle(NamedTuple):
     Attributes
     ----------
     exit_m
-        How far it is, straight on, to where it leaves the area.
+        Distance straight on to where it leaves the area, in m.
     weight
-        How sure it is that it is there, and in the area.
-    is_sure
-        Whether both are beyond doubt.
+        Probability that it is there and in the area.
+    is_certain
+        Whether both count as certain.
     """
 
     thing: SeenOnGround
     speed_m_s: float
     exit_m: float
     weight: float
-    is_sure: bool
+    is_certain: bool
 
     @property
     def clear_s(self) -> float | None:
-        """When it will have left the area; None if it stands."""
+        """Time until it has left the area, in s; None if it stands."""
         return self.exit_m / self.speed_m_s if self.speed_m_s >= STANDING_M_S else None
 
 
@@ -78,34 +78,34 @@ class Situation:
         self.aerodrome = Aerodrome(airport)
         self.clearances = Clearances()
         self.uses: dict[str, Use] = {}
-        """By address."""
+        """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in roster}
-        """Whether it is a vehicle, by callsign."""
+        """Whether each callsign is a vehicle."""
         self._mobiles: dict[str, Mobile] = {}
         self._obstacles: dict[str, dict[str, Obstacle]] = {
             strip.name: {} for strip in self.aerodrome.strips
         }
-        """By runway and address."""
+        """Obstacles by runway and address."""
         self._wildlife_ns: dict[str, int] = {}
-        """When it was last reported, by runway."""
+        """Time of the last report of wildlife, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
         self._seen: dict[str, list[SeenObstacle]] = {}
-        """By runway."""
+        """Obstacles that only cameras show, by runway."""
 
     def is_vehicle(self, callsign: str) -> bool:
-        """Return whether the roster has somebody as a vehicle."""
+        """Return whether a callsign is a vehicle by the roster."""
         return self._roster.get(callsign, False)
 
     def mobile(self, callsign: str) -> Mobile | None:
-        """Return who has a callsign, if it is seen."""
+        """Return the mobile with a callsign, None if there is none."""
         return next((m for m in self._mobiles.values() if m.callsign == callsign), None)
 
     def use(self, mobile: Mobile) -> Use | None:
-        """Return how somebody uses a runway, if it does."""
+        """Return how a mobile uses a runway, None if it does not."""
         return self.uses.get(mobile.icao24)
 
     def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
-        """Yield who is on a runway, or has it straight ahead."""
+        """Yield the mobiles on a runway, or with it straight ahead."""
         yield from self._obstacles[strip.name].values()
 
     def seen(self, strip: Strip) -> Iterator[SeenObstacle]:
@@ -113,7 +113,7 @@ class Situation:
         yield from self._seen.get(strip.name, ())
 
     def look(self, visual_tracks: VisualTracks) -> None:
-        """Take in what cameras show on the ground, and in the air."""
+        """Update what cameras show on the ground and in the air."""
         self.aloft = tuple(seen_aloft(visual_tracks, self.aerodrome))
         things = list(seen_on_ground(visual_tracks, self.aerodrome, self.aloft))
         self._seen = {
@@ -126,30 +126,30 @@ class Situation:
         }
 
     def _seen_on(self, strip: Strip, thing: SeenOnGround) -> SeenObstacle | None:
-        """Return something that cameras show as an obstacle, None if it is not on a runway."""
-        chance = thing.spot.chance(strip.share_inside)
+        """Return something that cameras show as an obstacle; None if it is not on the runway."""
+        chance = thing.fix.chance(strip.share_inside)
         if chance < LEAST_CHANCE:
             return None
         # Nobody knows where an animal will go: it stands.
         east, north = (0.0, 0.0) if thing.is_animal else velocity_of(thing, self.aerodrome)
         ahead = way_through(
-            strip.core(ACCURATE_NACP), thing.spot.point, heading_rad=math.atan2(east, north)
+            strip.core(ACCURATE_NACP), thing.fix.point, heading_rad=math.atan2(east, north)
         )
         return SeenObstacle(
             thing,
             speed_m_s=math.hypot(east, north),
             exit_m=0.0 if ahead is None else ahead.exit_m,
             weight=thing.belief * chance,
-            is_sure=thing.is_established and chance >= SURE_CHANCE,
+            is_certain=thing.is_established and chance >= CERTAIN_CHANCE,
         )
 
     def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
-        """Return whether wildlife was reported on a runway a short while ago."""
+        """Return whether wildlife was reported on a runway within `WILDLIFE_NS`."""
         reported_ns = self._wildlife_ns.get(strip.name)
         return reported_ns is not None and t_ns - reported_ns <= WILDLIFE_NS
 
     def take_report(self, report: AdsbReport) -> None:
-        """Take in where an aircraft or a vehicle is."""
+        """Update the position of an aircraft or a vehicle."""
         point = self.aerodrome.locate(report.latitude_deg, report.longitude_deg)
         mobile = self._mobiles.get(report.icao24)
         if mobile is None:
@@ -162,7 +162,7 @@ class Situation:
         self._place(mobile)
 
     def _place(self, mobile: Mobile) -> None:
-        """Work out which runways somebody is on, is heading for, or uses."""
+        """Update which runways a mobile is on, is heading for, or uses."""
         for strip in self.aerodrome.strips:
             obstacles, core = self._obstacles[strip.name], strip.core(mobile.nacp)
             way = way_through(core, mobile.point, mobile.heading_rad) if mobile.on_ground else None
@@ -182,7 +182,7 @@ class Situation:
             self.uses[mobile.icao24] = use
 
     def forget(self, t_ns: int) -> None:
-        """Forget those of whom nothing was heard for a while."""
+        """Forget the mobiles without recent reports."""
         for icao24, mobile in list(self._mobiles.items()):
             standing = mobile.on_ground and mobile.speed_m_s < STANDING_M_S
             if t_ns - mobile.t_ns > (STALE_STANDING_NS if standing else STALE_NS):
@@ -192,7 +192,7 @@ class Situation:
                     obstacles.pop(icao24, None)
 
     def take_transcript(self, transcript: Transcript) -> None:
-        """Take in a call."""
+        """Update clearances and reports of wildlife with a call."""
         known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
         call = parse_call(transcript.text, sorted(known))
         for said in call.instructions:
@@ -205,7 +205,7 @@ class Situation:
         self.clearances.take(call, transcript)
 
     def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
-        """Return the runway named, or that of whose call it is, or all: "deer on the runway"."""
+        """Return the runway named, else the one that the caller uses, else all."""
         strip = self.aerodrome.strip_of(runway)
         if strip is not None:
             return (strip,)

@@ -1,4 +1,4 @@
-"""What can be wrong on a runway, and how soon its user is there."""
+"""Threats on a runway, and the time until its user is there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the assistant believes of each aircraft in flight, from ADS-B and from what was said."""
+"""Belief about each aircraft in flight, from ADS-B and from what was said."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 LEVEL_BELOW_M_S = 200 * FOOT_PER_MINUTE
-"""A slower climb or descent counts as level flight: three quanta of the ADS-B vertical rate."""
+"""Vertical rate, in m/s, below which flight counts as level: three quanta of ADS-B."""
 LEVEL_WITHIN_M = 200 * FOOT
-"""An aircraft this near to its cleared level is levelling off there, whatever the filtered rate
-still says (the tolerance of ICAO Doc 4444, 8.5.5.2.1, in RVSM airspace)."""
+"""Distance to the cleared level, in m, within which an aircraft is levelling off.
+
+The filtered rate may still say otherwise. It is the tolerance of ICAO Doc 4444, 8.5.5.2.1, in RVSM
+airspace."""
 VELOCITY_MEMORY = 0.6
 """Weight of the earlier velocity in the exponential mean; about 1 s at two reports a second."""
 
 
 @dataclass(slots=True)
 class Track:
-    """One aircraft; position as of ``t_ns``."""
+    """One aircraft, with its position as of ``t_ns``."""
 
     icao24: str
     callsign: str
@@ -33,13 +35,13 @@ class Track:
     velocity_east_m_s: float
     vertical_rate_m_s: float
     cleared_m: float | None = None
-    """Level that it was last cleared to and read back, or read back otherwise."""
+    """Level that was last read back, or recommended, in m."""
     in_distress: bool = False
-    """It goes where it can, not where it is told."""
+    """Whether it is in distress, and goes where it can."""
 
     @classmethod
     def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
-        """Return a new track."""
+        """Return the track of a first report."""
         north, east = _velocity(report)
         return cls(
             report.icao24,
@@ -54,7 +56,7 @@ class Track:
         )
 
     def update(self, report: AdsbReport, altitude_ft: float) -> None:
-        """Take in a newer report; an older one is ignored."""
+        """Update with a newer report; an older one is ignored."""
         if report.t_adsb_in_ns < self.t_ns:
             return
         north, east = _velocity(report)
@@ -70,7 +72,7 @@ class Track:
         self.vertical_rate_m_s = keep * self.vertical_rate_m_s + (1.0 - keep) * rate
 
     def at(self, t_ns: int) -> Track:
-        """Return the track carried on to a time."""
+        """Return the track extrapolated to a time."""
         elapsed = (t_ns - self.t_ns) / SECOND_NS
         latitude, longitude = displaced(
             (self.latitude_rad, self.longitude_rad),
@@ -93,7 +95,7 @@ class Track:
         )
 
     def profile(self) -> VerticalProfile:
-        """Return where it is going vertically: to the cleared level, if it moves towards it."""
+        """Return the expected climb or descent: to the cleared level, if it moves towards it."""
         rate = self.vertical_rate_m_s
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)

@@ -1,11 +1,11 @@
-"""Who is known by ADS-B, and whether what a camera shows is one of them."""
+"""Aircraft and vehicles known by ADS-B, and whether what a camera shows is one of them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, Eye, Ray
+from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, PictureGeometry, Ray
 from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import AdsbReport, Box, CameraView, EmitterCategory
 from airhilt.surveillance.squitters import NACP_95_PERCENT_M
@@ -13,32 +13,32 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
 STALE_ON_GROUND_NS = 30 * SECOND_NS
-"""Age at which somebody is forgotten; who stands squitters every five seconds."""
+"""Ages at which reports are forgotten, in ns; who stands squitters every five seconds."""
 HALF_SIZE_M: dict[EmitterCategory | None, float] = {
     "A1": 8.0, "A2": 14.0, "A3": 21.0, "A5": 38.0, "C1": 7.0, "C2": 7.0,
 }  # fmt: skip
 UNKNOWN_HALF_SIZE_M = 38.0
 ALTITUDE_ERROR_M = 25.0
-"""Of a difference of pressure altitudes: steps of 25 ft, and altimeters that differ."""
+"""Error of a difference of pressure altitudes, in m: 25 ft steps, and altimeters that differ."""
 DRIFT_M_S = 3.0
-"""By which an extrapolated place may be wrong, for each second of its age."""
+"""Growth of the error of an extrapolated position, in m/s."""
 EXPLAINED_SIGMAS = 2.0
 LARGER_THAN_IT_IS = 3.0
-"""What looks so many times as large as somebody would, is not that one but nearer."""
+"""Factor on the size in the picture above which something is another, nearer thing."""
 SMALLEST_PX = 4.0
 ON_GROUND_HEIGHT_M = 2.0
-"""Of the middle of somebody on the ground, about."""
+"""Height of the middle of a mobile on the ground, in m, roughly."""
 OWN_RANGE_M = 30.0
-"""Who is so near to a camera is its carrier."""
+"""Distance from a camera, in m, within which a mobile is its carrier."""
 
 
 class Traffic:
-    """The last report of everybody who has a transponder.
+    """The last report of everybody with a transponder.
 
     Attributes
     ----------
     ground_m
-        Pressure altitude of the ground, None while nothing tells it.
+        Pressure altitude of the ground, in m; None while it is not known.
     """
 
     def __init__(self) -> None:
@@ -46,31 +46,31 @@ class Traffic:
         self._reports: dict[str, AdsbReport] = {}
 
     def take_report(self, report: AdsbReport) -> None:
-        """Take in where somebody is."""
+        """Keep the last report of an aircraft or a vehicle."""
         self._reports[report.icao24] = report
 
     def forget(self, t_ns: int) -> None:
-        """Forget those of whom nothing was heard for a while."""
+        """Forget old reports."""
         for icao24, report in list(self._reports.items()):
             stale_ns = STALE_ON_GROUND_NS if report.on_ground else STALE_NS
             if t_ns - report.t_adsb_in_ns > stale_ns:
                 del self._reports[icao24]
 
     def carrier(self, view: CameraView) -> AdsbReport | None:
-        """Return the last report of the aircraft that a camera is on, if there is one."""
+        """Return the last report of the carrier of a camera, None if there is none."""
         return next((r for r in self._reports.values() if _name(r) == view.carrier), None)
 
     def learn_ground(self, view: CameraView, t_ns: int) -> None:
-        """Take in how high above ground the camera of an aircraft in flight is."""
+        """Update the pressure altitude of the ground from the camera of an aircraft in flight."""
         report = self.carrier(view)
         if report is not None and report.altitude_ft is not None:
             climbed_m = report.vertical_rate_fpm * FOOT_PER_MINUTE * _age_s(report, t_ns)
             self.ground_m = report.altitude_ft * FOOT + climbed_m - view.height_m
 
-    def explaining(self, eye: Eye, box: Box, t_ns: int) -> str | None:
-        """Return the callsign of who should be seen where a box is; None if nobody."""
-        for report in self._others(eye.view):
-            if self._fits(report, eye, box, t_ns):
+    def explaining(self, geometry: PictureGeometry, box: Box, t_ns: int) -> str | None:
+        """Return the callsign of whoever should be seen where a box is; None if nobody."""
+        for report in self._others(geometry.view):
+            if self._fits(report, geometry, box, t_ns):
                 return _name(report)
         return None
 
@@ -79,8 +79,8 @@ class Traffic:
             if view.carrier is None or _name(report) != view.carrier:
                 yield report
 
-    def _fits(self, report: AdsbReport, eye: Eye, box: Box, t_ns: int) -> bool:
-        view, age_s = eye.view, _age_s(report, t_ns)
+    def _fits(self, report: AdsbReport, geometry: PictureGeometry, box: Box, t_ns: int) -> bool:
+        view, age_s = geometry.view, _age_s(report, t_ns)
         track, speed = report.track_deg * DEGREE, report.ground_speed_kt * KNOT
         north_m, east_m = offset_m(
             (view.latitude_deg * DEGREE, view.longitude_deg * DEGREE),
@@ -94,16 +94,18 @@ class Traffic:
         if range_m < OWN_RANGE_M:
             return False
         # Without a height, the direction alone counts.
-        level_up = up_m if up_m is not None else math.hypot(north_m, east_m) * _slope(eye, box)
-        place = eye.pixel(Ray.towards(east_m, north_m, level_up))
+        level_up = up_m if up_m is not None else math.hypot(north_m, east_m) * _slope(geometry, box)
+        place = geometry.pixel(Ray.towards(east_m, north_m, level_up))
         if place is None:
             return False
         half_size_m = HALF_SIZE_M.get(report.emitter_category, UNKNOWN_HALF_SIZE_M)
         error_m = NACP_95_PERCENT_M[report.nacp] + DRIFT_M_S * abs(age_s) + half_size_m
         room_px = EXPLAINED_SIGMAS * BOX_ERROR_PX
-        across_px = error_m / range_m * eye.focal_px + room_px
-        along_px = (error_m + ALTITUDE_ERROR_M) / range_m * eye.focal_px + room_px
-        largest_px = LARGER_THAN_IT_IS * 2.0 * half_size_m / range_m * eye.focal_px + SMALLEST_PX
+        across_px = error_m / range_m * geometry.focal_px + room_px
+        along_px = (error_m + ALTITUDE_ERROR_M) / range_m * geometry.focal_px + room_px
+        largest_px = (
+            LARGER_THAN_IT_IS * 2.0 * half_size_m / range_m * geometry.focal_px + SMALLEST_PX
+        )
         return (
             box[0] - across_px <= place[0] <= box[2] + across_px
             and box[1] - along_px <= place[1] <= box[3] + along_px
@@ -111,7 +113,7 @@ class Traffic:
         )
 
     def _height_m(self, report: AdsbReport, age_s: float) -> float | None:
-        """Return how high above the ground somebody is."""
+        """Return the height above the ground by a report; None if it is not known."""
         if report.altitude_ft is None:
             return ON_GROUND_HEIGHT_M
         if self.ground_m is None:
@@ -120,8 +122,8 @@ class Traffic:
         return report.altitude_ft * FOOT + climbed_m - self.ground_m
 
 
-def _slope(eye: Eye, box: Box) -> float:
-    return math.tan(eye.middle(box).elevation_rad)
+def _slope(geometry: PictureGeometry, box: Box) -> float:
+    return math.tan(geometry.middle(box).elevation_rad)
 
 
 def _age_s(report: AdsbReport, t_ns: int) -> float:

@@ -1,4 +1,4 @@
-"""What cameras have been showing: each thing that one of them follows, and how sure that is."""
+"""The things that cameras follow, each with the belief that it is there."""
 
 from __future__ import annotations
 
@@ -8,32 +8,32 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from airhilt.assistant.decision.line_of_sight import Eye, Ray
+from airhilt.assistant.decision.line_of_sight import PictureGeometry, Ray
 from airhilt.assistant.decision.traffic import Traffic
 from airhilt.messages import AdsbReport, Box, Briefing, Detection, Detections, VisibleClass
 from airhilt.units import FOOT, SECOND_NS
 
 TAU_VIS = 0.7
-"""Of the AIRHILT paper's ladder: what is believed less is not there (arXiv 2511.18718)."""
+"""Least belief with which something is there: tau_vis of the paper's ladder (arXiv 2511.18718)."""
 PERSISTENCE_NS = SECOND_NS
-"""What one camera alone shows must have been there for so long."""
+"""Time for which one camera alone must show something, in ns."""
 LOOK_NS = SECOND_NS // 2
-"""Pictures that are nearer to each other in time are one look: their errors are alike."""
+"""Length of one look, in ns: the errors of the pictures within it are alike."""
 LOOKS = 6
-"""Remembered of each thing."""
-GLIMPSES_NS = 5 * SECOND_NS
-"""For so long it is remembered where and how large it was."""
+"""Number of looks that are kept of each thing."""
+OBSERVED_NS = 5 * SECOND_NS
+"""Time for which observations are kept, in ns."""
 BLIND_NS = 10 * SECOND_NS
-"""A camera that gives nothing more clears nothing: what it showed last is kept for so long."""
+"""Time for which a thing is kept without new pictures, in ns: an outage clears no runway."""
 EXPLAINED_NS = 3 * SECOND_NS
-"""Who was once found to be known by ADS-B is for so long."""
+"""Time for which a thing stays known by ADS-B, in ns."""
 DOUBT = 0.05
-"""What is believed less is forgotten."""
+"""Belief below which a thing is forgotten."""
 MOVED_SIZES = 0.5
 MOVED_PX = 4.0
-"""Who is so far from where he was first, in sizes of his box and pixels, has moved."""
+"""Distance from its first place, in sizes of its box and pixels, from which a thing has moved."""
 UNTRACKED_SHIFT = 1.5
-"""From picture to picture, in sizes of its box, what has no track id moves no farther."""
+"""Largest movement between pictures of what has no track id, in sizes of its box and pixels."""
 UNTRACKED_SHIFT_PX = 6.0
 
 
@@ -43,7 +43,7 @@ class Observation(NamedTuple):
     Attributes
     ----------
     ray
-        Towards its middle.
+        Direction towards its middle.
     size_rad
         Width and height.
     is_whole
@@ -51,7 +51,7 @@ class Observation(NamedTuple):
     """
 
     t_ns: int
-    eye: Eye
+    geometry: PictureGeometry
     box: Box
     confidence: float
     ray: Ray
@@ -59,15 +59,23 @@ class Observation(NamedTuple):
     is_whole: bool
 
     @classmethod
-    def of(cls, t_ns: int, eye: Eye, box: Box, confidence: float) -> Observation:
-        """Return what a box in a picture shows."""
-        is_whole = not eye.touches_edge(box)
-        return cls(t_ns, eye, box, confidence, eye.middle(box), eye.angular_size(box), is_whole)
+    def of(cls, t_ns: int, geometry: PictureGeometry, box: Box, confidence: float) -> Observation:
+        """Return the observation of a box in a picture."""
+        is_whole = not geometry.touches_edge(box)
+        return cls(
+            t_ns,
+            geometry,
+            box,
+            confidence,
+            geometry.middle(box),
+            geometry.angular_size(box),
+            is_whole,
+        )
 
 
 @dataclass(slots=True)
 class _Look:
-    """Some pictures of which one may have shown a thing, and with what confidence."""
+    """The pictures of half a second, with the sum of the confidences in them."""
 
     begun_ns: int
     confidence: float = 0.0
@@ -85,9 +93,9 @@ class VisualTrack:
     Attributes
     ----------
     explained_by
-        Callsign of who it is, by ADS-B.
+        Callsign that it has by ADS-B; None if it is unknown.
     has_moved
-        Whether it has, or the camera does.
+        Whether it has moved, or its camera moves.
     """
 
     camera: str
@@ -102,25 +110,26 @@ class VisualTrack:
 
     @property
     def last(self) -> Observation:
-        """Where it was seen last."""
+        """The last observation."""
         return self.observations[-1]
 
     @property
     def label(self) -> VisibleClass:
-        """What it has mostly been taken for."""
+        """The class that it was mostly taken for, weighted by confidence."""
         return max(self._votes, key=lambda label: self._votes[label])
 
     @property
     def carrier(self) -> str | None:
         """Callsign of the aircraft that the camera is on; None on the ground."""
-        return self.last.eye.view.carrier
+        return self.last.geometry.view.carrier
 
     @property
     def belief(self) -> float:
-        """How sure it is that it is there: one look alone may err, all of them hardly.
+        """Belief that it is there, from 0 to 1, by the looks that are over.
 
-        But pictures of what never moves are alike, and so are their errors: a sign that is taken
-        for a truck once always is. It is as sure as one look. A look counts once it is over.
+        One look alone may err, all of them hardly. But pictures of what never moves are alike, and
+        so are their errors: a sign that is taken for a truck once always is. Its belief is that of
+        one look.
         """
         means = [look.mean for look in list(self._looks)[:-1]]
         if self.has_moved or not means:
@@ -129,21 +138,21 @@ class VisualTrack:
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it has hardly been found for a while."""
+        """Whether the belief has fallen so low that it is forgotten."""
         return len(self._looks) > 1 and self.belief < DOUBT
 
     @property
     def age_ns(self) -> int:
-        """Between the first and the last picture that showed it."""
+        """Time between the first and the last picture that showed it, in ns."""
         return self.last.t_ns - self.first_ns
 
     def take(self, observation: Observation, label: VisibleClass, explained_by: str | None) -> None:
-        """Take in that a picture shows it."""
+        """Update with a picture that shows it."""
         self._first_box = self._first_box or observation.box
         moved = _shift(self._first_box, observation.box, MOVED_SIZES, MOVED_PX) > 1.0
-        self.has_moved = self.has_moved or moved or observation.eye.view.carrier is not None
+        self.has_moved = self.has_moved or moved or observation.geometry.view.carrier is not None
         self.observations.append(observation)
-        while observation.t_ns - self.observations[0].t_ns > GLIMPSES_NS:
+        while observation.t_ns - self.observations[0].t_ns > OBSERVED_NS:
             self.observations.popleft()
         self._votes[label] = self._votes.get(label, 0.0) + observation.confidence
         self._look(observation.t_ns, observation.confidence)
@@ -153,7 +162,7 @@ class VisualTrack:
             self.explained_by = None
 
     def miss(self, t_ns: int) -> None:
-        """Take in that a picture does not show it."""
+        """Update with a picture that does not show it."""
         self._look(t_ns, 0.0)
 
     def _look(self, t_ns: int, confidence: float) -> None:
@@ -163,73 +172,73 @@ class VisualTrack:
         self._looks[-1].pictures += 1
 
 
-def is_established(sightings: Iterable[VisualTrack]) -> bool:
-    """Return whether something is there: cameras agree, or one of them persists."""
-    together = list(sightings)
+def is_established(tracks: Iterable[VisualTrack]) -> bool:
+    """Return whether something is there: two cameras agree, or one has shown it long enough."""
+    together = list(tracks)
     if belief_in(together) < TAU_VIS:
         return False
     return len(together) > 1 or together[0].age_ns >= PERSISTENCE_NS
 
 
-def belief_in(sightings: Iterable[VisualTrack]) -> float:
-    """Return how sure it is that something is there which one or more cameras show."""
-    return 1.0 - math.prod(1.0 - sighting.belief for sighting in sightings)
+def belief_in(tracks: Iterable[VisualTrack]) -> float:
+    """Return the belief that something is there which one or more cameras show."""
+    return 1.0 - math.prod(1.0 - track.belief for track in tracks)
 
 
 class VisualTracks:
-    """Keeps what cameras have shown, and tells apart what is known by ADS-B."""
+    """All visual tracks of all cameras; those known by ADS-B are marked."""
 
     def __init__(self) -> None:
         self.traffic = Traffic()
-        self._sightings: dict[str, dict[int, VisualTrack]] = {}
-        """By camera, and by the detector's track."""
+        self._tracks: dict[str, dict[int, VisualTrack]] = {}
+        """Tracks by camera and by the detector's number."""
         self._unnumbered = -1
 
     def __iter__(self) -> Iterator[VisualTrack]:
-        for followed in self._sightings.values():
+        for followed in self._tracks.values():
             yield from followed.values()
 
     def take_briefing(self, briefing: Briefing) -> None:
-        """Take in how high the airport lies."""
+        """Set the elevation of the airport."""
         if briefing.airport is not None:
             self.traffic.ground_m = briefing.airport.elevation_ft * FOOT
 
     def take_report(self, report: AdsbReport) -> None:
-        """Take in where somebody is."""
+        """Update the position of an aircraft or a vehicle."""
         self.traffic.take_report(report)
 
     def take_detections(self, detections: Detections) -> None:
-        """Take in what was found in a picture; one that was missed tells nothing."""
+        """Update the tracks of a camera with one picture; a missed picture changes nothing."""
         if detections.missed:
             return
-        t_ns, eye = detections.t_frame_ns, Eye(detections.view)
+        t_ns, geometry = detections.t_frame_ns, PictureGeometry(detections.view)
         self.traffic.learn_ground(detections.view, t_ns)
-        followed = self._sightings.setdefault(detections.camera, {})
+        followed = self._tracks.setdefault(detections.camera, {})
         found: dict[int, VisualTrack] = {}
         for detection in detections.detections:
             number = self._number(detection, followed, found)
-            sighting = followed.get(number) or VisualTrack(detections.camera, t_ns)
-            explained_by = self.traffic.explaining(eye, detection.box, t_ns)
-            observation = Observation.of(t_ns, eye, detection.box, detection.confidence)
-            sighting.take(observation, detection.label, explained_by)
-            found[number] = sighting
-        for number, sighting in followed.items():
+            track = followed.get(number) or VisualTrack(detections.camera, t_ns)
+            explained_by = self.traffic.explaining(geometry, detection.box, t_ns)
+            observation = Observation.of(t_ns, geometry, detection.box, detection.confidence)
+            track.take(observation, detection.label, explained_by)
+            found[number] = track
+        for number, track in followed.items():
             if number not in found:
-                sighting.miss(t_ns)
-                if not sighting.is_doubtful:
-                    found[number] = sighting
-        self._sightings[detections.camera] = found
+                track.miss(t_ns)
+                if not track.is_doubtful:
+                    found[number] = track
+        self._tracks[detections.camera] = found
 
     def _number(
         self, detection: Detection, followed: dict[int, VisualTrack], found: dict[int, VisualTrack]
     ) -> int:
-        """Return the track of a detection; a detector that gives none is followed simply."""
+        """Return the track number of a detection, the nearest track if it has none."""
         if detection.track_id is not None:
             return detection.track_id
         near = [
             (shift, number)
-            for number, sighting in followed.items()
-            if number not in found and (shift := _step(sighting.last.box, detection.box)) <= 1.0
+            for number, track in followed.items()
+            if number not in found and (shift := _step(track.last.box, detection.box)) <= 1.0
         ]
         if near:
             return min(near)[1]
@@ -237,11 +246,11 @@ class VisualTracks:
         return self._unnumbered
 
     def forget(self, t_ns: int) -> None:
-        """Forget what was seen long ago."""
+        """Forget what has not been seen for `BLIND_NS`."""
         self.traffic.forget(t_ns)
-        for followed in self._sightings.values():
-            for number, sighting in list(followed.items()):
-                if t_ns - sighting.last.t_ns > BLIND_NS:
+        for followed in self._tracks.values():
+            for number, track in list(followed.items()):
+                if t_ns - track.last.t_ns > BLIND_NS:
                     del followed[number]
 
 
@@ -250,7 +259,7 @@ def _step(before: Box, now: Box) -> float:
 
 
 def _shift(before: Box, now: Box, sizes: float, pixels: float) -> float:
-    """Return how far a box has moved, in units of some of its sizes and pixels."""
+    """Return the movement of a box, in units of so many of its sizes and pixels."""
     x = (now[0] + now[2] - before[0] - before[2]) / 2.0
     y = (now[1] + now[3] - before[1] - before[3]) / 2.0
     size_px = max(before[2] - before[0], before[3] - before[1])

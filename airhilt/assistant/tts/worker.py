@@ -1,4 +1,4 @@
-"""Speaks advisories."""
+"""The TTS worker: advisories in, the assistant's voice out."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ ASSISTANT = "ASSISTANT"
 
 
 class TtsWorker:
-    """Implements `airhilt.workers.Worker`: one voice, for what is urgent.
+    """Speaks the urgent advisories with one voice.
 
-    An advisory to several recipients comes once to each; each copy is spoken, as everybody has
-    a loudspeaker of his own.
+    An advisory to several recipients comes once to each; each copy is spoken, because every
+    recipient has a loudspeaker.
 
     Parameters
     ----------
     speak_min_level
-        The least severity that is spoken.
+        Least severity that is spoken.
     style
-        How numbers are said.
+        Style in which numbers are said.
     """
 
     def __init__(

@@ -1,1 +1,1 @@
-"""The worker that looks: pictures in, detections out."""
+"""Vision: pictures in, detections out."""

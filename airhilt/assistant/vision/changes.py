@@ -1,4 +1,4 @@
-"""Where a picture has changed, and which windows are to be looked at for it."""
+"""Changes between two pictures, and the windows about them that a detector looks at."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from airhilt.imaging.boxes import area, shared_area, within
 from airhilt.messages import Box
 
 LEAST_CHANGE = 2
-"""Levels of 255 by which a pixel must change."""
+"""Least change of a pixel, in levels of 255."""
 MARGIN_PX = 48
-"""Between a change and the edges of the window about it, unless the picture ends there."""
+"""Margin between a change and the edges of its window, in pixels, unless the picture ends there."""
 MARGIN_BLOCKS = MARGIN_PX // GRID_PX - 1
-"""Of that, about what is next to a change."""
+"""Margin in blocks about the blocks next to a change."""
 
 Blocks = npt.NDArray[np.bool_]
-"""Squares of `GRID_PX`, shape (down, across)."""
+"""Marks of squares of `GRID_PX`, shape (down, across)."""
 NEXT_TO = np.ones((3, 3), dtype=bool)
 
 
 def changed_blocks(before: Picture, after: Picture) -> Blocks:
-    """Return in which blocks any pixel has changed by `LEAST_CHANGE` or more."""
+    """Return the blocks in which any pixel has changed by `LEAST_CHANGE` or more."""
     rows, columns, colours = before.shape
     blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
     starts = np.arange(0, columns * colours, GRID_PX * colours)
@@ -44,8 +44,8 @@ def changed_blocks(before: Picture, after: Picture) -> Blocks:
 def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int) -> list[Tile]:
     """Return windows about all changes, on the grid, none of which touches another.
 
-    Each of the boxes, those of what was there before, lies in a window with all that it has, or
-    in none. At the edges of the picture windows are no smaller than elsewhere.
+    Each of the boxes, which are those of earlier findings, lies wholly in a window or in none. At
+    the edges of the picture windows are no smaller than elsewhere.
     """
     parts = ndimage.find_objects(ndimage.label(ndimage.binary_dilation(blocks, NEXT_TO))[0])
     waiting: list[Box] = []
@@ -67,14 +67,14 @@ def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int)
 
 
 def _inside(changed: slice, blocks: int) -> tuple[float, float]:
-    """Return where a window begins and ends along a side of so many blocks, in pixels."""
+    """Return begin and end of a window along a side of the picture, in pixels."""
     first, end = changed.start - MARGIN_BLOCKS, changed.stop + MARGIN_BLOCKS
     back, on = max(end - blocks, 0), max(-first, 0)
     return max(first - back, 0) * GRID_PX, min(end + on, blocks) * GRID_PX
 
 
 def _about(boxes: Sequence[Box], margin_px: float = 0.0) -> Box:
-    """Return the smallest box on the grid about others and a margin."""
+    """Return the smallest box on the grid around boxes and a margin."""
     left, top = (min(box[side] for box in boxes) - margin_px for side in (0, 1))
     right, bottom = (max(box[side] for box in boxes) + margin_px for side in (2, 3))
     return (

@@ -1,4 +1,4 @@
-"""What a detector is."""
+"""The protocol of detectors."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ from airhilt.imaging.boxes import overlap
 from airhilt.messages import Box, VisibleClass
 
 Picture = npt.NDArray[np.uint8]
-"""8-bit sRGB, shape (rows, columns, 3)."""
+"""A picture in 8-bit sRGB, shape (rows, columns, 3)."""
 GRID_PX = 16
-"""Strides of networks divide it: what begins at multiples of it is seen as it is in the whole."""
+"""Grid of parts of a picture, in pixels: a multiple of the strides of networks, so that a network
+sees a part as it sees the whole."""
 SAME_OVERLAP = 0.5
-"""Boxes that overlap more (intersection over union) are on one body, whatever it is taken for."""
+"""Intersection over union above which two boxes are on one body, whatever their classes."""
 
 
 class Found(NamedTuple):
-    """Something that a detector has found in a picture."""
+    """One finding of a detector in a picture."""
 
     label: VisibleClass
     confidence: float
@@ -29,7 +30,7 @@ class Found(NamedTuple):
 
 
 class PictureMissed(VisionError):
-    """A detector has failed to look at one picture, and may succeed with the next."""
+    """A detector has failed with one picture, and may succeed with the next."""
 
 
 class Detector(Protocol):
@@ -37,7 +38,7 @@ class Detector(Protocol):
 
     @property
     def name(self) -> str:
-        """As in ``Detections.engine``."""
+        """Name in ``Detections.engine``."""
         ...
 
     @property
@@ -46,20 +47,20 @@ class Detector(Protocol):
         ...
 
     def detect(self, picture: Picture) -> Sequence[Found]:
-        """Return what is in a picture, the surest first.
+        """Return what is in a picture, by falling confidence.
 
         Raises
         ------
         PictureMissed
-            It has not seen this picture.
+            The detector has failed with this picture.
         airhilt.errors.VisionError
-            It has failed for good.
+            The detector has failed for good.
         """
         ...
 
 
 def once(found: Sequence[Found]) -> list[Found]:
-    """Return each thing once: of boxes on the same, of whatever class, that which comes first."""
+    """Return each thing once: of boxes on one body, whatever their classes, the first."""
     kept: list[Found] = []
     for each in found:
         if not any(overlap(each.box, other.box) > SAME_OVERLAP for other in kept):

@@ -1,10 +1,10 @@
 """Looks again only where a picture has changed.
 
 A camera that stands still sees the same background in every picture, and in the air pictures are
-often the same to the bit though the camera has moved. Each tile of a picture is compared with what
-was there when it was last looked at, and what was found in it stays until a pixel has changed.
-Then all of the tile is looked at again, or, by a detector that sees parts of a picture as well as
-the whole, windows about the changes, if they are small.
+often the same to the bit though the camera has moved. Each tile of a picture is compared with its
+state at the last look, and its findings stay until a pixel has changed. Then the detector looks at
+the whole tile again; or only at windows about the changes, if these are small and it sees parts of
+a picture as well as the whole.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
 from airhilt.imaging.boxes import centre, shared_area
 
 MOST_IN_WINDOWS = 0.5
-"""Part of a tile: where there is more in windows, all of it is looked at."""
+"""Share of a tile in windows above which the detector looks at the whole tile."""
 
 
 @runtime_checkable
 class SeesParts(Detector, Protocol):
-    """A detector that finds in a part of a picture what it would in the whole, or nearly so."""
+    """A detector that finds nearly the same in a part of a picture as in the whole."""
 
     def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
         """Return what is in a part of a picture, with boxes as they are in the picture.
@@ -34,14 +34,14 @@ class SeesParts(Detector, Protocol):
 
 
 class _Looked(NamedTuple):
-    """What a tile was like when its parts were last looked at."""
+    """State of a tile when its parts were last looked at."""
 
     pixels: Picture
     found: tuple[Found, ...]
 
 
 class Gate:
-    """Puts a detector behind a watch for changes, for any number of cameras.
+    """Asks a detector only about changes, for any number of cameras.
 
     Small pictures are looked at in one piece, big ones in tiles.
     """
@@ -51,7 +51,7 @@ class Gate:
         self._looked: dict[tuple[str, Tile], _Looked] = {}
 
     def look(self, camera: str, picture: Picture) -> list[Found]:
-        """Return what is in the next picture of a camera, the surest first.
+        """Return what is in the next picture of a camera, by falling confidence.
 
         Raises
         ------
@@ -105,7 +105,7 @@ class Gate:
 def _together(
     before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
 ) -> list[Found]:
-    """Return what is seen in windows and what was outside of them before, the surest first."""
+    """Return what is seen in windows and what was outside of them, by falling confidence."""
     outside = [
         one for one in before if not any(shared_area(one.box, window.box) for window in windows)
     ]

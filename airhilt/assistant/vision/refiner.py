@@ -1,9 +1,9 @@
-"""A second look at each place where something may be.
+"""The second network of a detector: it refines what the first one proposes.
 
-A small network looks at a whole picture, and sees what may be something almost everywhere that it
-is; it also sees a lot that is nothing. A second one looks at such places alone, each as near as
-its size asks for and once more with what is around it, as a cascade does (P. Viola and M. Jones,
-CVPR 2001). It says of what class a body is, if it is one, and where its box lies.
+The first network looks at a whole picture and proposes almost every place where something is, and
+many where nothing is. The refiner looks at these places alone, in a near view that suits the size
+and in a wide one, as a cascade does (P. Viola and M. Jones, CVPR 2001). It gives the class of a
+body, if there is one, and its box.
 """
 
 from __future__ import annotations
@@ -30,29 +30,29 @@ EXPECTED = (
 )
 USUAL_PIXELS = 640 * 360
 VIEW_PX = 40
-"""Rows and columns of a view."""
+"""Rows and columns of a view, in pixels."""
 NEAR, LEAST_NEAR_PX = 1.7, 20.0
-"""How wide a near view is: times the longest side of the box, and at least."""
+"""Width of a near view: in longest sides of the box, and at least in pixels."""
 WIDE, LEAST_WIDE_PX = 5.0, 96.0
 REFERENCE_PX = 32.0
 LEAST_CHANCE = 1e-3
 PARTS = np.uint16(128)
-"""Of which weights between two pixels are whole numbers."""
+"""Unit of the weights between two pixels."""
 
 Views = npt.NDArray[np.uint8]
 Floats = npt.NDArray[np.float32]
 
 
 class RefinerCard(BaseModel):
-    """What ``card.json`` says of it: which places are looked at, and by what."""
+    """The part of ``card.json`` about the refiner."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     file: Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.onnx$")]
-    """In the folder of the card."""
+    """Name of the network's file in the folder of the card."""
     least_score: Confidence
-    """Of the first network."""
+    """Least score of the first network with which a place is looked at."""
     most: Annotated[int, Field(ge=1, le=100)]
-    """In `USUAL_PIXELS`; in larger pictures as many more."""
+    """Largest number of places in a picture of `USUAL_PIXELS`; in proportion in larger ones."""
 
 
 class Refiner:
@@ -61,11 +61,11 @@ class Refiner:
     Parameters
     ----------
     folder
-        Where the card lies.
+        Folder of the card.
     classes
-        In the order of the network's chances.
+        Classes in the order of the network's probabilities.
     threads
-        That share the work.
+        Number of threads that share the work.
 
     Raises
     ------
@@ -87,18 +87,18 @@ class Refiner:
         _require_shapes(self._network, self._subject, len(classes))
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:
-        """Return what of the first network's findings, the surest first, is looked at.
+        """Return the findings of the first network that are looked at, by falling score.
 
         Parameters
         ----------
         pixels
-            How large the picture is.
+            Number of pixels of the picture.
         """
         most = math.ceil(self._card.most * max(pixels / USUAL_PIXELS, 1.0))
         return [each for each in found if each.confidence >= self._card.least_score][:most]
 
     def judge(self, picture: Picture, places: Sequence[Found]) -> list[Found]:
-        """Return what is at each place, in their order: the likeliest class, and its chance.
+        """Return the likeliest class at each place, and its probability, in the order of places.
 
         Boxes may reach beyond the picture.
 
@@ -132,9 +132,9 @@ class Refiner:
 
 
 def about(boxes: Sequence[Box], scores: Sequence[float]) -> Floats:
-    """Return what is known of places besides their looks, shape (n, 3).
+    """Return score and shape of places, shape (n, 3).
 
-    That is the logit of the first score, the binary logarithm of the longest side over
+    They are the logit of the first score, the binary logarithm of the longest side over
     `REFERENCE_PX`, and that of the width over the height.
     """
     rows = []
@@ -152,7 +152,7 @@ def about(boxes: Sequence[Box], scores: Sequence[float]) -> Floats:
 
 
 def refined(box: Box, moves: npt.NDArray[np.floating]) -> Box:
-    """Return a box as a second look moves it.
+    """Return a box as the refiner moves it.
 
     The middle goes right and down by parts of the longest side, and width and height are
     multiplied by what the other two are the logarithms of.
@@ -169,7 +169,7 @@ def refined(box: Box, moves: npt.NDArray[np.floating]) -> Box:
 
 
 def moves_to(box: Box, other: Box) -> tuple[float, float, float, float]:
-    """Return by which moves a box becomes another; see `refined`."""
+    """Return the moves by which a box becomes another; see `refined`."""
     (column, row), (column_, row_) = centre(box), centre(other)
     longest = max(size_px(box), 1.0)
     (width, height), (width_, height_) = sides(box), sides(other)
@@ -204,10 +204,9 @@ def views_of(picture: Picture, boxes: Sequence[Box]) -> Views:
 def _taps(
     start: npt.NDArray[np.float64], side: npt.NDArray[np.float64], size: int
 ) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.uint16]]:
-    """Return two places along an axis for each pixel of views, and how much the second counts.
+    """Return two places along an axis for each pixel of views, and the weight of the second.
 
-    Between pixels it is by their distance; where a pixel of the view holds several, two stand
-    for all.
+    The weight is by the distance; where a pixel of the view covers several, two stand for all.
     """
     step = (side / VIEW_PX)[..., None]
     middle = start[..., None] + (np.arange(VIEW_PX) + 0.5) * step
@@ -219,7 +218,7 @@ def _taps(
 
 
 def _require_shapes(network: onnxruntime.InferenceSession, subject: str, classes: int) -> None:
-    """Complain about a network that takes or gives something else.
+    """Raise an error if a network takes or gives something else.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Big pictures in tiles, so that a detector sees them at their own resolution."""
+"""Tiles of big pictures, so that a detector sees them at their own resolution."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from airhilt.imaging.boxes import moved, overlap, share_of_smaller
 from airhilt.messages import Box
 
 GREATEST_SIDE_PX = 1280
-"""Pictures up to this are looked at in one piece."""
+"""Longest side of a picture that is looked at in one piece, in pixels."""
 TILE_PX = 640
 OVERLAP_PX = 128
-"""What is smaller than this is whole in at least one tile."""
+"""Least overlap of tiles, in pixels: what is smaller is whole in at least one tile."""
 SAME_SHARE = 0.7
 EDGE_PX = 1.0
 
@@ -28,26 +28,26 @@ class Tile(NamedTuple):
     width: int
 
     def of(self, picture: Picture) -> Picture:
-        """Return its pixels."""
+        """Return the pixels of the part."""
         return picture[self.top : self.top + self.height, self.left : self.left + self.width]
 
     @property
     def box(self) -> Box:
-        """About all of it."""
+        """Box about the whole part."""
         return self.left, self.top, self.left + self.width, self.top + self.height
 
     def holds(self, place: tuple[float, float]) -> bool:
-        """Return whether a place, column and row, is in it."""
+        """Return whether a place, column and row, is in the part."""
         column, row = place
         return 0.0 <= column - self.left < self.width and 0.0 <= row - self.top < self.height
 
 
 class Piece(NamedTuple):
-    """What was found in a tile, where it is in the picture."""
+    """A finding in a tile, with its box in the picture."""
 
     found: Found
     is_cut: bool
-    """Its box ends where the tile does, and the picture does not."""
+    """Whether its box ends where the tile does and the picture does not."""
 
 
 def tiles_of(picture: Picture) -> list[Tile]:
@@ -62,7 +62,7 @@ def tiles_of(picture: Picture) -> list[Tile]:
 
 
 def pieces_of(found: Iterable[Found], tile: Tile, picture: Picture) -> list[Piece]:
-    """Return what was found in a tile of a picture."""
+    """Return the findings in a tile, with their boxes in the picture."""
     rows, columns = picture.shape[:2]
     top, left, height, width = tile
     return [
@@ -78,10 +78,10 @@ def pieces_of(found: Iterable[Found], tile: Tile, picture: Picture) -> list[Piec
 
 
 def merged(pieces: Sequence[Piece]) -> list[Found]:
-    """Return each thing once, the surest first.
+    """Return each thing once, by falling confidence.
 
-    Of what is found in several tiles the whole ones count before those that an edge cuts, and
-    then the surest. Pieces of what is bigger than the overlap may stay pieces.
+    Of findings of one thing in several tiles, whole ones count before those that an edge cuts, and
+    then the more confident ones. Pieces of a thing that is bigger than the overlap may stay pieces.
     """
     kept: list[Found] = []
     for piece in sorted(pieces, key=lambda each: (each.is_cut, -each.found.confidence)):
@@ -91,14 +91,14 @@ def merged(pieces: Sequence[Piece]) -> list[Found]:
 
 
 def _is_same(one: Found, other: Found) -> bool:
-    """Return whether two are on one body: for pieces of one class less is enough."""
+    """Return whether two findings are on one body; pieces of one class may overlap less."""
     return overlap(one.box, other.box) > SAME_OVERLAP or (
         one.label == other.label and share_of_smaller(one.box, other.box) > SAME_SHARE
     )
 
 
 def _starts(length: int) -> list[int]:
-    """Return where tiles begin along a side: evenly, on the grid, overlapping enough."""
+    """Return the begins of tiles along a side: even, on the grid, with enough overlap."""
     if length <= TILE_PX:
         return [0]
     last = length - TILE_PX

@@ -1,10 +1,10 @@
-"""Follows things from picture to picture.
+"""Tracks of things from picture to picture.
 
-As in SORT (Bewley et al., ICIP 2016): a Kalman filter of constant velocity for each box, and the
-assignment of least cost between what was expected and what was found. As in ByteTrack (Zhang et
-al., ECCV 2022): sure findings are assigned first and begin tracks, unsure ones only go on with
-them. Time is that of the exposures, so pictures may be missing, and the turning of a camera that
-knows where it looks is taken out before things are compared.
+As in SORT (Bewley et al., ICIP 2016), each box has a Kalman filter of constant velocity, and what
+is expected is assigned to what is found at least cost. As in ByteTrack (Zhang et al., ECCV 2022),
+confident findings are assigned first and begin tracks, and doubtful ones only continue them. Time
+is that of the exposures, so pictures may be missing. The rotation of a camera with a known attitude
+is taken out before things are compared.
 """
 
 from __future__ import annotations
@@ -26,28 +26,29 @@ from airhilt.units import SECOND_NS
 Array = npt.NDArray[np.float64]
 
 LIFE_S = 1.0
-"""A track ends when nothing was found for so long,"""
+"""Time without a finding, in ns, after which a track ends."""
 TENTATIVE_LIFE_S = 0.3
-"""or so long before it is confirmed,"""
+"""Likewise for a track that is not confirmed yet."""
 LEAST_MISSES = 2
-"""and in so many pictures, where pictures are rare."""
+"""Least number of pictures without a finding before a track ends, where pictures are rare."""
 GATE = 13.8
-"""Squared Mahalanobis distance of a place in the picture: 99.9 % of chi-squared, 2 degrees."""
+"""Largest squared Mahalanobis distance of a place in the picture: 99.9 % of chi-squared with 2
+degrees of freedom."""
 MOST_SIZE_RATIO = 2.5
 SIZE_DEVIATION = math.log(1.4)
-"""Of the logarithm of the size that is found against the one that is expected."""
+"""Largest difference of the logarithms of the found and the expected size."""
 OTHER_LABEL = 4.0
-"""The cost of another label: as much as two standard deviations in one direction."""
+"""Cost of another label: as much as two standard deviations in one direction."""
 SOON_S = 1e-3
-"""Over which a rate is turned with the place that it is of."""
+"""Time step for rotating a velocity together with its position, in s."""
 NEVER = 1e6
 
 
 class Tracked(NamedTuple):
-    """Something that was found, and that is being followed."""
+    """A finding that belongs to a track."""
 
     found: Found
-    """Its label is the one that it was given most, weighted by confidence."""
+    """The finding; its label is the one that the track had most, weighted by confidence."""
     track_id: int
     hits: int
 
@@ -59,9 +60,9 @@ class _Track:
     Attributes
     ----------
     state
-        Shape (4, 2): column, row, width, height; value, rate.
+        Values and rates of column, row, width and height; shape (4, 2).
     covariance
-        Shape (4, 2, 2).
+        Covariance of each value and its rate; shape (4, 2, 2).
     """
 
     id: int
@@ -74,7 +75,7 @@ class _Track:
 
     @classmethod
     def begin(cls, id_: int, found: Found, t_ns: int) -> _Track:
-        """Return the track of something that was never seen before, and may move fast."""
+        """Return the track of a new thing, which may move fast."""
         measured = _measured(found)
         side = _side(measured)
         place, size = 60.0 + 3.0 * side, 5.0 + 0.5 * side
@@ -86,16 +87,16 @@ class _Track:
 
     @property
     def side(self) -> float:
-        """Of a square as big as the box, in pixels."""
+        """Side of a square with the area of the box, in pixels."""
         return _side(self.state[:, 0])
 
     @property
     def label(self) -> VisibleClass:
-        """What it was taken for most."""
+        """The label that it had most, weighted by confidence."""
         return max(self.labels, key=self.labels.__getitem__)
 
     def predict(self, dt_s: float) -> None:
-        """Go on as before for a time."""
+        """Extrapolate by a time."""
         move = np.array(((1.0, dt_s), (0.0, 1.0)))
         # White noise as acceleration (Bar-Shalom et al., 2001, section 6.2.2), in px^2/s^3.
         noise = np.array(((dt_s**3 / 3.0, dt_s**2 / 2.0), (dt_s**2 / 2.0, dt_s)))
@@ -107,7 +108,7 @@ class _Track:
         self.covariance = move @ self.covariance @ move.T + density[:, None, None] * noise
 
     def turn(self, turning: Array, view: CameraView) -> bool:
-        """Go where the turning of the camera takes it, and return whether that is ahead of it.
+        """Rotate with the camera, and return whether it is still ahead of the camera.
 
         Its size stays.
         """
@@ -120,7 +121,7 @@ class _Track:
         return True
 
     def costs(self, found: Sequence[Found]) -> Array:
-        """Return how unlikely it is to be each of what was found; `NEVER` where it cannot be."""
+        """Return the cost of assigning each finding to it; `NEVER` where it cannot be."""
         measured = np.array([_measured(one) for one in found])
         ratio = np.log(np.sqrt(measured[:, 2] * measured[:, 3]) / self.side)
         variance = self.covariance[:2, 0, 0] + _measurement_variance(self.side)[:2]
@@ -133,7 +134,7 @@ class _Track:
         return np.where(is_possible, costs, NEVER)
 
     def update(self, found: Found, t_ns: int) -> None:
-        """Take in where it was found."""
+        """Update with a finding."""
         variance = _measurement_variance(self.side)
         gain = self.covariance[:, :, 0] / (self.covariance[:, 0, 0] + variance)[:, None]
         self.state = self.state + gain * (_measured(found) - self.state[:, 0])[:, None]
@@ -144,7 +145,7 @@ class _Track:
         self.misses = 0
 
     def is_over(self, t_ns: int, view: CameraView) -> bool:
-        """Return whether it is not to be expected any more."""
+        """Return whether the track has ended."""
         column, row = self.state[:2, 0]
         is_out = not (0.0 <= column <= view.width_px and 0.0 <= row <= view.height_px)
         life_s = LIFE_S if self.hits >= CONFIRMED_HITS else TENTATIVE_LIFE_S
@@ -157,8 +158,8 @@ class Tracker:
 
     Parameters
     ----------
-    sure
-        Confidence from which a finding begins a track, and is told of before that is confirmed.
+    threshold
+        Confidence from which a finding begins a track and counts before the track is confirmed.
     """
 
     def __init__(self, threshold: float = 0.0) -> None:
@@ -168,9 +169,9 @@ class Tracker:
         self._last: tuple[int, CameraView] | None = None
 
     def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Tracked]:
-        """Return what was found in the next picture, with tracks, the surest first.
+        """Return the findings in the next picture with their tracks, by falling confidence.
 
-        Unsure findings are among it where they go on with a confirmed track.
+        Doubtful findings are left out unless they continue a confirmed track.
 
         Parameters
         ----------
@@ -202,7 +203,7 @@ class Tracker:
         return sorted(told, key=lambda each: (-each.found.confidence, each.track_id))
 
     def _expect(self, t_ns: int, view: CameraView) -> None:
-        """Let all tracks go on up to this picture."""
+        """Extrapolate all tracks to this picture."""
         if self._last is not None:
             last_ns, last_view = self._last
             dt_s = max(t_ns - last_ns, 0) / SECOND_NS
@@ -219,7 +220,7 @@ class Tracker:
         found: Sequence[Found],
         followed: list[tuple[_Track, Found]],
     ) -> list[Found]:
-        """Add to what is followed the pairs of least cost, and return what is in none."""
+        """Add the pairs of least cost to ``followed``, and return the findings in no pair."""
         if not tracks or not found:
             return list(found)
         costs = np.array([track.costs(found) for track in tracks])
@@ -242,13 +243,13 @@ def _side(box: Array) -> float:
 
 
 def _measurement_variance(side: float) -> Array:
-    """Return how well a detector tells middle and sides of a box, in square pixels."""
+    """Return the variances of middle and sides of a detector's box, in square pixels."""
     place, size = 0.7 + 0.05 * side, 1.0 + 0.1 * side
     return np.square((place, place, size, size))
 
 
 def _turned(place: Array, turning: Array, view: CameraView) -> Array | None:
-    """Return where something far away is after a turn of the camera; None if behind it."""
+    """Return the place of something far away after a rotation of the camera; None if behind it."""
     lens = Pinhole(view)
     pixel = lens.pixel(*(turning @ lens.direction(*place)))
     return None if pixel is None else np.array(pixel)

@@ -1,4 +1,4 @@
-"""The worker that looks: pictures in, detections out."""
+"""The vision worker: pictures in, detections out."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from airhilt.sim.worker import Input, Output
 from airhilt.workers.protocol import Step
 
 MOST_OF_OWN_AIRCRAFT = 0.6
-"""Share of a box that its own aircraft may cover; what is covered more is a part of that."""
+"""Share of a box that the camera's own aircraft may cover; a box that it covers more is dropped."""
 
 
 class VisionWorker:
@@ -56,7 +56,7 @@ class VisionWorker:
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Look at the pictures that have arrived.
 
-        Of one that the detector has missed it is said why.
+        The detections of a picture that the detector has missed say why.
 
         Raises
         ------
@@ -73,7 +73,7 @@ class VisionWorker:
         return Step(tuple(outputs))
 
     def _meet(self, item: Input) -> None:
-        """Take in what never changes about a camera."""
+        """Keep what never changes about a camera."""
         try:
             info = CameraInfo.model_validate_json(item.payload)
             mask = mask_of(info.own_aircraft, info.height_px, info.width_px)
@@ -126,7 +126,7 @@ def header_of(item: Input) -> CameraFrame:
     Raises
     ------
     VisionError
-        It has none, or that of another camera.
+        There is none, or it is that of another camera.
     """
     if item.attachment is None:
         raise VisionError(f"{item.key}: no header; expected a CameraFrame as attachment")
@@ -150,7 +150,7 @@ def picture_of(header: CameraFrame, pixels: bytes, info: CameraInfo | None) -> P
     Raises
     ------
     VisionError
-        It has another size than its header or the camera's description says.
+        Its size is not what its header or the camera's description says.
     """
     columns, rows = header.view.width_px, header.view.height_px
     if info is not None and (columns, rows) != (info.width_px, info.height_px):
@@ -167,7 +167,7 @@ def picture_of(header: CameraFrame, pixels: bytes, info: CameraInfo | None) -> P
 
 
 def covered_share(box: Box, mask: Mask) -> float:
-    """Return how much of a box lies in a mask, from 0 to 1; at least one pixel is looked at."""
+    """Return the share of a box that lies in a mask, from 0 to 1; at least one pixel counts."""
     rows, columns = mask.shape
     spans = []
     for begin, end, size in ((box[1], box[3], rows), (box[0], box[2], columns)):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from airhilt.assistant.decision.approach import approach_of
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
-from airhilt.assistant.decision.line_of_sight import Eye
+from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import Climb, Severity, Turn
@@ -240,7 +240,10 @@ def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
     """Return what such a camera sees."""
     camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)
     found = [camera.detections(round(k * SECOND_NS / 8)) for k in range(round(8 * seconds) + 1)]
-    return [Observation.of(f.t_frame_ns, Eye(f.view), f.detections[0].box, 0.9) for f in found]
+    return [
+        Observation.of(f.t_frame_ns, PictureGeometry(f.view), f.detections[0].box, 0.9)
+        for f in found
+    ]
 
 
 @settings(max_examples=30)
@@ -275,7 +278,7 @@ def test_a_passage_to_the_side_is_told_in_sizes():
 def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
     seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.0, 0.0)
     assert approach_of(seen[:4]) is None
-    cut = [Observation.of(each.t_ns, each.eye, (0.0, *each.box[1:]), 0.9) for each in seen]
+    cut = [Observation.of(each.t_ns, each.geometry, (0.0, *each.box[1:]), 0.9) for each in seen]
     assert approach_of(cut) is None
 
 
@@ -307,9 +310,9 @@ def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild):
     """They are of something beside it, that the detector takes for it."""
     seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.4, 0.0)
     for number in wild:
-        t_ns, eye, (left, top, right, bottom), *_ = seen[number]
+        t_ns, geometry, (left, top, right, bottom), *_ = seen[number]
         beside = (left + 20.0, top + 8.0, right + 20.0, bottom + 8.0)
-        seen[number] = Observation.of(t_ns, eye, beside, 0.9)
+        seen[number] = Observation.of(t_ns, geometry, beside, 0.9)
     approach = approach_of(seen)
     assert math.hypot(*approach.turning_rad_s) < 0.01 * DEGREE
     assert approach.least_miss() < 0.5

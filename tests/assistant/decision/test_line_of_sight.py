@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from airhilt.assistant.decision.aerodrome import Vector
 from airhilt.assistant.decision.line_of_sight import (
     BOX_ERROR_PX,
-    Eye,
+    GroundFix,
+    LineOfSight,
+    PictureGeometry,
     Ray,
-    Sightline,
-    Spot,
     meeting,
 )
 from airhilt.geodesy.local_frame import LocalFrame
@@ -26,9 +26,9 @@ angles = st.floats(-180.0, 180.0)
 
 
 def line_to(camera, box, at):
-    eye = Eye(camera.view(0.0))
+    geometry = PictureGeometry(camera.view(0.0))
     (east, north, up), _ = camera.look(0.0)
-    return Sightline(Vector(east, north), up, getattr(eye, at)(box), eye.error_rad)
+    return LineOfSight(Vector(east, north), up, getattr(geometry, at)(box), geometry.error_rad)
 
 
 def camera_at(place, heading_deg, pitch_deg, body, **how):
@@ -41,8 +41,8 @@ def camera_at(place, heading_deg, pitch_deg, body, **how):
 )  # fmt: skip
 def test_a_direction_goes_back_to_the_pixel_that_it_came_from(heading, pitch, roll, fov, x, y):
     look = ((0.0, 0.0, 10.0), (heading * DEGREE, pitch * DEGREE, roll * DEGREE))
-    eye = Eye(Camera("c", FRAME, lambda _: look, [], fov_deg=fov).view(0.0))
-    assert eye.pixel(eye.ray(x, y)) == pytest.approx((x, y), abs=1e-6)
+    geometry = PictureGeometry(Camera("c", FRAME, lambda _: look, [], fov_deg=fov).view(0.0))
+    assert geometry.pixel(geometry.ray(x, y)) == pytest.approx((x, y), abs=1e-6)
 
 
 def test_a_direction_has_the_heading_the_pitch_and_the_roll_of_its_camera():
@@ -53,9 +53,11 @@ def test_a_direction_has_the_heading_the_pitch_and_the_roll_of_its_camera():
     is half a focal length to the right and as much up.
     """
     look = ((0.0, 0.0, 10.0), (math.asin(0.6), math.asin(0.28), math.asin(0.8)))
-    eye = Eye(Camera("c", FRAME, lambda _: look, [], fov_deg=90.0).view(0.0))
+    geometry = PictureGeometry(Camera("c", FRAME, lambda _: look, [], fov_deg=90.0).view(0.0))
     towards = (1.1528, 0.3704, 0.184)
-    assert eye.ray(480.0, 20.0) == pytest.approx([one / math.hypot(*towards) for one in towards])
+    assert geometry.ray(480.0, 20.0) == pytest.approx(
+        [one / math.hypot(*towards) for one in towards]
+    )
 
 
 @given(
@@ -72,19 +74,19 @@ def test_the_foot_of_a_box_leads_to_where_it_stands_within_the_error(
     box = camera.box(camera.bodies[0], 0.0)
     assume(box is not None and box[3] < 355.0)
     shifted = (box[0] + off_px, box[1], box[2] + off_px, box[3] + off_px)
-    spot = line_to(camera, shifted, "foot").on_ground()
-    assume(spot is not None)
-    true = Spot(Vector(*place[:2]), 1e-6, 1e-6, 0.0)
-    far = Spot(Vector(place[0] * 2.5, place[1] * 2.5), 1e-6, 1e-6, 0.0)
-    assert spot.is_same(true, sigmas=2.0)
-    assert not spot.is_same(far, sigmas=1.0)
+    fix = line_to(camera, shifted, "foot").on_ground()
+    assume(fix is not None)
+    true = GroundFix(Vector(*place[:2]), 1e-6, 1e-6, 0.0)
+    far = GroundFix(Vector(place[0] * 2.5, place[1] * 2.5), 1e-6, 1e-6, 0.0)
+    assert fix.is_same(true, sigmas=2.0)
+    assert not fix.is_same(far, sigmas=1.0)
 
 
 def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across():
     def errors(distance):
         ray = Ray.towards(0.0, distance, -10.0)
-        spot = Sightline(Vector(0.0, 0.0), 10.0, ray, 1e-3).on_ground()
-        return math.sqrt(spot.north_m2), math.sqrt(spot.east_m2)
+        fix = LineOfSight(Vector(0.0, 0.0), 10.0, ray, 1e-3).on_ground()
+        return math.sqrt(fix.north_m2), math.sqrt(fix.east_m2)
 
     (near_along, near_across), (far_along, far_across) = errors(200.0), errors(400.0)
     assert near_along == pytest.approx(200.0**2 / 10.0 * 1e-3, rel=0.01)
@@ -94,7 +96,7 @@ def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across
 
 @pytest.mark.parametrize("up", [0.0, 0.1, -0.001])
 def test_a_line_of_sight_to_the_horizon_or_above_meets_no_ground(up):
-    assert Sightline(Vector(0.0, 0.0), 10.0, Ray.towards(0.0, 1.0, up), 1e-3).on_ground() is None
+    assert LineOfSight(Vector(0.0, 0.0), 10.0, Ray.towards(0.0, 1.0, up), 1e-3).on_ground() is None
 
 
 @given(
@@ -108,13 +110,13 @@ def test_turning_the_carrier_does_not_turn_what_is_seen(heading, pitch, roll):
     box = turned.box(other, 0.0)
     assume(box is not None and turned.width_px - 2 > box[2] and box[0] > 2)
     assume(box[1] > 2 and box[3] < turned.height_px - 2)
-    straight = Eye(level.view(0.0)).middle(level.box(other, 0.0))
-    assert Eye(turned.view(0.0)).middle(box).angle_to(straight) < 5e-5
+    straight = PictureGeometry(level.view(0.0)).middle(level.box(other, 0.0))
+    assert PictureGeometry(turned.view(0.0)).middle(box).angle_to(straight) < 5e-5
 
 
 def test_cameras_from_two_sides_together_know_a_place_better_than_either():
-    west = Sightline(Vector(-300.0, 0.0), 8.0, Ray.towards(300.0, 0.0, -8.0), 2e-3).on_ground()
-    south = Sightline(Vector(0.0, -300.0), 8.0, Ray.towards(0.0, 300.0, -8.0), 2e-3).on_ground()
+    west = LineOfSight(Vector(-300.0, 0.0), 8.0, Ray.towards(300.0, 0.0, -8.0), 2e-3).on_ground()
+    south = LineOfSight(Vector(0.0, -300.0), 8.0, Ray.towards(0.0, 300.0, -8.0), 2e-3).on_ground()
     both = west.merged(south)
     assert both.point == pytest.approx((0.0, 0.0), abs=1e-6)
     assert both.east_m2 < south.east_m2 < west.east_m2
@@ -122,14 +124,14 @@ def test_cameras_from_two_sides_together_know_a_place_better_than_either():
 
 
 def test_the_chance_of_being_inside_is_that_of_the_error():
-    spot = Spot(Vector(0.0, 0.0), 100.0, 100.0, 0.0)
-    assert spot.chance(lambda points: float((points[:, 0] > 0.0).mean())) == pytest.approx(
+    fix = GroundFix(Vector(0.0, 0.0), 100.0, 100.0, 0.0)
+    assert fix.chance(lambda points: float((points[:, 0] > 0.0).mean())) == pytest.approx(
         0.5, abs=0.1
     )
-    assert spot.chance(lambda points: float((points[:, 0] > 10.0).mean())) == pytest.approx(
+    assert fix.chance(lambda points: float((points[:, 0] > 10.0).mean())) == pytest.approx(
         0.16, abs=0.06
     )
-    within = spot.chance(lambda points: float((np.hypot(*points.T) < 10.0).mean()))
+    within = fix.chance(lambda points: float((np.hypot(*points.T) < 10.0).mean()))
     assert within == pytest.approx(1.0 - math.exp(-0.5), abs=0.1)
 
 
@@ -139,7 +141,7 @@ def test_the_chance_of_being_inside_is_that_of_the_error():
 def test_two_lines_of_sight_meet_where_both_lead(east, north, up):
     def line(place):
         ray = Ray.towards(east - place.east, north - place.north, up - 3.0)
-        return Sightline(place, 3.0, ray, 1e-3)
+        return LineOfSight(place, 3.0, ray, 1e-3)
 
     fix = meeting(line(Vector(-120.0, 0.0)), line(Vector(120.0, 0.0)), 1.0)
     assert fix is not None
@@ -149,7 +151,7 @@ def test_two_lines_of_sight_meet_where_both_lead(east, north, up):
 
 def test_lines_of_sight_to_different_birds_do_not_meet():
     def line(place, east, up):
-        return Sightline(place, 3.0, Ray.towards(east - place.east, 600.0, up), 1e-3)
+        return LineOfSight(place, 3.0, Ray.towards(east - place.east, 600.0, up), 1e-3)
 
     low, high = line(Vector(-120.0, 0.0), 0.0, 20.0), line(Vector(120.0, 0.0), 0.0, 90.0)
     assert meeting(low, high, 10.0) is None
@@ -162,5 +164,5 @@ def test_a_box_at_the_edge_may_go_on():
         (0.0, 0.0, 5.0), 0.0, 0.0, Body("truck", 6, 2, 2, lambda _: ((37.0, 90.0, 0.0), 0.0))
     )
     box = camera.box(camera.bodies[0], 0.0)
-    assert Eye(camera.view(0.0)).touches_edge(box)
-    assert not Eye(camera.view(0.0)).touches_edge((10.0, 10.0, 20.0, 20.0))
+    assert PictureGeometry(camera.view(0.0)).touches_edge(box)
+    assert not PictureGeometry(camera.view(0.0)).touches_edge((10.0, 10.0, 20.0, 20.0))

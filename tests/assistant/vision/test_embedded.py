@@ -105,7 +105,7 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     found = detector.detect_in(picture, window)[0]
     assert found.label == "airplane"
     assert overlap(found.box, (left, top, right, bottom)) > 0.5
-    # The second look has all of the picture, so what it sees of the body is no less.
+    # The refiner has the whole picture, so what it sees of the body is no less.
     looked_at: list[tuple[int, ...]] = []
     judge = Refiner.judge
 

@@ -1,4 +1,4 @@
-"""A second look sees places near and wide, and moves boxes to where bodies are."""
+"""The refiner sees places near and wide, and moves boxes to where bodies are."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def noise() -> np.ndarray:
 
 
 def detector_in(folder: Path, **refiner: object) -> Path:
-    """Return a copy of the detector with changes to what its card says of the second look."""
+    """Return a copy of the detector with changes to what its card says of the refiner."""
     for network in MODEL.parent.glob("*.onnx"):
         shutil.copy(network, folder)
     card = json.loads(MODEL.with_name("card.json").read_text())
@@ -55,7 +55,7 @@ def detector_in(folder: Path, **refiner: object) -> Path:
 
 
 def look(classes: Sequence[VisibleClass] = CLASSES, **card: object) -> Refiner:
-    """Return the second look that ships, with changes to its card."""
+    """Return the refiner that ships, with changes to its card."""
     shipped = json.loads(MODEL.with_name("card.json").read_text())["refiner"]
     return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
 

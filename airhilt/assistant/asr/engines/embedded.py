@@ -31,20 +31,22 @@ FILES = ("ctc.onnx", "words.txt", "card.json")
 """Files of a model's folder."""
 EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/6, words + 1]"
 LEAST_SAMPLES = 1_600
-"""A tenth of a second: less holds no word."""
+"""Least number of samples that can hold a word: a tenth of a second."""
 STEP_FRAMES = 6
-"""Frames of features to a step of posteriors: 60 ms."""
+"""Frames of features in a step of posteriors: 60 ms."""
 WINDOW_STEPS = 500
-"""So many at a time are asked of the network, so that a microphone that is stuck for ten minutes
-takes little memory: half a minute."""
+"""Steps that the network computes at a time, half a minute.
+
+A microphone that is stuck for ten minutes takes little memory then."""
 CONTEXT_STEPS = 80
-"""What the network sees on both sides of a window: more than any step of it looks at, so that
-windows change nothing."""
+"""Steps that the network sees on both sides of a window.
+
+They are more than any step depends on, so that windows change nothing."""
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """From a posterior to how often it is right: a logistic curve over its log-odds."""
+    """Share of right guesses by posterior: a logistic curve over its log-odds."""
 
     slope: float
     offset: float
@@ -57,22 +59,22 @@ class Calibration:
 
 
 class Card(BaseModel):
-    """What `Ctc` reads of ``card.json``."""
+    """The part of ``card.json`` that `Ctc` reads."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     word_calibration: Calibration
-    """Of the highest posterior of a word."""
+    """Calibration of the highest posterior of a word."""
     call_calibration: Calibration
-    """Of the product of the confidences of a call's words."""
+    """Calibration of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
-    """Words below it are left out."""
+    """Confidence below which words are left out."""
     least_surest_word: Confidence
-    """Nobody speaks in a transmission whose surest word is below it."""
+    """Confidence that the best word must have; below it nobody speaks in the transmission."""
 
 
 @dataclass(frozen=True, slots=True)
 class Emission:
-    """One word of a path."""
+    """One word of a path through the posteriors."""
 
     unit: int
     posterior: float
@@ -86,13 +88,13 @@ class Ctc:
     Parameters
     ----------
     folder
-        Holds ``ctc.onnx``, ``words.txt`` (a word a line) and ``card.json``; None is the model
+        Folder with ``ctc.onnx``, ``words.txt`` (a word a line) and ``card.json``; None: the model
         that ships with AIRHILT.
 
     Raises
     ------
     SpeechError
-        A file is missing, or they do not fit together.
+        A file is missing, or the files do not fit together.
     """
 
     name = "embedded"
@@ -162,7 +164,7 @@ class Ctc:
         return np.concatenate(windows)
 
     def _trial(self, network: Path) -> int:
-        """Return how many units the network tells apart.
+        """Return the number of units of the network.
 
         Raises
         ------
@@ -207,7 +209,7 @@ def best_path(posteriors: NDArray[np.float32]) -> list[Emission]:
 
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
-    """Return a path with a callsign in the place of what is in it there."""
+    """Return a path in which a callsign replaces the words at its place."""
     if spotted.loss == 0.0:
         return list(path)
     posterior = float(np.exp(-spotted.loss))

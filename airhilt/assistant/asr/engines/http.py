@@ -1,4 +1,4 @@
-"""A recogniser behind an address: WAV goes there, ``{text, confidence?, words?}`` comes back."""
+"""A recogniser at an address: it takes WAV and answers ``{text, confidence?, words?}``."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 1_000_000
-"""Of one answer."""
+"""Size of the largest answer."""
 WORDS_PER_S = 10.0
-"""Of audio, at most, and as many more in all: twice what people say who talk fast."""
+"""Largest number of words in a second of audio, and as many more in all: twice fast speech."""
 LETTERS_PER_WORD = 20
-"""A text has at most so many for each word that it may have."""
+"""Largest number of letters of a text for each word that it may have."""
 
 
 class _Answer(BaseModel):
@@ -35,8 +35,8 @@ class _Answer(BaseModel):
 class HttpAsr:
     """Asks a service that answers POST requests with 16 kHz, mono, 16-bit WAV.
 
-    Its ``words``, if it has any, are ``{text, confidence}`` each. Without ``confidence`` that is
-    the mean of theirs, and without them it is 1: the service is taken at its word.
+    Its ``words``, if it has any, are ``{text, confidence}`` each. Without ``confidence`` it is
+    the mean of theirs, and without words it is 1.
     """
 
     name = "http"
@@ -45,7 +45,7 @@ class HttpAsr:
         self._service = HttpService("ASR http", url, timeout_s, MAXIMUM_BYTES, SpeechError)
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:  # noqa: ARG002
-        """Return what the service makes of the audio; nothing is asked of no audio."""
+        """Return what the service makes of the audio; it is not asked about empty audio."""
         if not audio.size:
             return Recognised("", (), 1.0)
         answer = self._parse(self._service.post(encode_wav(audio), "audio/wav"))

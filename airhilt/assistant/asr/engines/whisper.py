@@ -17,21 +17,24 @@ from airhilt.phraseology.telephony import TELEPHONY
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 MODEL_FILES = ("config.json", "model.bin", "tokenizer.json")
-"""Of a folder that CTranslate2's converter made from Whisper with ``--copy_files
-tokenizer.json preprocessor_config.json``. Without tokenizer.json, faster-whisper would look for
-one on the network."""
+"""Files of a folder that CTranslate2's converter made from Whisper.
+
+It was called with ``--copy_files tokenizer.json preprocessor_config.json``: without tokenizer.json,
+faster-whisper would look for one on the network."""
 VOCABULARIES = ("vocabulary.json", "vocabulary.txt")
-"""One of them is there too."""
+"""Vocabularies, one of which must be there too."""
 LANGUAGE = "en"
 LEAST_SPEECH_S = 0.3
-"""Less than that is no call: two syllables."""
+"""Least duration of speech in a call, in s: two syllables."""
 SPEECH_PROBABILITY = 0.35
-"""Of the voice activity detector (Silero VAD, which comes with faster-whisper), below its usual
-0.5: a call lost in noise is worse than noise that the model looks at."""
+"""Threshold of the voice activity detector (Silero VAD, which comes with faster-whisper).
+
+It is below the usual 0.5: a lost call is worse than noise that the model looks at."""
 NO_SPEECH_PROBABILITY = 0.6
-"""Whisper's own opinion that there is none (openai/whisper, `no_speech_threshold`)."""
+"""Probability of no speech by Whisper itself (openai/whisper, `no_speech_threshold`)."""
 LEAST_LOG_PROBABILITY = -1.0
-"""Mean of a segment, below which that opinion counts (openai/whisper, `logprob_threshold`)."""
+"""Mean log-probability of a segment below which that counts (openai/whisper,
+`logprob_threshold`)."""
 BEAMS = 5
 
 
@@ -147,7 +150,7 @@ def _require_files(folder: Path) -> None:
 
 
 def _require_features(name: str, model: Any) -> None:
-    """Check that the model's input is what will be computed for it."""
+    """Check that the model takes the mel bands that are computed for it."""
     bands = len(model.feature_extractor.mel_filters)
     if bands != model.model.n_mels:
         raise SpeechError(

@@ -1,7 +1,7 @@
 """The embedded detector: a small network that was trained on pictures of AIRHILT.
 
-It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850), and then
-once more at each place where one may be: see `airhilt.assistant.vision.refiner`.
+It looks for the middles of bodies (X. Zhou et al., Objects as Points, arXiv 1904.07850). A second
+network refines what it proposes: see `airhilt.assistant.vision.refiner`.
 ``tools/detector/train_detector.py`` and ``tools/detector/train_refiner.py`` make the networks, and
 docs/detector.md says how well they see.
 """
@@ -34,25 +34,26 @@ EXPECTED = (
     "float [1, n, 6]: left, top, right, bottom, score, class"
 )
 SMALLEST_PX = 64
-"""Pictures get at least so many pixels on each side, and a multiple of `GRID_PX`: their last rows
-and columns are repeated."""
+"""Shortest side of a picture for the network, in pixels.
+
+Pictures get that and a multiple of `GRID_PX`: their last rows and columns are repeated."""
 REFERENCE_PX = 32.0
 MOST_LOG_ODDS = 30.0
 LEAST_SCORE = 1e-4
-"""Scores are taken for no less than it, and for no more than one less it."""
+"""Least score, and least distance of a score from 1, in the calibration."""
 THREADS = 2
-"""While a picture is looked at, a run waits: two threads look sooner."""
+"""Number of threads; a run waits while a picture is looked at, and two are faster."""
 UNSURE = 0.5
-"""Times the threshold: unsure findings are reported too, for what is being followed."""
+"""Share of the threshold from which findings are reported, so that they can continue tracks."""
 
 
 class Calibration(BaseModel):
-    """How likely it is that a finding is true, by the network's score, the size and the class.
+    """Probability that a finding is true, by the network's score, the size and the class.
 
     The logarithm of the odds is ``of_class + logit x + size u + size_squared u^2 +
     logit_and_size x u``, where ``x`` is that of the score and ``u`` the binary logarithm of the
-    longest side of the box over `REFERENCE_PX` (J. Platt, 1999, with the size besides): a network
-    takes specks for something more easily than it takes anything for a big body.
+    longest side of the box over `REFERENCE_PX` (J. Platt, 1999, with the size besides). A network
+    is wrong about specks more often than about big bodies.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -71,14 +72,15 @@ class Calibration(BaseModel):
 
 
 class Card(BaseModel):
-    """What `EmbeddedDetector` reads of the ``card.json`` beside a network."""
+    """The part of the ``card.json`` beside a network that `EmbeddedDetector` reads."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     classes: Annotated[tuple[VisibleClass, ...], Field(min_length=1)]
-    """By the number in the network's output."""
+    """Classes in the order of their numbers in the network's output."""
     threshold: Confidence
-    """Confidence from which a finding counts by itself: with it there is one false detection a
-    minute and camera; docs/detector.md has what comes of it elsewhere."""
+    """Confidence from which a finding counts by itself.
+
+    It gives one false detection a minute and camera; docs/detector.md says how many elsewhere."""
     calibration: Calibration = Calibration()
     refiner: Annotated[
         RefinerCard | None, Field(validation_alias=AliasChoices("refiner", "second_look"))
@@ -97,7 +99,7 @@ class EmbeddedDetector:
     threshold
         Confidence below which nothing is reported; None: `UNSURE` times the card's.
     threads
-        That share the work.
+        Number of threads that share the work.
 
     Attributes
     ----------
@@ -139,7 +141,7 @@ class EmbeddedDetector:
     def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
         """Return what is in a part of a picture; see `airhilt.assistant.vision.gating.SeesParts`.
 
-        The first network was trained on tiles of 96 to 288 pixels. The second look has all of the
+        The first network was trained on tiles of 96 to 288 pixels. The refiner has the whole
         picture.
         """
         proposed = self.proposed(part.of(picture))
@@ -162,7 +164,7 @@ class EmbeddedDetector:
     def uncalibrated(self, picture: Picture) -> list[Found]:
         """Return all findings of the last network, with its scores as confidences.
 
-        The second look may move several onto one body.
+        The refiner may move several onto one body.
 
         Raises
         ------
@@ -240,7 +242,7 @@ def _card(path: Path) -> Card:
 
 
 def _require_shapes(network: onnxruntime.InferenceSession, subject: str) -> None:
-    """Complain about a network that takes or gives something else.
+    """Raise an error if a network takes or gives something else.
 
     Raises
     ------

@@ -31,8 +31,9 @@ LABELS: Mapping[str, VisibleClass] = {
     "deer": "deer",
     "coyote": "coyote",
 }
-"""By the names that models give their classes: COCO's, and two that others have. What is none of
-them, a dog or a horse, is not told of."""
+"""Labels by the names that models give their classes: COCO's, and two that others have.
+
+Findings of other classes, such as a dog or a horse, are dropped."""
 LEAST_CONFIDENCE = 0.1
 """Findings with less are not reported (``track_low_thresh`` of ultralytics' trackers)."""
 THRESHOLD = 0.25
@@ -41,14 +42,15 @@ MOST_FOUND = 300
 STRIDE_PX = 32
 EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
-"""So that it neither loads nor installs nor prints anything; read when it is imported, and when
-it looks for a network."""
+"""Variables with which ultralytics neither loads nor installs nor prints anything.
+
+It reads them when it is imported, and when it looks for a network."""
 LITERALS = ("args", "imgsz", "kpt_names", "kpt_shape", "names")
-"""Metadata of an ``.onnx`` file that ultralytics takes for Python; some of version 8.3 run it."""
+"""Metadata of an ``.onnx`` file that ultralytics reads as Python; versions 8.3 may run it."""
 
 
 class YoloDetector:
-    """Looks with a YOLO model, at the resolution of the picture if the model takes any.
+    """Detects with a YOLO model, at the resolution of the picture if the model takes any.
 
     Parameters
     ----------
@@ -58,8 +60,8 @@ class YoloDetector:
     Raises
     ------
     VisionError
-        There is no such file, the package is missing, the file does not load, or its classes are
-        none that AIRHILT knows.
+        The file or the package is missing, the file does not load, or AIRHILT knows none of its
+        classes.
     """
 
     def __init__(self, path: Path) -> None:
@@ -133,7 +135,7 @@ def _load(path: Path) -> Any:
 
 @contextmanager
 def _environment(settings: Mapping[str, str]) -> Iterator[None]:
-    """Give what is imported meanwhile other variables of the environment."""
+    """Set variables of the environment for a while."""
     before = {name: os.environ.get(name) for name in settings}
     os.environ.update(settings)
     try:
@@ -152,7 +154,7 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
     Raises
     ------
     VisionError
-        It is none, or there is code in its metadata.
+        It is no network, or there is code in its metadata.
     """
     session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
     metadata = session.get_modelmeta().custom_metadata_map
