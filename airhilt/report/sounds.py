@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import base64
 import io
-import os
 import wave
-from pathlib import Path
-from urllib.parse import quote
+from typing import TYPE_CHECKING
 
 from airhilt.audio.wav import SAMPLE_BYTES, from_pcm, to_pcm
 from airhilt.errors import RunFolderError
@@ -15,50 +13,60 @@ from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record.audio import audio_file, recorded_pcm
 from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
+if TYPE_CHECKING:
+    from airhilt.report.data import RunData
+
 RATE_HZ = 8_000
-"""In the page. Aeronautical VHF carries 300 to 3400 Hz (ETSI EN 300 676-1), which this leaves."""
+"""Sample rate in the page, in Hz: enough for the 300 to 3400 Hz that aeronautical VHF carries
+(ETSI EN 300 676-1)."""
 MOST_CHARACTERS = 6_000_000
-"""Of all sound in a page: more than four minutes."""
+"""Greatest length of all sound in a page: more than four minutes."""
 
 Sound = dict[str, str]
 """``src`` of a sound in the page, or ``href`` of its file."""
 
 
 class Sounds:
-    """Gives the sounds of a run folder to its page.
+    """Gives the sounds of a run folder to its page."""
 
-    Attributes
-    ----------
-    linked
-        How many had no room, and are linked to.
-    missing
-        How many have no file, or one that is not what the log says.
-    """
-
-    def __init__(self, folder: Path, page: Path) -> None:
-        self.linked = 0
-        self.missing = 0
-        self._folder = folder
-        self._page = page
+    def __init__(self, run: RunData) -> None:
+        self._run = run
+        self._linked = 0
+        self._missing = 0
         self._room = MOST_CHARACTERS
 
     def of(self, message: Transmission | AdvisoryAudio) -> Sound | None:
         """Return the sound of a message, None if it has none."""
         if not message.samples:
             return None
+        folder = self._run.folder.audio_path
         try:
-            audio = from_pcm(recorded_pcm(self._folder, message))
+            audio = from_pcm(recorded_pcm(folder, message))
         except RunFolderError:
-            self.missing += 1
+            self._missing += 1
             return None
         size = 4 * -(-len(audio) * SAMPLE_BYTES * RATE_HZ // SAMPLE_RATE_HZ // 3)
         if size > self._room:
-            self.linked += 1
-            path = os.path.relpath(audio_file(self._folder, message), self._page.parent)
-            return {"href": quote(path.replace(os.sep, "/"))}
+            self._linked += 1
+            return {"href": self._run.link(audio_file(folder, message))}
         source = "data:audio/wav;base64," + base64.b64encode(_small_wav(audio)).decode()
         self._room -= len(source)
         return {"src": source}
+
+    def notes(self) -> list[str]:
+        """Return a sentence on the sounds that are not in the page."""
+        notes = []
+        if self._linked:
+            notes.append(
+                f"There was no room in this file for the sound of {self._linked} calls and "
+                "advisories: they are links to the audio folder of the run."
+            )
+        if self._missing:
+            notes.append(
+                f"The sound of {self._missing} calls and advisories is missing in the audio "
+                "folder, or is not that of this run."
+            )
+        return notes
 
 
 def _small_wav(audio: Audio) -> bytes:

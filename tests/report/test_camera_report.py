@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from airhilt.record import LogWriter, RunFolder, read_log
-from airhilt.report import camera_section as gallery
-from airhilt.report.camera_section import MOST_SPANS, Spans
-from airhilt.report.report import write_report
+from airhilt.report import write_report
+from airhilt.report.intervals import MOST_INTERVALS, BridgedIntervals
+from airhilt.report.sections import cameras as camera_section
 from airhilt.units import SECOND_NS
 from camera_run import camera_run
 from sightings import vision
@@ -44,7 +44,7 @@ def data(page: Path) -> dict[str, Any]:
 
 
 def shown(folder: Path) -> dict[str, Any]:
-    cameras: dict[str, Any] = data(write_report(folder))["cameras"]
+    cameras: dict[str, Any] = data(write_report(folder))["sections"]["cameras"]
     return cameras
 
 
@@ -76,34 +76,34 @@ def test_a_picture_says_who_was_found_in_it_how_far_off_and_how_late(folder: Pat
     assert picture["latency_s"] == pytest.approx(0.05)
 
 
-def test_each_camera_has_a_lane_of_what_was_in_view_and_found(folder: Path) -> None:
-    lanes = shown(folder)["lanes"]
-    assert [(lane["camera"], lane["carrier"]) for lane in lanes] == [
+def test_each_camera_has_a_timeline_of_what_was_in_view_and_found(folder: Path) -> None:
+    timelines = shown(folder)["timelines"]
+    assert [(timeline["camera"], timeline["carrier"]) for timeline in timelines] == [
         ("nose-AAL123", "AAL123"), ("nose-DAL456", "DAL456")
     ]  # fmt: skip
-    for lane in lanes:
-        (in_view,) = lane["in_view"]
+    for timeline in timelines:
+        (in_view,) = timeline["in_view"]
         assert in_view[0] == 0.0
         assert 5.0 < in_view[1] < 9.0
-        assert lane["found"][0][0] <= lane["confirmed"][0][0] <= in_view[1]
-        assert lane["false"] == []
-        assert (lane["width_px"], lane["rate_hz"], lane["video"]) == (640, 4.0, None)
+        assert timeline["found"][0][0] <= timeline["confirmed"][0][0] <= in_view[1]
+        assert timeline["false"] == []
+        assert (timeline["width_px"], timeline["rate_hz"], timeline["video"]) == (640, 4.0, None)
 
 
 def test_a_video_is_linked_to(folder: Path, tmp_path: Path) -> None:
     (folder / "video").mkdir()
     (folder / "video" / "nose-AAL123.mp4").touch()
-    assert shown(folder)["lanes"][0]["video"] == "video/nose-AAL123.mp4"
-    elsewhere = data(write_report(folder, tmp_path / "page.html"))["cameras"]
-    assert elsewhere["lanes"][0]["video"] == "run/video/nose-AAL123.mp4"
+    assert shown(folder)["timelines"][0]["video"] == "video/nose-AAL123.mp4"
+    elsewhere = data(write_report(folder, tmp_path / "page.html"))["sections"]["cameras"]
+    assert elsewhere["timelines"][0]["video"] == "run/video/nose-AAL123.mp4"
 
 
 def test_pictures_that_have_no_room_are_links_and_the_page_says_so(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(gallery, "MOST_CHARACTERS", 3_000)
+    monkeypatch.setattr(camera_section, "MOST_CHARACTERS", 3_000)
     page = data(write_report(folder))
-    links = [one["href"] for one in page["cameras"]["pictures"] if "href" in one]
+    links = [one["href"] for one in page["sections"]["cameras"]["pictures"] if "href" in one]
     assert links
     assert all((folder / link).is_file() for link in links)
     assert any(f"no room in this file for {len(links)} pictures" in note for note in page["notes"])
@@ -122,7 +122,7 @@ def test_a_run_without_cameras_shows_none(folder: Path) -> None:
     with closing(LogWriter(folder / "log.mcap")):
         pass
     shutil.rmtree(folder / "pictures")
-    assert shown(folder) == {"state": "off", "cause": "", "lanes": [], "pictures": []}
+    assert shown(folder) == {"state": "off", "cause": "", "timelines": [], "pictures": []}
 
 
 def rewrite(folder: Path, *statuses: Any) -> None:
@@ -141,7 +141,7 @@ def test_why_vision_was_not_evaluated_is_told_as_data(folder: Path) -> None:
     rewrite(folder, vision("not evaluated", HOSTILE))
     page = write_report(folder)
     assert "onerror=alert(1)>" not in page.read_text()
-    cameras = data(page)["cameras"]
+    cameras = data(page)["sections"]["cameras"]
     assert (cameras["state"], cameras["cause"]) == ("not evaluated", HOSTILE)
 
 
@@ -154,25 +154,25 @@ def test_a_killed_run_shows_what_its_log_has(folder: Path) -> None:
     RunFolder(folder).summary_path.unlink()
     whole = (folder / "log.mcap").read_bytes()
     (folder / "log.mcap").write_bytes(whole[: len(whole) // 2])
-    lanes = shown(folder)["lanes"]
-    assert lanes[0]["in_view"]
+    timelines = shown(folder)["timelines"]
+    assert timelines[0]["in_view"]
     assert len(shown(folder)["pictures"]) >= 3
 
 
-# --- spans --------------------------------------------------------------------------------------
+# --- intervals ------------------------------------------------------------------------------
 
 
 def test_short_pauses_are_bridged_and_long_ones_are_not() -> None:
-    spans = Spans()
+    intervals = BridgedIntervals()
     for t_ns in (0, SECOND_NS // 4, SECOND_NS // 2, 2 * SECOND_NS, 3 * SECOND_NS):
-        spans.add(t_ns)
-    assert spans.as_json() == [(0.0, 0.5), (2.0, 2.0), (3.0, 3.0)]
+        intervals.add(t_ns)
+    assert intervals.as_json() == [(0.0, 0.5), (2.0, 2.0), (3.0, 3.0)]
 
 
-def test_many_spans_are_joined_until_there_is_room() -> None:
-    spans = Spans()
+def test_many_intervals_are_joined_until_there_is_room() -> None:
+    intervals = BridgedIntervals()
     for second in range(5_000):
-        spans.add(second * SECOND_NS)
-    found = spans.as_json()
-    assert len(found) <= MOST_SPANS
+        intervals.add(second * SECOND_NS)
+    found = intervals.as_json()
+    assert len(found) <= MOST_INTERVALS
     assert (found[0][0], found[-1][1]) == (0.0, 4_999.0)

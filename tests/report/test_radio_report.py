@@ -15,8 +15,8 @@ import pytest
 
 from airhilt.messages import Event
 from airhilt.record import LogWriter
-from airhilt.report import sounds
-from airhilt.report.report import write_report
+from airhilt.report import sounds, write_report
+from airhilt.report.sections import radio as radio_section
 from radio_folder import RadioFolder, busy_radio
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
@@ -40,7 +40,7 @@ def shown(folder: Path) -> dict[str, Any]:
 
 
 def test_calls_are_in_the_order_in_which_they_began(tmp_path: Path) -> None:
-    calls = shown(busy_radio(tmp_path / "run"))["radio"]["calls"]
+    calls = shown(busy_radio(tmp_path / "run"))["sections"]["radio"]["calls"]
     assert [call["id"] for call in calls] == [
         "clearance", "readback", "carrier", "roger", "distant"
     ]  # fmt: skip
@@ -55,7 +55,7 @@ def test_calls_are_in_the_order_in_which_they_began(tmp_path: Path) -> None:
 
 def test_words_that_differ_are_told_apart_from_those_that_do_not(radio: RadioFolder) -> None:
     radio.call("roger", 1.0, "American 123, roger", "american one two three wilco")
-    (call,) = shown(radio.close())["radio"]["calls"]
+    (call,) = shown(radio.close())["sections"]["radio"]["calls"]
     (transcript,) = call["transcripts"]
     kinds = [(one["kind"], one["said"], one["heard"]) for one in transcript["words"]]
     assert kinds == [
@@ -67,13 +67,13 @@ def test_words_that_differ_are_told_apart_from_those_that_do_not(radio: RadioFol
 
 def test_text_that_nobody_recognised_is_no_transcript(radio: RadioFolder) -> None:
     radio.call("roger", 1.0, "Roger", "Roger", engine="text", sound=False)
-    (call,) = shown(radio.close())["radio"]["calls"]
+    (call,) = shown(radio.close())["sections"]["radio"]["calls"]
     assert (call["transcripts"], call["sound"]) == ([], None)
 
 
 def test_sound_lies_in_the_page_with_all_that_a_radio_carries(radio: RadioFolder) -> None:
     radio.call("roger", 1.0, "Roger", seconds=2.0)
-    (call,) = shown(radio.close())["radio"]["calls"]
+    (call,) = shown(radio.close())["sections"]["radio"]["calls"]
     kind, _, encoded = call["sound"]["src"].partition(",")
     assert kind == "data:audio/wav;base64"
     with wave.open(io.BytesIO(base64.b64decode(encoded))) as file:
@@ -85,7 +85,7 @@ def test_sound_lies_in_the_page_with_all_that_a_radio_carries(radio: RadioFolder
 
 def test_spoken_advisories_have_their_sound_and_how_late_they_were(radio: RadioFolder) -> None:
     radio.voice("decision-1", 4.0, "AAL123 go around")
-    (voice,) = shown(radio.close())["radio"]["voices"]
+    (voice,) = shown(radio.close())["sections"]["radio"]["advisories"]
     assert (voice["from"], voice["to"], voice["said"]) == (4.0, 5.0, "AAL123 go around")
     assert voice["after_decision_s"] == pytest.approx(0.2)
     assert "src" in voice["sound"]
@@ -99,13 +99,13 @@ def test_sound_that_has_no_room_is_a_link_to_its_file(
         radio.call(f"call{number}", 2.0 * number, "Roger")
     folder = radio.close()
     page = shown(folder)
-    inside, *links = (call["sound"] for call in page["radio"]["calls"])
+    inside, *links = (call["sound"] for call in page["sections"]["radio"]["calls"])
     assert "src" in inside
     assert links == [{"href": "audio/call1.wav"}, {"href": "audio/call2.wav"}]
     assert all((folder / link["href"]).is_file() for link in links)
     assert any("2 calls and advisories" in note for note in page["notes"])
     elsewhere = data(write_report(folder, tmp_path / "page.html"))
-    assert elsewhere["radio"]["calls"][1]["sound"] == {"href": "run/audio/call1.wav"}
+    assert elsewhere["sections"]["radio"]["calls"][1]["sound"] == {"href": "run/audio/call1.wav"}
 
 
 def test_sound_of_something_else_is_not_played(radio: RadioFolder) -> None:
@@ -114,23 +114,23 @@ def test_sound_of_something_else_is_not_played(radio: RadioFolder) -> None:
     (folder / "audio" / "one.wav").unlink()
     (folder / "audio" / "three.wav").replace(folder / "audio" / "two.wav")
     page = shown(folder)
-    assert [call["sound"] for call in page["radio"]["calls"]] == [None, None, None]
+    assert [call["sound"] for call in page["sections"]["radio"]["calls"]] == [None, None, None]
     assert any("sound of 3 calls" in note for note in page["notes"])
 
 
 def test_a_radio_with_more_calls_than_can_be_shown_says_so(
     radio: RadioFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("airhilt.report.report.MOST_CALLS", 2)
+    monkeypatch.setattr(radio_section, "MOST_CALLS", 2)
     for number in range(5):
         radio.call(f"call{number}", 2.0 * number, "Roger", sound=False)
     page = shown(radio.close())
-    assert len(page["radio"]["calls"]) == 2
+    assert len(page["sections"]["radio"]["calls"]) == 2
     assert any("first 2 calls" in note and "3 later" in note for note in page["notes"])
 
 
 def test_a_run_without_calls_has_an_empty_radio(radio: RadioFolder) -> None:
-    assert shown(radio.close())["radio"] == {"calls": [], "voices": []}
+    assert shown(radio.close())["sections"]["radio"] == {"calls": [], "advisories": []}
 
 
 def test_hostile_words_stay_data(radio: RadioFolder) -> None:
@@ -138,7 +138,7 @@ def test_hostile_words_stay_data(radio: RadioFolder) -> None:
     radio.voice("two", 3.0, HOSTILE)
     page = write_report(radio.close())
     assert "onerror=alert(1)>" not in page.read_text()
-    (call,) = data(page)["radio"]["calls"]
+    (call,) = data(page)["sections"]["radio"]["calls"]
     assert (call["who"], call["said"]) == (HOSTILE, HOSTILE)
 
 

@@ -28,9 +28,10 @@ from airhilt.messages import (
 )
 from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder
-from airhilt.report import report
-from airhilt.report.report import write_report
-from airhilt.report.timelines import Intervals
+from airhilt.report import write_report
+from airhilt.report.intervals import Intervals
+from airhilt.report.page import embeddable
+from airhilt.report.tracks import ThinnedStates
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 
@@ -104,7 +105,12 @@ def test_a_finished_run_is_shown_with_its_numbers_tracks_and_events(folder: Path
     assert data["pair"] == ["AAL123", "DAL456"]
     assert [track["callsign"] for track in data["tracks"]] == ["AAL123", "DAL456"]
     assert {"advisory", "conflict", "status", "finished"} <= {e["kind"] for e in data["events"]}
-    assert {worker["worker"] for worker in data["latencies"]} >= {"adsb", "asr", "decision", "tts"}
+    assert {worker["worker"] for worker in data["sections"]["latencies"]} >= {
+        "adsb",
+        "asr",
+        "decision",
+        "tts",
+    }
 
 
 def test_tracks_lie_where_the_aircraft_flew(folder: Path) -> None:
@@ -167,7 +173,7 @@ def test_without_an_annotation_the_pair_is_the_one_of_the_summarys_closest_appro
 def test_latencies_count_every_finished_step_once(folder: Path) -> None:
     rows = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
     finished = [row["worker"] for row in rows if row.get("finished")]
-    for worker in shown(write_report(folder))["latencies"]:
+    for worker in shown(write_report(folder))["sections"]["latencies"]:
         assert worker["n"] == finished.count(worker["worker"])
         assert sum(step["n"] for step in worker["bins"]) == worker["n"]
 
@@ -269,13 +275,13 @@ def test_an_airport_that_is_gone_is_named_and_the_traffic_drawn(folder: Path) ->
     assert data["airport"] is None
     assert any("KDCX" in note.upper() for note in data["notes"])
     assert len(data["tracks"]) == 2
-    assert data["runways"][0]["approaches"][0]["threshold"] is None
+    assert data["sections"]["runways"][0]["approaches"][0]["threshold"] is None
 
 
 def test_runways_show_who_was_there_and_who_came_over_the_threshold_when(folder: Path) -> None:
     at_airport(folder)
     rewrite_log(folder, *landing())
-    (lane,) = shown(write_report(folder))["runways"]
+    (lane,) = shown(write_report(folder))["sections"]["runways"]
     assert lane["runway"] == "01/19"
     assert lane["occupants"] == [
         {"what": "OPS1", "from": 5.0, "to": 20.0},
@@ -296,26 +302,29 @@ def test_an_approach_that_is_broken_off_never_comes_over_the_threshold(folder: P
     ]
     states = [entry for entry in landing() if entry[0].startswith("truth/state")]
     rewrite_log(folder, *states, *(("truth/runway/01-19", truth) for truth in truths))
-    ((approach,),) = (lane["approaches"] for lane in shown(write_report(folder))["runways"])
+    ((approach,),) = (
+        lane["approaches"] for lane in shown(write_report(folder))["sections"]["runways"]
+    )
     assert (approach["to"], approach["threshold"]) == (6.0, None)
 
 
 def test_phases_last_from_one_change_to_the_next(folder: Path) -> None:
     at_airport(folder)
     rewrite_log(folder, *landing())
-    lanes = {lane["callsign"]: lane["spells"] for lane in shown(write_report(folder))["phases"]}
-    assert lanes["AAL123"] == [
+    tracks = shown(write_report(folder))["tracks"]
+    phases = {track["callsign"]: track["phases"] for track in tracks}
+    assert phases["AAL123"] == [
         {"what": "glide", "from": 0.0, "to": 14.0},
         {"what": "rollout", "from": 14.0, "to": 20.0},
     ]
-    assert [spell["what"] for spell in lanes["OPS1"]] == ["driving", "standing"]
+    assert [phase["what"] for phase in phases["OPS1"]] == ["driving", "standing"]
 
 
-def test_what_goes_on_again_is_another_spell() -> None:
-    spells = Intervals[str]()
+def test_what_goes_on_again_is_another_interval() -> None:
+    intervals = Intervals[str]()
     for t_ns, now in ((0, ["a"]), (1, ["a", "b"]), (2, ["b"]), (3, ["a", "b"])):
-        spells.go_on(t_ns, now)
-    assert spells.until(5) == [("a", 0, 2), ("b", 1, 5), ("a", 3, 5)]
+        intervals.update(t_ns, now)
+    assert intervals.until(5) == [("a", 0, 2), ("b", 1, 5), ("a", 3, 5)]
 
 
 def test_a_failed_call_is_told_with_what_it_was_to_say(folder: Path) -> None:
@@ -372,7 +381,7 @@ def test_a_log_cut_anywhere_gives_a_page(folder: Path, size: int) -> None:
 def test_a_latency_log_cut_in_a_line_counts_up_to_there(folder: Path) -> None:
     text = (folder / "latency.jsonl").read_text()
     (folder / "latency.jsonl").write_text(text[: len(text) // 2 + 7])
-    assert shown(write_report(folder))["latencies"]
+    assert shown(write_report(folder))["sections"]["latencies"]
 
 
 def test_missing_parts_are_named_on_the_page(folder: Path) -> None:
@@ -433,25 +442,38 @@ def test_a_hostile_phase_stays_data(folder: Path) -> None:
     before = write_report(folder, folder.parent / "before.html").read_text().lower()
     rewrite_log(folder, *(("truth/state/AAL123", state) for state in states))
     page = write_report(folder)
-    (lane,) = shown(page)["phases"]
-    assert [spell["what"] for spell in lane["spells"]] == [HOSTILE]
+    (track,) = shown(page)["tracks"]
+    assert [phase["what"] for phase in track["phases"]] == [HOSTILE]
     for markup in ("<script", "</script", "<!--", "<img"):
         assert page.read_text().lower().count(markup) == before.count(markup)
 
 
+def parts_of_the_page() -> str:
+    """Return all templates, styles and scripts that pages are made of."""
+    package = Path(str(resources.files("airhilt.report")))
+    files = [file for kind in ("html", "css", "js") for file in package.rglob(f"*.{kind}")]
+    assert len(files) > 20
+    return "".join(file.read_text("utf-8") for file in files)
+
+
 def test_nothing_in_the_page_makes_markup_of_data() -> None:
-    template = resources.files("airhilt.report").joinpath("report.html").read_text("utf-8")
-    assert template.count(report.PLACEHOLDER) == 1
+    parts = parts_of_the_page()
     for maker in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval("):
-        assert maker not in template
+        assert maker not in parts
 
 
 def test_the_page_needs_nothing_from_outside() -> None:
-    template = resources.files("airhilt.report").joinpath("report.html").read_text("utf-8")
-    assert "://" not in template
-    assert not re.search(r"<(img|iframe|object|embed)|\bsrc=|@import|url\((?!#)", template)
-    assert re.findall(r'href="([^"]*)"', template) == ["data:,"]
-    assert "default-src 'none'" in template
+    parts = parts_of_the_page()
+    assert "://" not in parts
+    assert not re.search(r"<(img|iframe|object|embed)|\bsrc=|@import|url\((?!#|\$)", parts)
+    assert re.findall(r'href="([^"]*)"', parts) == ["data:,"]
+    assert "default-src 'none'" in parts
+
+
+def test_no_text_ends_the_element_that_the_data_lies_in() -> None:
+    text = embeddable({"title": HOSTILE})
+    assert not set("<>&") & set(text)
+    assert json.loads(text) == {"title": HOSTILE}
 
 
 def test_the_same_folder_gives_the_same_bytes(folder: Path, tmp_path: Path) -> None:
@@ -461,7 +483,7 @@ def test_the_same_folder_gives_the_same_bytes(folder: Path, tmp_path: Path) -> N
 
 
 def test_a_track_is_thinned_out_evenly_and_keeps_its_ends() -> None:
-    thinned = report._Thinned(most=50)
+    thinned = ThinnedStates(most=50)
     for tick in range(1234):
         thinned.add(truth("AAL123", tick / 5).model_dump_json().encode())
     times = [state.t_ns for state in thinned.states()]

@@ -23,7 +23,7 @@ Examples:
 )
 def report(run_folder: Path, out: Path | None) -> None:
     """Make the report of a run: one HTML file that opens offline."""
-    from airhilt.report.report import write_report
+    from airhilt.report import write_report
 
     click.echo(write_report(run_folder, out))
 

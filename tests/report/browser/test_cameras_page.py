@@ -12,7 +12,7 @@ from airhilt.cosim import simulation as cosim
 from airhilt.errors import RendererError
 from airhilt.options import Options
 from airhilt.record import RunFolder
-from airhilt.report.report import write_report
+from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from camera_run import camera_run, passing
 from devtools import Page
@@ -48,8 +48,8 @@ def test_key_pictures_are_shown_with_boxes_and_who_is_in_them(page: Page, report
         "[...document.querySelectorAll('.picture figcaption')].map((c) => c.firstChild.data.trim())"
     ) == ["First detection", "First warning", "Closest approach"]
     first = ".picture:first-child"
-    assert count(page, f"{first} .shot > svg:first-child rect.unsure") == 1
-    assert count(page, f"{first} .shot > svg:first-child rect.true") == 1
+    assert count(page, f"{first} .framed > svg:first-child rect.unconfirmed") == 1
+    assert count(page, f"{first} .framed > svg:first-child rect.true") == 1
     assert count(page, f"{first} .zoom image") == 1
     listed = text(page, f"{first} .boxes")
     assert "airplane 0.80, not confirmed: DAL456, 4,1" in listed
@@ -75,11 +75,11 @@ def test_the_time_of_a_picture_sets_the_clock(page: Page, report: Path) -> None:
     assert page.evaluate("clock.t") == pytest.approx(shown, abs=0.06)
 
 
-def test_each_camera_has_a_lane_and_a_row(page: Page, report: Path) -> None:
+def test_each_camera_has_a_timeline_and_a_row(page: Page, report: Path) -> None:
     page.open(report)
-    assert count(page, "#sight svg rect.in-view") == 2
-    assert count(page, "#sight svg rect.confirmed") >= 2
-    assert count(page, "#sight svg .taken") == 3
+    assert count(page, "#detections svg rect.in-view") == 2
+    assert count(page, "#detections svg rect.confirmed") >= 2
+    assert count(page, "#detections svg .taken") == 3
     assert count(page, "#camera-figures tbody tr") == 3
     assert "nose-AAL123" in text(page, "#camera-figures")
     assert "Vision" in text(page, "#latencies")
@@ -87,7 +87,7 @@ def test_each_camera_has_a_lane_and_a_row(page: Page, report: Path) -> None:
 
 def test_the_numbers_of_vision_are_shown(page: Page, report: Path) -> None:
     page.open(report)
-    tiles = text(page, "#sight-tiles")
+    tiles = text(page, "#vision-tiles")
     for name in ("First detection", "Recall", "False detections", "Vision latency"):
         assert name in tiles
     assert count(page, "#recall tbody tr") == 4
@@ -108,8 +108,8 @@ def test_a_killed_run_shows_its_pictures(page: Page, folder: Path, tmp_path: Pat
     RunFolder(killed).summary_path.unlink()
     page.open(write_report(killed))
     assert count(page, ".picture") == 3
-    assert count(page, "#sight svg rect.in-view") == 2
-    assert count(page, "#sight-tiles .tile") == 0
+    assert count(page, "#detections svg rect.in-view") == 2
+    assert count(page, "#vision-tiles .tile") == 0
 
 
 def test_why_vision_was_not_evaluated_is_shown(
@@ -119,7 +119,7 @@ def test_why_vision_was_not_evaluated_is_shown(
         raise RendererError("no <b>EGL</b> here")
 
     with monkeypatch.context() as patch:
-        patch.setattr("camera_run.BlankStudio", lambda scenario: missing(scenario, "open3d"))
+        patch.setattr("camera_run.BlankSceneRenderer", lambda scenario: missing(scenario, "open3d"))
         short = passing().model_copy(update={"duration_s": 1.0})
         folder = camera_run(tmp_path / "run", patch, short).folder
     page.open(write_report(folder))
@@ -133,4 +133,4 @@ def test_a_run_without_cameras_has_no_such_section(page: Page, tmp_path: Path) -
     options = Options(out=tmp_path / "run", cameras=False, speech=False)
     page.open(write_report(cosim.run(short, options).folder))
     assert page.evaluate("document.getElementById('cameras').hidden") is True
-    assert page.evaluate("document.getElementById('sight-figure').hidden") is True
+    assert page.evaluate("document.getElementById('detections-figure').hidden") is True

@@ -15,9 +15,10 @@ from airhilt.commands import Command
 from airhilt.cosim.simulation import run
 from airhilt.options import Options
 from airhilt.record import RunFolder
-from airhilt.report.report import write_report
+from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from devtools import Page
+from engine_package import installed
 from radio_folder import busy_radio
 
 pytestmark = pytest.mark.browser
@@ -173,7 +174,7 @@ def test_who_is_out_of_view_is_pointed_to(page: Page, incursion: Path) -> None:
     assert not any("off" in text for text in texts(page, "plan"))
 
 
-def test_runway_lanes_show_occupants_the_approach_and_the_incursion(
+def test_runway_timelines_show_occupants_the_approach_and_the_incursion(
     page: Page, incursion: Path
 ) -> None:
     page.open(incursion)
@@ -187,10 +188,10 @@ def test_runway_lanes_show_occupants_the_approach_and_the_incursion(
     assert page.evaluate("document.querySelectorAll('#runways .window').length") == 1
 
 
-def test_each_actor_has_a_strip_of_its_phases(page: Page, incursion: Path) -> None:
+def test_each_actor_has_a_timeline_of_its_phases(page: Page, incursion: Path) -> None:
     page.open(incursion)
-    spells = page.evaluate("run.phases.flatMap((lane) => lane.spells).length")
-    assert page.evaluate("document.querySelectorAll('#phases .phase').length") == spells
+    phases = page.evaluate("run.tracks.flatMap((track) => track.phases).length")
+    assert page.evaluate("document.querySelectorAll('#phases .phase').length") == phases
     assert {"glide", "flare", "driving", "standing"} <= set(texts(page, "phases"))
 
 
@@ -353,12 +354,12 @@ def test_a_row_of_the_radio_shows_its_time_and_playing_it_does_not(page: Page, r
     assert page.evaluate("clock.t") == pytest.approx(5.0)
 
 
-def test_lanes_show_who_is_on_the_air_and_what_was_blocked(page: Page, radio: Path) -> None:
+def test_timelines_show_who_is_on_the_air_and_what_was_blocked(page: Page, radio: Path) -> None:
     page.open(radio)
-    assert page.evaluate("document.querySelectorAll('#air .transmission').length") == 6
-    assert page.evaluate("document.querySelectorAll('#air .blocked').length") == 2
+    assert page.evaluate("document.querySelectorAll('#transmissions .transmission').length") == 6
+    assert page.evaluate("document.querySelectorAll('#transmissions .blocked').length") == 2
     assert {"119.100 MHz", "Tower", "AAL123", "DAL456", "assistant", "to ATC"} <= set(
-        texts(page, "air")
+        texts(page, "transmissions")
     )
 
 
@@ -367,7 +368,25 @@ def test_a_radio_without_calls_is_not_shown(page: Page, radio: Path, tmp_path: P
     (copy / "log.mcap").unlink()
     page.open(write_report(copy))
     assert page.evaluate("document.getElementById('radio').hidden")
-    assert page.evaluate("document.getElementById('air-figure').hidden")
+    assert page.evaluate("document.getElementById('transmissions-figure').hidden")
+
+
+def test_a_section_of_another_package_draws_itself(
+    page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = (
+        "from airhilt.report.sections import Section\n"
+        'ENGINE = Section("greeting", order=5, module=__file__)\n'
+    )
+    group = "airhilt.report_sections"
+    with installed(tmp_path, monkeypatch, group, "greeting", source) as package:
+        (tmp_path / f"{package}.html").write_text('<p id="greeting"></p>')
+        (tmp_path / f"{package}.js").write_text(
+            'return { fit() { return (t) => { byId("greeting").textContent = seconds(t); }; } };'
+        )
+        page.open(write_report(busy_radio(tmp_path / "run")))
+    page.evaluate("clock.set(2)")
+    assert page.evaluate("document.getElementById('greeting').textContent") == "2.0 s"
 
 
 @pytest.mark.parametrize("dark", [False, True])
@@ -404,6 +423,22 @@ def test_hostile_text_is_shown_and_not_run(page: Page, folder: Path, tmp_path: P
     assert page.evaluate("document.getElementById('title').textContent") == hostile
     assert page.evaluate("document.getElementById('planted')") is None
     assert page.evaluate("document.title") != "1"
+
+
+def test_a_section_that_fails_is_named_and_the_others_are_drawn(
+    page: Page, report: Path, tmp_path: Path
+) -> None:
+    broken = tmp_path / "page.html"
+    assert "function drawRadio() {" in report.read_text()
+    broken.write_text(
+        report.read_text().replace("function drawRadio() {", "function drawRadio() { nothing();")
+    )
+    page.open(broken)
+    notes = page.evaluate("document.getElementById('notes').textContent")
+    assert "The section radio cannot be drawn: nothing is not defined" in notes
+    assert page.evaluate("document.querySelectorAll('#timeline tr').length") > 5
+    assert len(page.complaints) == 1
+    page.complaints.clear()
 
 
 @pytest.mark.parametrize("size", [0, 9000])

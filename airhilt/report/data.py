@@ -1,0 +1,354 @@
+"""Reads a run folder: what all sections of its report share."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+import numpy as np
+from pydantic import ValidationError
+
+from airhilt.errors import AirhiltError, RunFolderError, first_problem
+from airhilt.geodesy.relative_motion import relative
+from airhilt.metrics.summary import ClosestApproach, Summary
+from airhilt.record import Logged, RunFolder, RunInfo, read_log
+from airhilt.report.events import MOST_EVENTS, Events
+from airhilt.report.intervals import seconds
+from airhilt.report.sections import Content, Section
+from airhilt.report.text import cut
+from airhilt.report.tracks import Locate, Phases, Projection, State, ThinnedStates, Track
+from airhilt.shapes.sizes import Size
+from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.surface.kinds import load_kind
+
+if TYPE_CHECKING:
+    from airhilt.report.airport import ReportAirport
+
+Json = dict[str, Any]
+
+MOST_POINTS = 600
+"""Largest number of points of one track: a chart is hardly wider in pixels."""
+MOST_POINTS_AT_AIRPORT = 1200
+"""Largest number of points of one track at an airport: turns are tight there."""
+MOST_POINTS_OF_ALL = 15_000
+"""Largest number of points of all tracks together, so that the page stays below a megabyte."""
+FEWEST_POINTS = 40
+"""Least number of points that a track may have, however many tracks there are."""
+
+
+@dataclass(frozen=True)
+class RunData:
+    """A run as its report shows it.
+
+    Attributes
+    ----------
+    folder, info, summary
+        The run folder and what is in it; the summary is None if the run did not write one.
+    page
+        File that the page is written to; links lead from there.
+    notes
+        Sentences above the page on what is missing. Sections may append to them.
+    end_ns
+        Time of the last message in the log.
+    events
+        What happened, as rows of the timeline.
+    tracks
+        Where each actor was, by its callsign.
+    pair
+        The two actors whose separation is drawn, None if there is no such pair.
+    pair_is_annotated
+        True if the scenario names the pair.
+    airport
+        The airport of the scenario, None where there is none or it cannot be drawn.
+    """
+
+    folder: RunFolder
+    page: Path
+    info: RunInfo
+    summary: Summary | None
+    notes: list[str]
+    end_ns: int
+    events: Events
+    tracks: dict[str, Track]
+    pair: list[str] | None
+    pair_is_annotated: bool
+    airport: ReportAirport | None
+
+    def link(self, path: Path) -> str:
+        """Return a link from the page to a file of the run."""
+        return quote(os.path.relpath(path, self.page.parent).replace(os.sep, "/"))
+
+    def as_json(self) -> Json:
+        """Return what all sections share."""
+        info, realised = self.info, self.info.realised
+        actors = {actor["callsign"]: actor for actor in realised.get("actors", ())}
+        at_airport = self.airport is not None
+        texts = ("name", "title", "description", "family")
+        return {
+            "run": info.run,
+            "scenario": {name: str(realised.get(name, "")) for name in texts},
+            "phase": info.phase,
+            "cause": cut(info.cause),
+            "options": info.options.model_dump(mode="json")
+            | {"assistant": info.assistant, "pace": info.pace},
+            "unregistered": info.unregistered_programs,
+            "notes": self.notes,
+            "separation": realised.get("separation", {}),
+            "has_conflict": realised.get("conflict") is not None,
+            "pair": self.pair,
+            "pair_is_annotated": self.pair_is_annotated,
+            "summary": None if self.summary is None else self.summary.model_dump(mode="json"),
+            "end_s": round(self.end_ns / SECOND_NS, 3),
+            "tracks": [
+                track.as_json(actor, at_airport) | _kind(actors.get(actor, {}))
+                for actor, track in self.tracks.items()
+            ],
+            "separations": _separations(self.tracks, self.pair),
+            "airport": None if self.airport is None else self.airport.as_json(),
+            "events": self.events.as_json(info),
+        }
+
+
+def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, Content]) -> RunData:
+    """Read a run folder, and give the messages of its log to the sections that ask for them.
+
+    Parameters
+    ----------
+    folder
+        Folder of a run that has finished, was stopped, was killed or is still going on.
+    page
+        File that the page is written to.
+    contents
+        Receivers of messages, by the section that states their keys.
+
+    Raises
+    ------
+    RunFolderError
+        ``run.json`` is damaged.
+    """
+    info = folder.info()
+    notes: list[str] = []
+    log = _Log(_points_a_track(info), contents)
+    log.read(folder.log_path, notes)
+    summary = _summary(folder, notes)
+    _note_how_it_ended(info, log, notes)
+    airport = _airport(info, notes)
+    tracks = _tracks(log, airport)
+    pair, annotated = _pair(info, summary, tracks)
+    return RunData(
+        folder=folder,
+        page=page,
+        info=info,
+        summary=summary,
+        notes=notes,
+        end_ns=log.end_ns,
+        events=log.events,
+        tracks=tracks,
+        pair=pair,
+        pair_is_annotated=annotated,
+        airport=airport,
+    )
+
+
+class _Log:
+    """Sorts the messages of a log."""
+
+    def __init__(self, points_a_track: int, contents: Mapping[Section, Content]) -> None:
+        self.states: dict[str, ThinnedStates] = {}
+        self.phases: dict[str, Phases] = {}
+        self.events = Events()
+        self.end_ns = 0
+        self._points_a_track = points_a_track
+        self._contents = contents
+        self._receivers: dict[str, list[Content]] = {}
+
+    def read(self, path: Path, notes: list[str]) -> None:
+        """Read the log up to where it breaks off."""
+        try:
+            for logged in read_log(path):
+                self._take(logged)
+        except RunFolderError as error:
+            notes.append(f"The log cannot be read, so there is nothing to draw: {cut(str(error))}")
+        except ValidationError as error:
+            notes.append(
+                f"The log is not as this version writes it ({error.title}: "
+                f"{first_problem(error)}), and shown up to there."
+            )
+
+    def _take(self, logged: Logged) -> None:
+        self.end_ns = max(self.end_ns, logged.t_ns)
+        for content in self._receivers_of(logged.key):
+            content.take(logged)
+        if logged.key.startswith("truth/state/"):
+            actor = logged.key.removeprefix("truth/state/")
+            self.states.setdefault(actor, ThinnedStates(self._points_a_track)).add(logged.data)
+            self.phases.setdefault(actor, Phases()).add(logged.t_ns, logged.data)
+        else:
+            self.events.take(logged)
+
+    def _receivers_of(self, key: str) -> list[Content]:
+        if key not in self._receivers:
+            self._receivers[key] = [
+                content
+                for section, content in self._contents.items()
+                if key.startswith(section.keys)
+            ]
+        return self._receivers[key]
+
+
+# --- the summary, and how the run ended -----------------------------------------------------
+
+
+def _summary(folder: RunFolder, notes: list[str]) -> Summary | None:
+    loaded = folder.summary()
+    if loaded is None:
+        notes.append(
+            "There is no summary.json: the run was killed or is still going on. The numbers below "
+            "are missing; charts and timeline show what the log has."
+        )
+        return None
+    try:
+        return Summary.model_validate(loaded)
+    except ValidationError as error:
+        field = "/".join(str(part) for part in error.errors()[0]["loc"])
+        notes.append(f"summary.json is not as this version writes it ({field}), and left out.")
+        return None
+
+
+def _note_how_it_ended(info: RunInfo, log: _Log, notes: list[str]) -> None:
+    if not log.events.ended:
+        notes.append(
+            f"The log breaks off at {log.end_ns / SECOND_NS:.1f} s: what came after is not known."
+        )
+    if info.phase == "stopped":
+        notes.append(f"The run was stopped before its end: {cut(info.cause)}")
+    if log.events.left_out:
+        notes.append(
+            f"The timeline shows the first {MOST_EVENTS} events; {log.events.left_out} later ones "
+            "are in log.mcap only."
+        )
+
+
+# --- tracks ---------------------------------------------------------------------------------
+
+
+def _points_a_track(info: RunInfo) -> int:
+    share = MOST_POINTS_OF_ALL // max(len(info.realised.get("actors", ())), 1)
+    most = MOST_POINTS if _airport_name(info) is None else MOST_POINTS_AT_AIRPORT
+    return max(min(share, most), FEWEST_POINTS)
+
+
+def _airport_name(info: RunInfo) -> str | None:
+    """Return the name of the airport where the scenario takes place, or None."""
+    scene = info.realised.get("scene", {})
+    return str(scene["airport"]) if scene.get("type") == "airport" else None
+
+
+def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
+    name = _airport_name(info)
+    if name is None:
+        return None
+    # Not at the top: reports of other runs do without the libraries behind it.
+    from airhilt.report.airport import ReportAirport
+
+    try:
+        return ReportAirport(name)
+    except AirhiltError as error:
+        notes.append(f"The airport cannot be drawn: {cut(str(error))}")
+        return None
+
+
+def _tracks(log: _Log, airport: ReportAirport | None) -> dict[str, Track]:
+    states = {actor: thinned.states() for actor, thinned in log.states.items()}
+    locate: Locate
+    if airport is None:
+        locate = Projection.around(itertools.chain.from_iterable(states.values())).locate
+    else:
+        locate = _around(airport)
+    return {
+        actor: Track.of(own, log.phases[actor].as_json(), locate) for actor, own in states.items()
+    }
+
+
+def _around(airport: ReportAirport) -> Locate:
+    def locate(state: State) -> tuple[float, float]:
+        east_m, north_m = airport.locate(state.latitude_rad, state.longitude_rad)
+        return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
+
+    return locate
+
+
+def _kind(actor: Json) -> Json:
+    """Return the type of an actor, and its size as far as the type is still known here."""
+    name = str(actor.get("aircraft") or actor.get("kind") or "")
+    try:
+        size = _dimensions(name, "aircraft" in actor) if name else None
+    except AirhiltError:
+        size = None
+    return {
+        "type": name,
+        "category": actor.get("type", "aircraft"),
+        "length_m": None if size is None else round(size.length_m, 1),
+        "span_m": None if size is None else round(size.span_m, 1),
+    }
+
+
+def _dimensions(name: str, is_aircraft: bool) -> Size:
+    if is_aircraft:
+        return load_aircraft_type(name).dimensions
+    return load_kind(name).dimensions
+
+
+# --- the pair -------------------------------------------------------------------------------
+
+
+def _pair(
+    info: RunInfo, summary: Summary | None, tracks: dict[str, Track]
+) -> tuple[list[str] | None, bool]:
+    """Return the pair whose separation is drawn, and True if the scenario names it."""
+    conflict = info.realised.get("conflict")
+    if conflict is not None:
+        return list(conflict["actors"]), True
+    if len(tracks) < 2:
+        return None, False
+    if len(tracks) == 2:
+        return list(tracks), False
+    if summary is None or summary.closest_approach is None:
+        return None, False
+    return _nearest_pair(summary.closest_approach, tracks), False
+
+
+def _nearest_pair(closest: ClosestApproach, tracks: dict[str, Track]) -> list[str]:
+    """Return the two actors whose distance at that time is the one in the summary."""
+    positions = np.array([track.position_m(closest.t_s * SECOND_NS) for track in tracks.values()])
+    apart = np.abs(positions[:, None, :] - positions[None, :, :])
+    horizontal_m, vertical_m = np.hypot(apart[..., 0], apart[..., 1]), apart[..., 2]
+    error_m = np.hypot(horizontal_m - closest.horizontal_m, vertical_m - closest.vertical_m)
+    np.fill_diagonal(error_m, np.inf)
+    first, second = np.unravel_index(np.argmin(error_m), error_m.shape)
+    actors = list(tracks)
+    return [actors[first], actors[second]]
+
+
+def _separations(tracks: dict[str, Track], pair: Iterable[str] | None) -> Json | None:
+    """Return the separation of a pair at the times at which both states are known."""
+    if pair is None or not all(actor in tracks for actor in pair):
+        return None
+    first, second = (tracks[actor].states for actor in pair)
+    others = {state.t_ns: state for state in second}
+    both = [(own, others[own.t_ns]) for own in first if own.t_ns in others]
+    return {
+        "t": [seconds(own.t_ns) for own, _ in both],
+        "horizontal_nm": [
+            round(relative(own, other).distance_m / NAUTICAL_MILE, 4) for own, other in both
+        ],
+        "vertical_ft": [
+            round(abs(own.altitude_m - other.altitude_m) / FOOT, 1) for own, other in both
+        ],
+    }

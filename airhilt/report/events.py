@@ -1,0 +1,172 @@
+"""The events of a run: what was said, advised, told and what happened, as rows of a timeline."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from airhilt.messages import FORMER_MODALITIES
+from airhilt.record import Logged, RunInfo
+from airhilt.report.text import cut, runway_name
+from airhilt.units import SECOND_NS
+
+Json = dict[str, Any]
+
+MOST_EVENTS = 1500
+"""Largest number of events in the page."""
+END = ("finished", "stopped")
+"""Kinds of the event that ends a run."""
+
+
+class Events:
+    """The events of a run.
+
+    Attributes
+    ----------
+    rows
+        What the page shows of each event, in the order of the log.
+    left_out
+        Number of events for which there was no room.
+    ended
+        True if the log has the end of the run.
+    """
+
+    def __init__(self) -> None:
+        self.rows: list[Json] = []
+        self.left_out = 0
+        self.ended = False
+
+    def take(self, logged: Logged) -> None:
+        """Add a message of the log, if it is an event."""
+        row = _row(logged)
+        if row is None:
+            return
+        is_end = row["kind"] in END
+        self.ended |= is_end
+        if len(self.rows) < MOST_EVENTS or is_end:
+            self.rows.append(row)
+        else:
+            self.left_out += 1
+
+    def as_json(self, info: RunInfo) -> list[Json]:
+        """Return the rows; a failure of a radio line has the words of the line with it."""
+        lines = {line["id"]: line for line in info.realised.get("radio", {}).get("lines", ())}
+        return [_with_line(row, lines) for row in self.rows]
+
+
+def _with_line(row: Json, lines: dict[str, Json]) -> Json:
+    line = lines.get(row["who"]) if row["kind"] == "failure" else None
+    if line is None:
+        return row
+    return row | {"speaker": line["speaker"], "line": cut(line["text"])}
+
+
+def _row(logged: Logged) -> Json | None:
+    """Return the row of a message, or None if it is no event."""
+    make = _maker(logged.key)
+    if make is None:
+        return None
+    row = make(json.loads(logged.data), logged)
+    short = {name: cut(value) if isinstance(value, str) else value for name, value in row.items()}
+    return {"t": logged.t_ns / SECOND_NS, **short}
+
+
+def _maker(key: str) -> Any:
+    """Return the function that makes a row of a message with this key, or None."""
+    family, _, rest = key.partition("/")
+    if family == "truth":
+        family = f"truth/{rest.partition('/')[0]}"
+    return MAKERS.get(family)
+
+
+def _advisory(message: Json, _: Logged) -> Json:
+    return {
+        "kind": "advisory",
+        "who": message["recipient"],
+        "text": message["message"],
+        "id": message["id"],
+        "revision": message["revision"],
+        "severity": message["severity"],
+        "active": message["active"],
+        "traffic": message["traffic"],
+        "recommendation": message["recommendation"],
+    }
+
+
+def _transcript(message: Json, logged: Logged) -> Json:
+    return {
+        "kind": "transcript",
+        "who": logged.publisher,
+        "text": message["text"],
+        "engine": message["engine"],
+        "confidence": message["confidence"],
+    }
+
+
+def _status(message: Json, _: Logged) -> Json:
+    modality = message["modality"]
+    return {
+        "kind": "status",
+        "who": FORMER_MODALITIES.get(modality, modality),
+        "state": message["state"],
+        "text": message["cause"],
+    }
+
+
+def _command(message: Json, logged: Logged) -> Json:
+    actor = logged.key.partition("/")[2]
+    return {"kind": "command", "who": actor, "text": _command_text(message["command"])}
+
+
+def _call(message: Json, _: Logged) -> Json:
+    return {
+        "kind": "radio",
+        "who": message["speaker"],
+        "to": message["addressed"],
+        "text": message["text"],
+        "frequency_khz": message["frequency_khz"],
+        "t_tx": message["t_tx_ns"] / SECOND_NS,
+    }
+
+
+def _conflict(message: Json, _: Logged) -> Json:
+    runway = message["runway"]
+    return {
+        "kind": "conflict",
+        "who": " - ".join(message["actors"]),
+        "text": "",
+        "phase": message["phase"],
+        "actors": message["actors"],
+        "horizontal_m": message["horizontal_m"],
+        "vertical_m": message["vertical_m"],
+        "runway": None if runway is None else runway_name(runway),
+    }
+
+
+def _event(message: Json, _: Logged) -> Json:
+    row = {"kind": message["kind"], "who": message["subject"], "text": message["text"]}
+    if row["kind"] == "command":
+        row["text"] = _command_text(json.loads(row["text"]))
+    return row
+
+
+def _command_text(command: Json) -> str:
+    """Return a command as JSON in which a route is the number of its points."""
+    points = {
+        name: len(value)
+        for name, value in command.items()
+        if name == "route" or (name == "via" and command["action"] == "land")
+    }
+    return json.dumps(command | points)
+
+
+MAKERS = {
+    "advisory": _advisory,
+    "asr": _transcript,
+    "status": _status,
+    "command": _command,
+    "truth/radio": _call,
+    "truth/conflict": _conflict,
+    "truth/event": _event,
+}
+"""The function that makes the row of a message, by the first part of the message's key."""

@@ -1,0 +1,144 @@
+"""Assembles the page of a run from its sections, with Jinja.
+
+Texts of a scenario or a worker may be hostile. They are only ever data: in a template Jinja escapes
+them, in the JSON of the page nothing can end the script element, and scripts show them as text.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from airhilt.errors import RunFolderError
+from airhilt.record import RunFolder
+from airhilt.report.data import read_run
+from airhilt.report.sections import Section, load_sections
+
+if TYPE_CHECKING:
+    from jinja2 import Environment, Template
+
+Json = dict[str, Any]
+
+SHARED = (
+    "document",
+    "words",
+    "run",
+    "tracks",
+    "events",
+    "charts",
+    "clock",
+    "symbols",
+    "timelines",
+    "tables",
+    "airport",
+    "page",
+)
+"""Scripts that all sections may use, in the order in which they build on each other."""
+END_OF_SCRIPT = re.compile(r"</(?=script)|<(?=!--)", re.IGNORECASE)
+"""Text that would end a script element, or begin a comment in it."""
+
+
+def write_report(run_folder: Path, out: Path | None = None) -> Path:
+    """Write the page of a run, by default as ``report.html`` in its folder.
+
+    Parameters
+    ----------
+    run_folder
+        Folder of a run that has finished, was stopped, was killed or is still going on.
+    out
+        File to write instead.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    RunFolderError
+        There is no run, its ``run.json`` is damaged, or the page cannot be written.
+    """
+    folder = RunFolder.open(run_folder)
+    html = render(folder, out or folder.report_path)
+    if out is None:
+        folder.write_report(html)
+        return folder.report_path
+    try:
+        out.write_text(html + "\n", encoding="utf-8")
+    except OSError as error:
+        raise RunFolderError(f"{out}: cannot be written: {error.strerror}") from None
+    return out
+
+
+def render(folder: RunFolder, page: Path) -> str:
+    """Return the page of a run as HTML; ``page`` is the file that it will be."""
+    sections, problems = load_sections()
+    contents = {
+        section: section.content(folder) for section in sections if section.content is not None
+    }
+    run = read_run(folder, page, contents)
+    own = {section.name: content.as_json(run) for section, content in contents.items()}
+    run.notes.extend(problems)
+    return _Assembly(sections, run.as_json() | {"sections": own}).page()
+
+
+class _Assembly:
+    """Puts the markup, scripts and data of the sections into one document."""
+
+    def __init__(self, sections: Sequence[Section], data: Json) -> None:
+        # Not at the top: a run is simulated without it.
+        from jinja2 import Environment, StrictUndefined
+
+        self._sections = sections
+        self._data = data
+        self._environment: Environment = Environment(
+            autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        )
+
+    def page(self) -> str:
+        """Return the document."""
+        return self._template(_own_file("page.html")).render(
+            style=_own_file("page.css"),
+            sections=[self._markup(one) for one in self._sections if not one.within],
+            data=embeddable(self._data),
+            scripts=self._scripts(),
+        )
+
+    def _markup(self, section: Section) -> str:
+        return self._template(section.template()).render(
+            run=self._data,
+            data=self._data["sections"].get(section.name),
+            parts=[self._markup(one) for one in self._sections if one.within == section.name],
+        )
+
+    def _scripts(self) -> list[str]:
+        """Return all scripts; a section has a scope of its own."""
+        shared = [_own_file(f"shared/{name}.js") for name in SHARED]
+        own = [
+            f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n"
+            for section in self._sections
+            if (script := section.script())
+        ]
+        return [_inline(script) for script in (*shared, *own, "page.begin();\n")]
+
+    def _template(self, source: str) -> Template:
+        return self._environment.from_string(source)
+
+
+def _own_file(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text("utf-8")
+
+
+def _inline(script: str) -> str:
+    """Return a script in which no text can end the element that it lies in."""
+    return END_OF_SCRIPT.sub(lambda found: found[0][0] + "\\" + found[0][1:], script)
+
+
+def embeddable(data: Json) -> str:
+    """Return data as JSON in which no text can end the script element that it lies in."""
+    text = json.dumps(data, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

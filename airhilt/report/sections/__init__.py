@@ -1,0 +1,117 @@
+"""The sections of a report: one Python module each, with its template and its script beside it.
+
+A section ``radar`` is the module ``radar.py`` with its `SECTION`, the Jinja template ``radar.html``
+and, if anything is to be drawn, the script ``radar.js``. A file in this package needs no
+registration. A section of another package is found by an entry point of the group
+``airhilt.report_sections`` that names the object, such as ``fuel = "my_package.fuel:SECTION"``.
+
+The template sees `run`, the data that all sections share, `data`, the section's own data, and
+`parts`, the markup of the sections within it. The script is the body of a function of `data`. It
+may use everything in ``report/shared/*.js``, and returns what is drawn::
+
+    return {
+      draw() { ... },                    // once
+      fit() { ... return (t) => ...; },  // again in a window of another width
+    };
+
+Both may return a function, which is then called with each time that is shown, in s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from airhilt.errors import AirhiltError
+from airhilt.plugins import Family
+from airhilt.record import Logged, RunFolder
+
+if TYPE_CHECKING:
+    from airhilt.report.data import RunData
+
+Json = dict[str, Any]
+
+
+class Content:
+    """The data of a section, gathered from one run folder and its log.
+
+    Parameters
+    ----------
+    folder
+        The run folder.
+    """
+
+    def __init__(self, folder: RunFolder) -> None:
+        self.folder = folder
+
+    def take(self, logged: Logged) -> None:
+        """Receive the next message with one of the section's keys."""
+
+    def as_json(self, run: RunData) -> Any:
+        """Return the section's data, once the log has been read."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Section:
+    """One section of the page.
+
+    Attributes
+    ----------
+    name
+        Name of its module or entry point; its data is found by it.
+    order
+        Place among the sections of the page, or of the section that it stands in: a higher number
+        comes later.
+    module
+        ``__file__`` of its module: the template and the script have the same name with ``.html``
+        and ``.js``.
+    content
+        Called with the run folder to make the receiver of messages; None if the section has no
+        data of its own.
+    keys
+        Beginnings of the keys of the messages that the content receives.
+    within
+        Name of the section that it stands in.
+    """
+
+    name: str
+    order: int
+    module: str
+    content: Callable[[RunFolder], Content] | None = None
+    keys: tuple[str, ...] = ()
+    within: str = ""
+
+    def template(self) -> str:
+        """Return the Jinja template."""
+        return self._beside(".html").read_text("utf-8")
+
+    def script(self) -> str:
+        """Return the script, empty if there is none."""
+        path = self._beside(".js")
+        return path.read_text("utf-8") if path.is_file() else ""
+
+    def _beside(self, suffix: str) -> Path:
+        return Path(self.module).with_suffix(suffix)
+
+
+FAMILY = Family(
+    "report section", "airhilt.report_sections", __name__, "SECTION", Section, AirhiltError
+)
+
+
+def load_sections() -> tuple[list[Section], list[str]]:
+    """Return all sections in their order, and a sentence on each that cannot be shown."""
+    sections: list[Section] = []
+    problems: list[str] = []
+    for name in FAMILY.names():
+        try:
+            section: Section = FAMILY.load(name)
+            section.template()
+        except (AirhiltError, OSError) as error:
+            problems.append(f"The section {name!r} cannot be shown: {error}")
+        else:
+            sections.append(section)
+    return sorted(sections, key=lambda section: (section.order, section.name)), problems

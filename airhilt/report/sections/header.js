@@ -1,0 +1,49 @@
+/** The outcome of the run: its tone, a word and a sentence. */
+function outcome() {
+  const until = run.phase === "finished" ? "" : ` Up to ${seconds(run.end_s)}, where the run ${run.phase === "stopped" ? "was stopped" : "breaks off"}.`;
+  const is = (name, phase) => (summary ? summary[name] : happened(phase));
+  const say = (tone, word, text) => ({ tone, word, text: text + until });
+  const collided = conflictPhases.find((event) => event.phase === "collision");
+  if (is("collision", "collision")) return say("bad", "Collision", `${collided ? list(collided.actors) : "Two actors"} touched.`);
+  if (is("nmac", "nmac")) return say("bad", "Near mid-air collision", "Two aircraft came closer than 500 ft horizontally and 100 ft vertically.");
+  if (SEVERE.includes(worst)) return say("bad", `Runway incursion, ${CATEGORIES[worst][0]}`, `${capital(CATEGORIES[worst][1])}.`);
+  if (is("loss_of_separation", "loss_of_separation")) return say("bad", "Separation lost", `Less than ${minimumNm} NM and ${feet(minimumFt)} apart at once, tolerance deducted.`);
+  if (incursions.length && !worst) return say("warn", "Runway incursion", "How severe it was is not known.");
+  if (incursions.length && !happened("opened")) return say("warn", `Runway incursion, ${CATEGORIES[worst][0]}`, `${capital(CATEGORIES[worst][1])}.`);
+  if (!run.has_conflict) return say("good", "Nominal", closeUp ? "The scenario has no conflict, and there was no runway incursion." : "The scenario has no conflict, and separation was kept.");
+  if (!happened("opened")) return say("dim", "No conflict", "The conflict window never opened.");
+  if (run.phase !== "finished") return say("warn", "Separation kept so far", "The conflict window opened.");
+  if (incursions.length) return say("good", "Avoided", `The conflict window opened. The runway incursion stayed at ${CATEGORIES[worst][0]}: ${CATEGORIES[worst][1]}.`);
+  return say("good", "Avoided", closeUp ? "The conflict window opened, and nobody got in the other’s way on a runway." : "The conflict window opened, and separation was kept.");
+}
+function drawHeader() {
+  const { scenario, options } = run, result = outcome();
+  const title = scenario.title || scenario.name || run.run;
+  document.title = `${scenario.name || run.run}, seed ${options.seed}: AIRHILT`;
+  byId("title").textContent = title;
+  byId("description").textContent = scenario.description;
+  const facts = [["Scenario", scenario.name], ["Family", scenario.family], ...(airport ? [["Airport", airport.icao]] : []), ["Seed", options.seed], ["Assistant", options.assistant], ["Latency", options.latency], ["Simulated", seconds(run.end_s)]];
+  byId("facts").append(...facts.map(([name, value]) => html("li", {}, `${name} `, html("b", {}, String(value)))));
+  fill(byId("outcome"), { class: `outcome ${result.tone}` }, [html("b", {}, result.word), html("span", {}, result.text)]);
+  byId("notes").append(
+    ...losses.map((event) => html("p", { class: "note loud", role: "alert" }, `${event.who} was lost at ${seconds(event.t)}${event.text ? `: ${event.text}` : ""}`)),
+    ...notEvaluated.map((event) => html("p", { class: "note" }, `${event.who} is not evaluated${event.text ? `: ${event.text}` : ""}`)),
+    ...run.notes.map((note) => html("p", { class: "note" }, note)));
+  for (const [name, value] of about()) byId("about").append(html("dt", {}, name), html("dd", {}, value));
+}
+
+/** What it takes to run it again, as names and values. */
+function about() {
+  const { options } = run, measured = options.latency === "measured";
+  let reproducible = "yes: scenario, seed and latency source give the same bytes again";
+  if (run.unregistered) reproducible = "by `airhilt replay` only: a program took part that takes no time grants";
+  else if (measured) reproducible = "by `airhilt replay` only: latencies were measured on this machine";
+  const workers = data.workers.map((worker) => `${worker.name} (${worker.modality}, ${worker.where})`).join("; ");
+  return [
+    ["run", run.run], ["phase", run.cause ? `${run.phase}: ${run.cause}` : run.phase], ["latency source", options.latency],
+    ["reproducible", reproducible], ["pace", options.pace], ["workers", workers || "none"],
+    ...(summary ? [["real-time factor", `${fixed(summary.real_time_factor, 1)}, ${seconds(summary.cpu_s, 2)} of CPU`]] : []), ...data.about,
+  ];
+}
+
+return { draw: drawHeader };

@@ -1,0 +1,58 @@
+"use strict";
+// The time shown, which is one for all charts, and what is read off under the pointer.
+
+const tip = html("div", { class: "tip", hidden: "" });
+document.body.append(tip);
+function showTip(event, lines) {
+  tip.replaceChildren(...lines.map((line) => html("div", {}, line)));
+  tip.hidden = false;
+  const box = tip.getBoundingClientRect();
+  const left = event.clientX + 16 + box.width > innerWidth ? event.clientX - 16 - box.width : event.clientX + 16;
+  tip.style.left = `${Math.max(4, left)}px`;
+  tip.style.top = `${Math.min(Math.max(4, event.clientY + 14), innerHeight - box.height - 4)}px`;
+}
+const hideTip = () => { tip.hidden = true; };
+function pointer(root, width, event) {
+  const box = root.getBoundingClientRect(), factor = width / box.width;
+  return { x: (event.clientX - box.left) * factor, y: (event.clientY - box.top) * factor };
+}
+
+/** Makes a chart over time show values under the pointer, and a click set the time. */
+function followPointer(chart, area, x, read) {
+  const { root, width } = chart;
+  root.classList.add("timed");
+  const line = svg("line", { class: "hover", y1: area.top, y2: area.bottom, visibility: "hidden" });
+  root.append(line);
+  const timeAt = (event) => Math.min(Math.max(x.invert(pointer(root, width, event).x), 0), endS);
+  root.addEventListener("pointermove", (event) => {
+    const t = timeAt(event);
+    fill(line, { x1: x(t), x2: x(t), visibility: "visible" }, []);
+    showTip(event, [`t = ${seconds(t)}`, ...read(t)]);
+    if (event.buttons & 1) clock.set(t);
+  });
+  root.addEventListener("pointerdown", (event) => clock.set(timeAt(event)));
+  root.addEventListener("pointerleave", () => { line.setAttribute("visibility", "hidden"); hideTip(); });
+}
+
+/** Returns events near a time in words. */
+function eventsNear(events, t, within) {
+  return events.filter((event) => Math.abs(event.t - t) <= within).slice(0, 4)
+    .map((event) => event.kind === "advisory" ? `${event.severity} to ${event.who}: ${event.text}` : `${event.who} ${event.text}`);
+}
+
+/** Draws the line of the time shown. */
+function cursor(root, area) {
+  const line = svg("line", { class: "cursor", y1: area.top, y2: area.bottom });
+  root.append(line);
+  return line;
+}
+
+/** The time shown. */
+const clock = {
+  t: 0,
+  listeners: [],
+  set(t) {
+    this.t = Math.min(Math.max(t, 0), endS);
+    this.listeners.forEach((listener) => listener(this.t));
+  },
+};

@@ -1,0 +1,20 @@
+"use strict";
+
+// The data of the page, and its elements. Text is only ever set as text.
+
+const run = JSON.parse(document.getElementById("run").textContent);
+const summary = run.summary;
+const METRE_PER_NM = 1852, METRE_PER_FT = 0.3048;
+
+const byId = (id) => document.getElementById(id);
+const SVG = byId("namespace").namespaceURI;
+
+function fill(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== undefined) node.setAttribute(name, value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+const html = (tag, attributes = {}, ...children) => fill(document.createElement(tag), attributes, children);
+const svg = (tag, attributes = {}, ...children) => fill(document.createElementNS(SVG, tag), attributes, children);

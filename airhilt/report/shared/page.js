@@ -1,0 +1,41 @@
+"use strict";
+
+/** The sections of the page: what each draws, and what it shows at a time. */
+const page = {
+  drawn: [],
+
+  /** Adds a section: a function of the section's data that returns `draw`, `fit`, both or nothing. */
+  section(name, make) {
+    const data = run.sections[name];
+    const parts = this.attempt(name, () => make(data === undefined ? null : data)) || {};
+    this.drawn.push({ name, ...parts });
+  },
+
+  /** Calls a function; where it fails, the page says of which section, and goes on with the others. */
+  attempt(name, call) {
+    try {
+      return call();
+    } catch (error) {
+      console.error(`section ${name}:`, error);
+      byId("notes").append(html("p", { class: "note" }, `The section ${name} cannot be drawn: ${error.message}`));
+      return null;
+    }
+  },
+
+  /** Draws all sections, and those that fit themselves to the window again whenever its width changes. */
+  begin() {
+    const call = (method) => this.drawn.filter((section) => section[method])
+      .map((section) => this.attempt(section.name, () => section[method]())).filter(Boolean);
+    const steady = call("draw");
+    let width = 0;
+    const redraw = () => {
+      if (document.documentElement.clientWidth === width) return;
+      width = document.documentElement.clientWidth;
+      clock.listeners = [...steady, ...call("fit")];
+      clock.set(clock.t);
+    };
+    clock.t = [summary && summary.t_first_warning_s, timeOf("opened"), 0].find(known);
+    redraw();
+    new ResizeObserver(redraw).observe(document.documentElement);
+  },
+};

@@ -1,0 +1,90 @@
+"use strict";
+// Where each actor was, and how far apart the pair was.
+
+/** Index of the last of some rising values that is at most the given one, or 0. */
+function before(values, value) {
+  let low = 0, high = values.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (values[middle] <= value) low = middle; else high = middle;
+  }
+  return low;
+}
+
+/** Value of a series at a time, linearly between its points; beyond its ends, the end. */
+function at(times, values, t) {
+  const i = before(times, t);
+  if (i + 1 >= times.length || t <= times[i]) return values[i];
+  const share = (t - times[i]) / (times[i + 1] - times[i]);
+  return values[i] + share * (values[i + 1] - values[i]);
+}
+
+/** Time before and after an instant over which its speed is a mean, in s. */
+const SMOOTHED_S = airport ? 1 : 4;
+
+/** The state of an actor at a time. */
+function stateAt(track, t) {
+  const last = track.t[track.t.length - 1];
+  const t1 = Math.min(Math.max(t, track.t[0]), last);
+  const here = (name, time) => at(track.t, track[name], time);
+  const from = Math.max(t1 - SMOOTHED_S, track.t[0]), to = Math.min(t1 + SMOOTHED_S, last), span = Math.max(to - from, 1e-9);
+  const east = here("east_nm", to) - here("east_nm", from), north = here("north_nm", to) - here("north_nm", from);
+  return {
+    east: here("east_nm", t1), north: here("north_nm", t1), altitude: here("altitude_ft", t1),
+    speed: Math.hypot(east, north) / span * 3600, heading: track.heading_deg ? headingAt(track, t1) : Math.atan2(east, north),
+    onGround: track.on_ground.some(([down, up]) => down <= t1 && t1 <= up), phase: phaseAt(track, t1),
+    rate: (here("altitude_ft", to) - here("altitude_ft", from)) / span * 60, ended: t > last + 1 && last < endS - 1,
+  };
+}
+
+/** Heading in radians; between two states it turns the shorter way. */
+function headingAt(track, t) {
+  const i = before(track.t, t), next = Math.min(i + 1, track.t.length - 1), from = track.heading_deg[i];
+  const turn = (track.heading_deg[next] - from + 540) % 360 - 180, span = track.t[next] - track.t[i];
+  return (from + (span > 0 ? turn * (t - track.t[i]) / span : 0)) * Math.PI / 180;
+}
+
+function phaseAt(track, t) {
+  const phase = track.phases.findLast((candidate) => candidate.from <= t);
+  return phase ? words(phase.what) : "";
+}
+
+const isPair = (track) => pair.includes(track.callsign);
+const tracks = [...run.tracks].sort((a, b) => isPair(b) - isPair(a));
+const few = tracks.length <= MOST_COLOURED;
+tracks.forEach((track, index) => {
+  track.colour = few || isPair(track) ? `var(--c${index % MOST_COLOURED})` : "var(--other)";
+  track.prominent = few || isPair(track);
+});
+
+/** True if no separation minimum is set for the pair: on a runway, or with wildlife. */
+const closeUp = (() => {
+  const both = tracks.filter(isPair), opened = timeOf("opened");
+  if (both.length < 2) return Boolean(airport);
+  if (both.some((track) => track.category !== "aircraft") || known(timeOf("runway_incursion"))) return true;
+  const t = known(opened) ? opened : closest ? closest.t_s : 0;
+  return Boolean(airport) && both.some((track) => stateAt(track, t).onGround);
+})();
+const distance = (value) => (closeUp ? metres(value) : miles(value / METRE_PER_NM));
+const apartText = (apart) => [distance(apart.nm * METRE_PER_NM), feet(apart.ft)];
+function lowAndHigh(values) {
+  return values.reduce(({ low, high }, value) => ({ low: Math.min(low, value), high: Math.max(high, value) }), { low: Infinity, high: -Infinity });
+}
+
+/** Separation of the pair. Its true closest approach, which lies between two points, is inserted. */
+const separations = (() => {
+  const series = run.separations;
+  if (!series || !series.t.length) return null;
+  if (!closest || series.t.includes(closest.t_s)) return series;
+  const i = series.t.findIndex((t) => t > closest.t_s), k = i < 0 ? series.t.length : i;
+  const inserted = (values, value) => [...values.slice(0, k), value, ...values.slice(k)];
+  return {
+    t: inserted(series.t, closest.t_s), horizontal_nm: inserted(series.horizontal_nm, closest.horizontal_m / METRE_PER_NM),
+    vertical_ft: inserted(series.vertical_ft, closest.vertical_m / METRE_PER_FT),
+  };
+})();
+/** Separation of the pair at a time, or null once it has ended. */
+const apartAt = (t) => separations && t <= separations.t[separations.t.length - 1] + 1
+  ? { nm: at(separations.t, separations.horizontal_nm, t), ft: at(separations.t, separations.vertical_ft, t) } : null;
+
+const colourOf = (callsign) => (tracks.find((track) => track.callsign === callsign) || { colour: "var(--other)" }).colour;

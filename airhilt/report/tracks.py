@@ -1,0 +1,194 @@
+"""The tracks of actors: read from a log, thinned out, and placed on a plane."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from airhilt.geodesy.wgs84 import offset_m
+from airhilt.report.intervals import Intervals, seconds
+from airhilt.report.text import cut
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+
+Json = dict[str, Any]
+
+PHASE = re.compile(rb'"phase":\s*("(?:[^"\\]|\\.)*")')
+"""The phase in the bytes of a state: parsing each state only to see no change takes too long."""
+
+
+class State(NamedTuple):
+    """The true state of an actor, with the fields that `relative` needs."""
+
+    t_ns: int
+    latitude_rad: float
+    longitude_rad: float
+    altitude_m: float
+    velocity_north_m_s: float
+    velocity_east_m_s: float
+    heading_deg: float
+    on_ground: bool
+
+
+def parse_state(data: bytes) -> State:
+    """Return the state in an `ActorTruth` as it was logged."""
+    truth = json.loads(data)
+    return State(
+        truth["t_ns"],
+        truth["latitude_deg"] * DEGREE,
+        truth["longitude_deg"] * DEGREE,
+        truth["altitude_m"],
+        truth["velocity_north_m_s"],
+        truth["velocity_east_m_s"],
+        truth["heading_deg"],
+        truth["on_ground"],
+    )
+
+
+class ThinnedStates:
+    """Keeps a limited number of an actor's states, evenly spaced in time, and the last one.
+
+    Messages are kept as bytes: most are thrown away again, and parsing is what takes time.
+    """
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._stride = 1
+        self._seen = 0
+        self._kept: list[bytes] = []
+        self._last = b""
+
+    def add(self, data: bytes) -> None:
+        """Add the next state, as it was logged."""
+        if self._seen % self._stride == 0:
+            if len(self._kept) == self._most:
+                self._kept = self._kept[::2]
+                self._stride *= 2
+            if self._seen % self._stride == 0:
+                self._kept.append(data)
+        self._seen += 1
+        self._last = data
+
+    def states(self) -> list[State]:
+        """Return the states that were kept."""
+        last_is_kept = self._kept[-1] is self._last
+        kept = self._kept if last_is_kept else [*self._kept, self._last]
+        return [parse_state(data) for data in kept]
+
+
+class Phases:
+    """Finds the phases of one actor, such as ``taxi``, in its states."""
+
+    def __init__(self) -> None:
+        self._intervals: Intervals[str] = Intervals()
+        self._phase = b""
+        self._last_ns = 0
+
+    def add(self, t_ns: int, data: bytes) -> None:
+        """Add the next state, as it was logged."""
+        self._last_ns = t_ns
+        found = PHASE.search(data)
+        if found is not None and found[1] != self._phase:
+            self._phase = found[1]
+            self._intervals.update(t_ns, [json.loads(self._phase)])
+
+    def as_json(self) -> list[Json]:
+        """Return the phases; the last one ends with the last state."""
+        return [
+            {"what": cut(phase.what), **phase.times_as_json()}
+            for phase in self._intervals.until(self._last_ns)
+        ]
+
+
+Locate = Callable[[State], tuple[float, float]]
+"""Returns the distance of a state east and north of the plan's centre, in NM."""
+
+
+class Projection(NamedTuple):
+    """A plane that touches the ellipsoid in the middle of the traffic."""
+
+    latitude_rad: float
+    longitude_rad: float
+
+    @classmethod
+    def around(cls, states: Iterable[State]) -> Projection:
+        """Return the projection whose centre is the middle of all states."""
+        known = list(states)
+        if not known:
+            return cls(0.0, 0.0)
+        latitudes = [state.latitude_rad for state in known]
+        begin = known[0].longitude_rad
+        turns = [_wrapped(state.longitude_rad - begin) for state in known]
+        return cls(
+            (min(latitudes) + max(latitudes)) / 2.0,
+            begin + (min(turns) + max(turns)) / 2.0,
+        )
+
+    def locate(self, state: State) -> tuple[float, float]:
+        """Return the distance of a state east and north of the centre at its height, in NM."""
+        north_m, east_m = offset_m(
+            (self.latitude_rad, self.longitude_rad),
+            (state.latitude_rad, state.longitude_rad),
+            state.altitude_m,
+        )
+        return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
+
+
+def _wrapped(angle_rad: float) -> float:
+    return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
+
+
+class Track(NamedTuple):
+    """The states of an actor, where they lie on the plan, and the actor's phases."""
+
+    states: list[State]
+    east_nm: list[float]
+    north_nm: list[float]
+    phases: list[Json]
+
+    @classmethod
+    def of(cls, states: list[State], phases: list[Json], locate: Locate) -> Track:
+        """Return the track through some states."""
+        positions = [locate(state) for state in states]
+        east_nm, north_nm = [east for east, _ in positions], [north for _, north in positions]
+        return cls(states, east_nm, north_nm, phases)
+
+    def position_m(self, t_ns: float) -> tuple[float, float, float]:
+        """Return the distance east, north and up at a time, linearly between two states, in m."""
+        times = [state.t_ns for state in self.states]
+        heights_m = [state.altitude_m for state in self.states]
+        return (
+            float(np.interp(t_ns, times, self.east_nm)) * NAUTICAL_MILE,
+            float(np.interp(t_ns, times, self.north_nm)) * NAUTICAL_MILE,
+            float(np.interp(t_ns, times, heights_m)),
+        )
+
+    def as_json(self, callsign: str, at_airport: bool) -> Json:
+        """Return what is drawn; at an airport to metres, and with headings."""
+        digits = 5 if at_airport else 3
+        track: Json = {
+            "callsign": callsign,
+            "t": [seconds(state.t_ns) for state in self.states],
+            "east_nm": [round(east, digits) for east in self.east_nm],
+            "north_nm": [round(north, digits) for north in self.north_nm],
+            "altitude_ft": [round(state.altitude_m / FOOT) for state in self.states],
+            "on_ground": self._on_ground_s(),
+            "phases": self.phases,
+        }
+        if at_airport:
+            track["heading_deg"] = [round(state.heading_deg) for state in self.states]
+        return track
+
+    def _on_ground_s(self) -> list[tuple[float, float]]:
+        """Return the times between which the actor was on the ground, in s."""
+        intervals: Intervals[bool] = Intervals()
+        for state in self.states:
+            intervals.update(state.t_ns, [True] if state.on_ground else [])
+        return [
+            (seconds(interval.from_ns), seconds(interval.to_ns))
+            for interval in intervals.until(self.states[-1].t_ns)
+        ]
