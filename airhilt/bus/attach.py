@@ -6,6 +6,7 @@ import queue
 import re
 import time
 from collections.abc import Callable, Sequence
+from typing import Literal, get_args
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
@@ -14,6 +15,8 @@ from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
 
 RESERVED = (RUN, UNREGISTERED)
 """Publishers in the log that are no workers."""
+ReferenceKind = Literal["asr", "tts", "vision", "decision"]
+"""Kinds of worker that ``airhilt worker`` serves; each has its kind for a name."""
 
 
 def attach(
@@ -62,8 +65,18 @@ def attach(
         except queue.Empty:
             raise BusError(
                 f"{', '.join(sorted(missing))} did not attach at {bus.endpoint} within "
-                f"{timeout_s:g} s; start it with: airhilt worker decision --connect {bus.endpoint}"
-                ", or wait longer with --attach-timeout"
+                f"{timeout_s:g} s; {_how_to_start(sorted(missing)[0], bus.endpoint)}, or wait "
+                "longer with --attach-timeout"
             ) from None
     workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
     return [(worker, worker.describe()) for worker in workers]
+
+
+def _how_to_start(name: str, endpoint: str) -> str:
+    """Return how a worker of that name is started: one of AIRHILT's, or a program of the user."""
+    if name in get_args(ReferenceKind):
+        return f"start it with: airhilt worker {name} --connect {endpoint}"
+    return (
+        f"start your program so that it connects to {endpoint} and declares the liveliness token "
+        f"worker/{name} (docs/workers.md)"
+    )

@@ -1,4 +1,4 @@
-"""Workers in other processes, as the run calls them."""
+"""Workers in other processes, which the run calls by grants over the bus."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
 MAXIMUM_REPLY_BYTES = 64_000_000
+"""Greatest size of a reply to a grant, in bytes."""
 
 
 class RemoteWorker:
@@ -33,7 +34,7 @@ class RemoteWorker:
         self._timeout_s = timeout_s
 
     def describe(self, timeout_s: float = 10.0) -> WorkerDescription | None:
-        """Return what the worker says of itself, None if it does not answer such questions.
+        """Return the worker's description of itself, None if it takes no grants.
 
         Raises
         ------
@@ -139,7 +140,7 @@ class RemoteWorker:
 
 @dataclass(frozen=True, slots=True)
 class RemoteStep:
-    """A grant that is out."""
+    """A grant whose reply has not come yet."""
 
     worker: RemoteWorker
     seq: int

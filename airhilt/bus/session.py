@@ -15,6 +15,7 @@ from airhilt.errors import BusError
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
+"""Time between two attempts to connect, in s."""
 
 
 def free_endpoint() -> str:
@@ -70,20 +71,20 @@ def connect_client(endpoint: str, patience_s: float) -> zenoh.Session:
             if time.monotonic() > deadline:
                 raise BusError(
                     f"nothing listens on {endpoint} after {patience_s:g} s; start the run first: "
-                    f"airhilt cosim --scenario NAME --listen {endpoint}"
+                    f"airhilt cosim --scenario NAME --endpoint {endpoint}"
                 ) from None
             time.sleep(RETRY_S)
 
 
 class Bus:
-    """Publishes under ``airhilt/<run>/`` and hears what other processes publish there.
+    """The session of a run: publishes under ``airhilt/<run>/`` and hears what others publish there.
 
     Parameters
     ----------
     run
         Name of the run, one key chunk.
     endpoint
-        Where to listen; None takes a free loopback port.
+        Where to accept connections; None takes a free loopback port.
 
     Raises
     ------
@@ -100,7 +101,7 @@ class Bus:
         except zenoh.ZError as error:
             raise BusError(
                 f"cannot listen on {self.endpoint}: {_reason(error)}; is the port in use? "
-                "choose another with --listen, or leave it out for a free one"
+                "choose another with --endpoint, or leave it out for a free one"
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._latest: dict[str, bytes] = {}
@@ -117,7 +118,7 @@ class Bus:
         publisher.put(payload, attachment=attachment)
 
     def keep(self, key: str, payload: bytes) -> None:
-        """Publish, and answer later queries on the key with what was kept last."""
+        """Publish, and answer later queries on the key with the payload kept last."""
         if key not in self._latest:
             self._kept.append(self.session.declare_queryable(f"{self.prefix}/{key}", self._reply))
         self._latest[key] = payload
@@ -133,7 +134,7 @@ class Bus:
     def hear(self, pattern: str, heard: Callable[[str, bytes], None]) -> None:
         """Call ``heard`` with key (relative to the run) and payload of what others publish.
 
-        It is called on a thread of Zenoh's.
+        ``heard`` runs on a thread of Zenoh.
         """
 
         def receive(sample: zenoh.Sample) -> None:
@@ -158,7 +159,7 @@ class Bus:
         )
 
     def close(self) -> None:
-        """Close the session; workers notice."""
+        """Close the session; the liveliness token of the run goes with it, so workers notice."""
         self.session.close()  # type: ignore[no-untyped-call]
 
 

@@ -14,7 +14,7 @@ Action = Callable[[], None]
 
 
 class Priority(IntEnum):
-    """Order of events of one instant: the world moves, then it is sensed, then thought about."""
+    """Order of events of one instant: the world moves, sensors measure, workers answer."""
 
     PHYSICS = 0
     SCRIPT = 1

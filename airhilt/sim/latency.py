@@ -1,4 +1,4 @@
-"""Where the latency of a worker's step comes from."""
+"""Latency sources: what decides how long a step of a worker takes in simulation time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from airhilt.sim.streams import stream
 from airhilt.units import seconds_to_ns
 
 NEVER_NS = seconds_to_ns(1e9)
-"""Longer than any run."""
+"""Latency of a step that never ends, in ns: longer than any run."""
 
 
 class LatencySource(Protocol):
@@ -36,7 +36,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Fixed:
-    """Always the same."""
+    """The same latency for every step."""
 
     latency_ns: int
 
@@ -46,7 +46,7 @@ class Fixed:
 
 
 class Lognormal:
-    """Drawn afresh for each step; the same for the same seed, worker and step number."""
+    """A latency drawn for each step; equal for equal seed, worker and step number."""
 
     def __init__(self, worker: str, seed: int, median_s: float, sigma: float) -> None:
         self._worker = worker
@@ -61,12 +61,12 @@ class Lognormal:
 
 
 class Replay:
-    """What an earlier run had.
+    """The latencies of an earlier run.
 
     Parameters
     ----------
     breaks_off
-        The earlier run was broken off: steps that it did not come to never end.
+        Whether the earlier run broke off: steps that it did not reach never end.
 
     Raises
     ------
@@ -95,7 +95,7 @@ class Replay:
 
 @dataclass(frozen=True)
 class LatencySpec:
-    """What ``--latency`` said; `source` makes the source of one worker from it."""
+    """The latency source of a run; `source` makes that of one worker."""
 
     kind: Literal["measured", "fixed", "lognormal", "replay"]
     fixed_s: float | None = None
@@ -105,7 +105,7 @@ class LatencySpec:
 
     @property
     def text(self) -> str:
-        """As it would be typed."""
+        """Spelling on the command line."""
         if self.fixed_s is not None:
             return f"fixed:{self.fixed_s:g}"
         return f"replay:{self.replay_of}" if self.kind == "replay" else self.kind

@@ -1,4 +1,4 @@
-"""How fast simulation time may pass."""
+"""Paces: how fast simulation time passes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class Pace(Protocol):
 
     @property
     def name(self) -> str:
-        """As given on the command line."""
+        """Spelling on the command line."""
         ...
 
     def start(self, t_ns: int) -> None:
@@ -26,12 +26,12 @@ class Pace(Protocol):
         ...
 
     def elapsed_ns(self, now_ns: int) -> int:
-        """Return what simulation time it is, ``now_ns`` being that of the last event."""
+        """Return the simulation time now; ``now_ns`` is that of the last event."""
         ...
 
 
 class Virtual:
-    """As fast as the machine allows."""
+    """Simulation time passes as fast as the machine allows."""
 
     name = "virtual"
 
@@ -48,7 +48,7 @@ class Virtual:
 
 
 class RealTime:
-    """By the wall clock, ``factor`` times as fast."""
+    """Simulation time passes ``factor`` times as fast as the wall clock."""
 
     def __init__(self, factor: float = 1.0) -> None:
         self.factor = factor

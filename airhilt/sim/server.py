@@ -15,7 +15,7 @@ from airhilt.units import seconds_to_ns
 
 @dataclass(frozen=True, slots=True)
 class StepRecord:
-    """One step, for the latency log; one that the run's end cut off has not finished."""
+    """One step for the latency log; ``finished`` is false if the run ended before the step."""
 
     worker: str
     seq: int
@@ -25,7 +25,7 @@ class StepRecord:
     compute_s: float
     outputs: int
     wake_ns: int | None = None
-    """When it asked to be called again."""
+    """Time at which the worker asked to be called again; None if it did not."""
     finished: bool = True
 
 

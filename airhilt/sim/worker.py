@@ -1,4 +1,4 @@
-"""What the loop knows of a worker: inputs, outputs, and how it is called."""
+"""A worker as the event loop knows it: inputs, outputs, and how it is called."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Output:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What a step gave, and the wall time that it took."""
+    """The outputs of a step, and the wall time that it took."""
 
     outputs: tuple[Output, ...]
     compute_s: float
