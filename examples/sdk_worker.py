@@ -42,7 +42,8 @@ class SimpleWorker:
     def advisory(self, pair: str, a: AdsbReport, b: AdsbReport, t_ns: int) -> Output:
         traffic = (a.callsign or a.icao24, b.callsign or b.icao24)
         advisory = Advisory(
-            id=pair, revision=0, recipient="ATC", recipients=("ATC",), kind="loss_of_separation",
+            id=f"simple-{pair}", revision=0, recipient="ATC", recipients=("ATC",),
+            kind="loss_of_separation",
             severity=Severity.CAUTION, traffic=traffic, message="traffic at the same level",
             evidence=Evidence(sources=("adsb",)), t_ready_ns=t_ns,
         )  # fmt: skip

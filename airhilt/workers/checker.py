@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
 from typing import Any
 
 from airhilt.errors import WorkerError
-from airhilt.library import nearest
-from airhilt.messages import Modality, WorkerDescription
+from airhilt.messages import BUS_MESSAGES, Advisory, Modality, WorkerDescription
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import is_match, parse_output
 from airhilt.workers.protocol import Step, Worker
 from airhilt.workers.samples import sample_inputs
 
-PUBLISHED = (
-    "adsb/*", "advisory/*", "asr/*", "briefing", "camera/*/frame", "camera/*/info", "clock",
-    "cockpit/*", "command/*", "radar/*", "radar/*/info", "radio/*/audio", "radio/*/tx", "status/*",
-    "tts/*", "vision/*",
-)  # fmt: skip
-"""Keys on which something is published that a worker may want."""
+PUBLISHED = sorted(
+    {
+        re.sub(r"{\w+}", "*", key.split(" ")[0])
+        for key in BUS_MESSAGES
+        if not key.startswith("truth/")
+    }
+)
+"""Keys on which AIRHILT publishes something that a worker may want."""
 OUTPUTS: dict[Modality, str] = {
     "asr": "asr",
     "tts": "tts",
@@ -91,10 +94,16 @@ def _wrong_input(name: str, key: str) -> Iterator[str]:
             f"worker {name!r} asks for {key!r}; truth never reaches a worker, so the first part of "
             "a key must be named: adsb/*"
         )
-    elif not any(is_match(key, known) or is_match(known, key) for known in PUBLISHED):
+        return
+    if any(is_match(key, known) or is_match(known, key) for known in PUBLISHED):
+        return
+    # A sensor of another package may publish on any other key.
+    alike = get_close_matches(first, {known.split("/")[0] for known in PUBLISHED}, cutoff=0.7)
+    meant = [known for known in PUBLISHED if known.split("/")[0] in alike]
+    if meant:
         yield (
-            f"worker {name!r} asks for {key!r}, where nothing is published"
-            f"{nearest(key, list(PUBLISHED))}"
+            f"worker {name!r} asks for {key!r}, where nothing is published; expected "
+            f"{' or '.join(meant)}"
         )
 
 
@@ -175,6 +184,11 @@ def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> 
         yield (
             f"worker {name!r} of modality {description.modality} published on {output.key!r}; "
             f"expected {expected}/..., or another modality in its description"
+        )
+    if isinstance(message, Advisory) and not message.id.startswith(name):
+        yield (
+            f"worker {name!r} published an advisory with the id {message.id!r}; expected one that "
+            "begins with its name, so that no two workers share one"
         )
     if message.t_ns:
         yield (

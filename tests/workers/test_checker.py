@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import runpy
 import threading
 from collections.abc import Sequence
 
@@ -11,10 +12,19 @@ from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker
 from airhilt.assistant.vision.worker import VisionWorker
 from airhilt.errors import WorkerError
-from airhilt.messages import InputSpec, Modality, Transcript, WorkerDescription
+from airhilt.messages import (
+    Advisory,
+    Evidence,
+    InputSpec,
+    Modality,
+    Severity,
+    Transcript,
+    WorkerDescription,
+)
 from airhilt.workers import Input, Output, Step, check_worker
 from airhilt.workers.samples import sample_inputs
 from decisions import reference
+from paths import EXAMPLES
 from pictures import BlobDetector
 
 
@@ -57,6 +67,21 @@ class AllEars(Ears):
 
 class Misspelt(Ears):
     wants = "adbs/*"
+
+
+class Nameless(Ears):
+    """A decision worker whose ids another one may have too."""
+
+    modality: Modality = "decision"
+    wants = "adsb/*"
+
+    def heard(self, t_ns: int, item: Input) -> Output:
+        advisory = Advisory(
+            id="1", revision=0, recipient="ATC", recipients=("ATC",), kind="loss_of_separation",
+            severity=Severity.CAUTION, traffic=("AAL123",), message="look out",
+            evidence=Evidence(sources=("adsb",)), t_ready_ns=t_ns,
+        )  # fmt: skip
+        return Output("advisory/ATC", advisory.model_dump_json().encode())
 
 
 class Talkative(Ears):
@@ -127,12 +152,25 @@ def test_workers_without_a_fault_pass() -> None:
 
 
 @pytest.mark.parametrize(
+    ("example", "worker"),
+    [
+        ("sdk_worker", "SimpleWorker"),
+        ("asr_worker", "MyRecogniser"),
+        ("vision_worker", "MyDetector"),
+    ],
+)
+def test_the_examples_pass(example: str, worker: str) -> None:
+    check_worker(runpy.run_path(str(EXAMPLES / f"{example}.py"))[worker]())
+
+
+@pytest.mark.parametrize(
     ("worker", "words"),
     [
         (NoDescription, "NoDescription.description is None; expected an airhilt.messages.Worker"),
         (Cheat, "'ears' asks for 'truth/state/*'; truth never reaches a worker"),
         (AllEars, "'ears' asks for '*/118300'; truth never reaches a worker"),
-        (Misspelt, "asks for 'adbs/*', where nothing is published; did you mean 'adsb/*'?"),
+        (Misspelt, "asks for 'adbs/*', where nothing is published; expected adsb/*"),
+        (Nameless, "an advisory with the id '1'; expected one that begins with its name"),
         (Talkative, "from step; expected an airhilt.workers.Step"),
         (Forgetful, "worker 'ears' returned None from step; expected an airhilt.workers.Step"),
         (Stamping, "'ears' set t_ns of what it published on 'asr/118300'; leave it out"),
@@ -150,6 +188,13 @@ def test_a_fault_is_named(worker: type[Ears], words: str) -> None:
     with pytest.raises(WorkerError) as caught:
         check_worker(worker(), patience_s=0.2)
     assert words in str(caught.value)
+
+
+def test_a_key_of_a_sensor_of_another_package_is_no_fault() -> None:
+    class Thermometer(Ears):
+        wants = "temperature/*"
+
+    check_worker(Thermometer())
 
 
 def test_all_faults_are_named_each_once() -> None:

@@ -15,6 +15,7 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     Briefing,
+    CockpitInstruments,
     DeclaredLatency,
     Detections,
     InputSpec,
@@ -37,6 +38,7 @@ KEYS: dict[type[Message], str] = {
     Detections: "vision/*",
     RadarInfo: "radar/*/info",
     RadarPlot: "radar/*",
+    CockpitInstruments: "cockpit/*",
     Transmission: "radio/*/tx",
     Status: "status/*",
 }
