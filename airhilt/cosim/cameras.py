@@ -14,7 +14,7 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
-from airhilt.metrics.collector import pair_of
+from airhilt.metrics.roster import pair_of
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario

@@ -1,1 +1,1 @@
-"""What came of a run: truth about conflicts, latencies, the summary and the report."""
+"""The scores of a run: warnings, separation, recognition, detection and latencies."""

@@ -1,4 +1,4 @@
-"""The calls of a run: who said what, what was received, recognised and understood of it."""
+"""The calls of a run, as they were said, received, recognised and understood."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from airhilt.metrics.words import Score, recognition, score
 from airhilt.phraseology import parse_call
 
 TEXT = "text"
-"""Engine of transcripts that nobody has recognised: the words of a call without sound."""
+"""Engine of transcripts that were not recognised: the words of a call without sound."""
 REPEAT = re.compile(r"\.repeat-[0-9]+$")
-"""Ends the id of a call that is made again (docs/radio.md)."""
+"""End of the id of a call that is made again (docs/radio.md)."""
 
 
 @dataclass
 class CallRecord:
-    """One transmission, as far as it is known."""
+    """Everything known about one transmission."""
 
     said: SpokenTruth | None = None
     received: Transmission | None = None
-    """None if it reached no receiver of the run."""
+    """The call as it was received; None if it reached no receiver."""
     transcripts: list[Transcript] = field(default_factory=list)
-    """One for each recogniser that had one."""
+    """One transcript for each recogniser that made one."""
     hearings: list[HearingTruth] = field(default_factory=list)
 
     @property
     def recognised(self) -> list[Transcript]:
-        """The transcripts that were made from sound."""
+        """Transcripts that were made from sound."""
         return [transcript for transcript in self.transcripts if transcript.engine != TEXT]
 
 
@@ -45,7 +45,7 @@ class CallRecords:
         return iter(self._calls.values())
 
     def take(self, message: Message) -> None:
-        """Take in a message about a call; others are passed over."""
+        """Add a message about a call; other messages are ignored."""
         match message:
             case SpokenTruth(id=name):
                 self._call(name).said = message
@@ -59,17 +59,17 @@ class CallRecords:
     def _call(self, name: str) -> CallRecord:
         return self._calls.setdefault(name, CallRecord())
 
-    # --- the numbers ------------------------------------------------------------------------
+    # --- statistics -------------------------------------------------------------------------
 
     def statistics(self, callsigns: Sequence[str], *, is_recognised: bool) -> RadioStatistics:
-        """Return the numbers of the radio.
+        """Return the statistics of the radio.
 
         Parameters
         ----------
         callsigns
-            Of the roster.
+            Callsigns on the roster.
         is_recognised
-            Whether somebody was there to recognise speech, so that transcripts may be missing.
+            True if a recogniser took part, so that transcripts may be missing.
         """
         spoken = [(call, said) for call in self if (said := call.said) is not None]
         words = [(call, said) for call, said in spoken if said.text]

@@ -1,7 +1,7 @@
-"""What the assistant saw, against what was true of each picture.
+"""Scores of the detections of each camera against the truth.
 
-`airhilt.imaging.matching` says which detection is about whom, whatever its class; whether that is
-right too is `labels_right`.
+`airhilt.imaging.matching` says which detection matches which actor, whatever its class;
+`labels_right` is the share of the matches with the true class.
 """
 
 from __future__ import annotations
@@ -25,26 +25,28 @@ from airhilt.messages import (
 )
 from airhilt.metrics.summary import (
     CameraStatistics,
+    DetectionStatistics,
     FirstDetection,
     LatencyStatistics,
-    SightStatistics,
     SizeRecall,
     VisionStatistics,
 )
 from airhilt.units import SECOND_NS
 
 LEAST_PX = 8.0
+"""Actors whose longest side is below this, in px, need not be found."""
 LEAST_VISIBLE = 0.5
+"""Actors of which a smaller fraction is visible need not be found."""
 LEAST_TRANSMISSION = 0.1
-"""What is smaller, more hidden or fainter need not be found; finding it is no mistake either."""
+"""Actors need not be found if the air leaves a smaller fraction of their contrast."""
 SIZES_PX = (LEAST_PX, 12.0, 20.0, 50.0)
-"""Where the bins of recall begin."""
+"""Lower limits of the bins of recall, in px."""
 MOST_PICTURES_BEHIND = 600
-"""Truth that is kept for detections that are still to come: 20 s at 30 Hz."""
+"""Number of pictures whose truth is kept for late detections: 20 s at 30 Hz."""
 
 
 def must_be_found(sighting: SightingTruth) -> bool:
-    """Return whether an actor is large and clear enough in a picture to have to be found."""
+    """Return true if an actor is so large and clear in a picture that it counts as a sighting."""
     return (
         size_px(sighting.box) >= LEAST_PX
         and sighting.visible_fraction >= LEAST_VISIBLE
@@ -54,7 +56,7 @@ def must_be_found(sighting: SightingTruth) -> bool:
 
 @dataclass
 class _Counts:
-    """What is counted of one camera, or of all."""
+    """Counts of one camera, or of all."""
 
     taken: int = 0
     taken_s: float = 0.0
@@ -62,9 +64,9 @@ class _Counts:
     missed: int = 0
     detections: int = 0
     found: int = 0
-    """Detections that are about something."""
+    """Detections that match an actor."""
     labelled: int = 0
-    """Of these, those with the right class."""
+    """Detections that match an actor and have its class."""
     false: int = 0
     false_confirmed: int = 0
     false_tracks: int = 0
@@ -72,7 +74,7 @@ class _Counts:
     recalled: list[int] = field(default_factory=lambda: [0] * len(SIZES_PX))
 
     def add(self, other: _Counts) -> None:
-        """Count what the other has counted."""
+        """Add the counts of another."""
         self.taken += other.taken
         self.taken_s += other.taken_s
         self.latencies_s += other.latencies_s
@@ -86,11 +88,11 @@ class _Counts:
         self.sightings = [a + b for a, b in zip(self.sightings, other.sightings, strict=True)]
         self.recalled = [a + b for a, b in zip(self.recalled, other.recalled, strict=True)]
 
-    def statistics(self, dropped: int, is_watched: bool) -> SightStatistics:
-        """Return the numbers; without anybody who looks there are only pictures."""
+    def statistics(self, dropped: int, is_watched: bool) -> DetectionStatistics:
+        """Return the statistics; without a detector only the number of pictures is known."""
         minutes = self.taken_s / 60.0
         if not is_watched:
-            return SightStatistics(
+            return DetectionStatistics(
                 taken=self.taken or None,
                 looked_at=None,
                 dropped=None,
@@ -106,7 +108,7 @@ class _Counts:
                 false_confirmed_per_minute=None,
                 false_tracks=None,
             )
-        return SightStatistics(
+        return DetectionStatistics(
             taken=self.taken,
             looked_at=len(self.latencies_s),
             dropped=dropped,
@@ -135,17 +137,17 @@ def _ratio(part: float, whole: float) -> float | None:
 
 
 class _Camera:
-    """What one camera has shown so far."""
+    """The detections of one camera so far."""
 
     def __init__(self, rate_hz: float) -> None:
         self._counts = _Counts()
         self._period_s = 1.0 / rate_hz
         self._truths: dict[int, CameraTruth] = {}
         self._confirmed: dict[int, bool] = {}
-        """Tracks that were confirmed, and whether they ever were about anything."""
+        """Tracks that were confirmed, and True for those that ever matched an actor."""
 
     def counts(self) -> _Counts:
-        """Return what is counted up to now."""
+        """Return the counts up to now."""
         false_tracks = sum(not is_real for is_real in self._confirmed.values())
         return replace(self._counts, false_tracks=false_tracks)
 
@@ -159,7 +161,7 @@ class _Camera:
             del self._truths[next(iter(self._truths))]
 
     def look(self, seen: Detections) -> list[FirstDetection]:
-        """Count what was seen in a picture, and return who was found in it, and when."""
+        """Count the detections in a picture, and return the actors that were found in it."""
         truth = self._truths.get(seen.seq)
         if truth is None:
             return []
@@ -202,7 +204,7 @@ class _Camera:
 
 
 class DetectionScores:
-    """Listens to cameras and to what is seen by them."""
+    """Scores the detections of all cameras of a run."""
 
     def __init__(self) -> None:
         self._cameras: dict[str, _Camera] = {}
@@ -212,7 +214,7 @@ class DetectionScores:
         self._why_missed = ""
 
     def take(self, message: Message) -> None:
-        """Take in a message about cameras or vision; others are passed over."""
+        """Add a message about cameras or vision; other messages are ignored."""
         match message:
             case CameraInfo(camera=name, rate_hz=rate_hz):
                 self._cameras[name] = _Camera(rate_hz)
@@ -230,15 +232,15 @@ class DetectionScores:
         for first in self._cameras[seen.camera].look(seen):
             self._first.setdefault(first.actor, first)
 
-    # --- the numbers ------------------------------------------------------------------------
+    # --- statistics -------------------------------------------------------------------------
 
     def statistics(self, inputs_dropped: Mapping[str, int]) -> VisionStatistics:
-        """Return the numbers of vision.
+        """Return the statistics of vision.
 
         Parameters
         ----------
         inputs_dropped
-            By worker and key, as `WorkerPool.inputs_dropped` returns them.
+            Number of dropped inputs by worker and key, as `WorkerPool.inputs_dropped` returns it.
         """
         counted = {name: camera.counts() for name, camera in self._cameras.items()}
         every = _Counts()
@@ -262,7 +264,7 @@ class DetectionScores:
 
 
 def _dropped(camera: str, inputs_dropped: Mapping[str, int]) -> int:
-    """Return how many pictures of a camera were dropped by whoever dropped the most."""
+    """Return the number of a camera's pictures dropped by the worker that dropped most."""
     ending = f": camera/{camera}/frame"
     found = (count for name, count in inputs_dropped.items() if name.endswith(ending))
     return max(found, default=0)

@@ -1,4 +1,4 @@
-"""What the script still has in store for each aircraft, had nobody been warned."""
+"""The altitudes that the script plans for each aircraft, had nobody been warned."""
 
 from __future__ import annotations
 
@@ -13,21 +13,26 @@ from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 
 DEFAULT_RATE_M_S = 1500 * FOOT_PER_MINUTE
-"""Of a scripted climb that names none."""
+"""Vertical speed of a scripted climb without one, in m/s."""
 
 
 class Plans:
-    """Altitude commands of the script, and when each is, or was, carried out.
+    """The altitude commands of the script, and when each is carried out.
 
-    Until a line has ended, its end is where it would be if the frequency were free: ``ends_ns``,
-    by the line's id.
+    Parameters
+    ----------
+    lines
+        Lines of the script, with the scenario's failures applied.
+    ends_ns
+        Time by which each line ends, by its id. Until it has ended, this is when it would end if
+        the frequency were free.
     """
 
     def __init__(self, lines: Sequence[EffectiveLine], ends_ns: Mapping[str, int]) -> None:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
-        for happening in lines:
-            for scripted in happening.line.commands if happening.line else ():
-                self._plan(ends_ns[happening.declared.id], scripted)
+        for effective in lines:
+            for scripted in effective.line.commands if effective.line else ():
+                self._plan(ends_ns[effective.declared.id], scripted)
 
     def _plan(self, end_ns: int, scripted: ScriptedCommand) -> None:
         if isinstance(scripted.command, AltitudeCommand):
@@ -35,7 +40,7 @@ class Plans:
             self._due.setdefault(scripted.actor, []).append((due_ns, scripted.command))
 
     def altitude_at(self, callsign: str, now_ns: int, profile: VerticalProfile) -> AltitudeAt:
-        """Return where an aircraft with this profile now would be, by what is still planned."""
+        """Return the altitude over time of an aircraft that has this profile now, as planned."""
         times, altitudes, rates, targets = [0.0], [profile.altitude_m], [], []
         rates.append(profile.rate_m_s)
         targets.append(profile.target_m)

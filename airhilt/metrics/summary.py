@@ -1,4 +1,4 @@
-"""``summary.json``: the numbers of a run, and what they mean."""
+"""``summary.json``: the scores of a run, and the meaning of each field."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Stage = str
 
 
 class LatencyStatistics(BaseModel):
-    """Of one stage, in seconds of simulation time."""
+    """Latencies of one stage, in s of simulation time."""
 
     model_config = ConfigDict(frozen=True)
     n: int
@@ -25,7 +25,7 @@ class LatencyStatistics(BaseModel):
 
     @classmethod
     def of(cls, samples_s: Sequence[float]) -> LatencyStatistics:
-        """Return the statistics of some samples (linear interpolation between them)."""
+        """Return the statistics of samples; percentiles are interpolated linearly."""
         if not samples_s:
             return cls(n=0, p50_s=None, p95_s=None, max_s=None)
         p50, p95 = np.percentile(samples_s, [50.0, 95.0])
@@ -39,7 +39,7 @@ class LatencyStatistics(BaseModel):
 
 
 class ClosestApproach(BaseModel):
-    """Where the pair of the conflict was nearest in three dimensions."""
+    """The closest approach of the pair of the conflict, in three dimensions."""
 
     model_config = ConfigDict(frozen=True)
     t_s: float
@@ -48,40 +48,42 @@ class ClosestApproach(BaseModel):
 
 
 class RunwayIncursion(BaseModel):
-    """One actor in the way of the user of a runway, or there without any business."""
+    """One actor in the way of a runway's user, or on the runway without permission."""
 
     model_config = ConfigDict(frozen=True)
     t_s: float
     runway: str
-    user: str | None = Field(description="who took off or landed; null: nobody did")
+    user: str | None = Field(description="actor that took off or landed; null: nobody did")
     intruder: str
     category: IncursionCategory
-    closest_m: float | None = Field(description="between the outlines, in three dimensions")
+    closest_m: float | None = Field(
+        description="least distance between the outlines, in three dimensions"
+    )
 
 
-class ToldAdvisory(BaseModel):
-    """One advisory, with its course over all revisions."""
+class AdvisorySummary(BaseModel):
+    """One advisory over all its revisions."""
 
     model_config = ConfigDict(frozen=True)
     id: str
     kind: str
     traffic: tuple[str, ...]
     t_first_s: float
-    t_spoken_s: float | None = Field(description="its voice began to be heard; null: it never was")
-    severity: Severity = Field(description="the highest that was reached")
+    t_spoken_s: float | None = Field(description="its audio began; null: it was never spoken")
+    severity: Severity = Field(description="highest severity of all revisions")
     revisions: int
     nuisance: bool
 
 
 class RecognitionStatistics(BaseModel):
-    """How well calls were recognised that were spoken and not blocked."""
+    """Recognition of the calls that had words and were not blocked."""
 
     model_config = ConfigDict(frozen=True)
     snr_db: float | None = Field(
-        description="of these calls; null: without noise, or not the same for all"
+        description="signal-to-noise ratio of these calls; null: without noise, or not the same for all"
     )
     calls: int = Field(description="transcripts that were compared with what was said")
-    words: int = Field(description="that were said in these calls")
+    words: int = Field(description="words said in these calls")
     wer: float | None = Field(
         description="word error rate: words that are wrong, left out or too many, over those said"
     )
@@ -96,68 +98,74 @@ class RecognitionStatistics(BaseModel):
 
 
 class RadioStatistics(RecognitionStatistics):
-    """What went on on the radio, and all calls of the run recognised; null: not measured."""
+    """The radio, and the recognition of all calls of the run; null: not measured."""
 
-    transmissions: int = Field(description="on the air, carriers without words included")
+    transmissions: int = Field(description="transmissions, carriers without words included")
     blocked: int = Field(description="calls that another transmission was mixed with")
     stuck_microphone: int = Field(description="carriers without words")
     transcripts_missing: int | None = Field(
-        description="calls received with sound and not blocked of which no transcript came"
+        description="calls received with sound and not blocked that have no transcript"
     )
-    hallucinated: int | None = Field(description="transcripts with words of noise alone")
+    hallucinated: int | None = Field(
+        description="transcripts that have words where there was only noise"
+    )
     hearing: dict[str, int] = Field(
-        description="by what became of a call with somebody whom it was for, how often"
+        description="number of calls by outcome with the listener whom they were for"
     )
     say_agains: int = Field(description="calls that ask for another to be said again")
-    repeats: int = Field(description="calls that were made again")
+    repeats: int = Field(description="calls made again")
     by_snr: list[RecognitionStatistics] = Field(
-        description="by the ratio of what was received, if a run has more than one"
+        description="recognition by signal-to-noise ratio, if a run has more than one"
     )
 
 
 class SizeRecall(BaseModel):
-    """How much was found of what is of one size, by the longest side of its true box."""
+    """Recall of the sightings of one size, by the longest side of the true box."""
 
     model_config = ConfigDict(frozen=True)
     from_px: float
-    to_px: float | None = Field(description="null: and larger")
+    to_px: float | None = Field(description="null: no upper limit")
     sightings: int
     recall: float | None
 
 
-class SightStatistics(BaseModel):
-    """What was seen, against what was true; null: not measured."""
+class DetectionStatistics(BaseModel):
+    """Detections against the truth; null: not measured."""
 
     model_config = ConfigDict(frozen=True)
-    taken: int | None = Field(description="pictures")
-    looked_at: int | None = Field(description="pictures of which detections came, empty ones too")
-    dropped: int | None = Field(description="pictures that were out of date before their turn")
+    taken: int | None = Field(description="pictures taken")
+    looked_at: int | None = Field(
+        description="pictures that a detector looked at, also those in which it found nothing"
+    )
+    dropped: int | None = Field(description="pictures that a newer one replaced before their turn")
     missed: int | None = Field(description="pictures that a detector could not look at")
     latency: LatencyStatistics = Field(description="t_vision - t_frame")
     detections: int | None
     sightings: int | None = Field(
-        description="true ones that count, in the pictures looked at: at least 8 px long, half of "
-        "it seen, a tenth of its contrast left"
+        description="true boxes that count, in the pictures looked at: at least 8 px long, half of "
+        "the actor visible, a tenth of its contrast left"
     )
-    recall: float | None = Field(description="share of the sightings that was found")
+    recall: float | None = Field(description="share of the sightings that were found")
     by_size: list[SizeRecall]
-    labels_right: float | None = Field(description="share of what was found with its true class")
-    false_detections: int | None = Field(description="boxes that are about nothing")
-    false_per_minute: float | None = Field(description="and camera")
-    false_confirmed_per_minute: float | None = Field(
-        description="likewise, of boxes of something that was found three times or more"
+    labels_right: float | None = Field(
+        description="share of the true detections that have the true class"
     )
-    false_tracks: int | None = Field(description="confirmed ones that never were about anything")
+    false_detections: int | None = Field(description="detections that match no actor")
+    false_per_minute: float | None = Field(description="false detections per minute and camera")
+    false_confirmed_per_minute: float | None = Field(
+        description="false detections of confirmed tracks per minute and camera"
+    )
+    false_tracks: int | None = Field(description="confirmed tracks that never matched an actor")
 
 
-class CameraStatistics(SightStatistics):
-    """Of one camera."""
+class CameraStatistics(DetectionStatistics):
+    """Detections of one camera."""
 
     camera: str
 
 
 class FirstDetection(BaseModel):
-    """When an actor was found first, by whichever camera."""
+    """The first detection of an actor by any camera."""
 
     model_config = ConfigDict(frozen=True)
     actor: str
@@ -165,28 +173,30 @@ class FirstDetection(BaseModel):
     t_frame_s: float
     camera: str
     range_m: float
-    size_px: float = Field(description="longest side of its true box")
+    size_px: float = Field(description="longest side of the true box")
 
 
-class VisionStatistics(SightStatistics):
-    """Of all cameras."""
+class VisionStatistics(DetectionStatistics):
+    """Detections of all cameras."""
 
     state: ModalityState
-    cause: str = Field(description="why it was lost or not evaluated")
-    why_missed: str = Field(description="of the first picture that was; empty if none was")
+    cause: str = Field(description="reason why vision was lost or not evaluated")
+    why_missed: str = Field(
+        description="reason of the first missed picture; empty if none was missed"
+    )
     cameras: list[CameraStatistics]
     first_detections: list[FirstDetection]
 
 
 class Summary(BaseModel):
-    """The object of ``summary.json``; null where a number does not apply."""
+    """``summary.json``; null where a number does not apply."""
 
     model_config = ConfigDict(frozen=True)
     scenario: str
     seed: int
     assistant: str
     outcome: str = Field(description="finished, or stopped and why")
-    duration_s: float = Field(description="simulated")
+    duration_s: float = Field(description="simulated time")
     t_conflict_s: float | None = Field(description="the conflict window opened")
     t_conflict_end_s: float | None = Field(description="the pair was past it, or the run ended")
     t_first_warning_s: float | None = Field(
@@ -224,7 +234,7 @@ class Summary(BaseModel):
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"
     )
-    advisories: list[ToldAdvisory]
+    advisories: list[AdvisorySummary]
     radio: RadioStatistics
     vision: VisionStatistics
     latencies: dict[Stage, LatencyStatistics]

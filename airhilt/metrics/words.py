@@ -1,4 +1,4 @@
-"""What became of the words of a call: word errors, the callsign, and what it tells to do.
+"""The words of a call against its transcript: word errors, callsign and slots.
 
 Said and recognised words are compared in one form, `in_words`, in which two ways to write the
 same words are equal: capitals, punctuation, numbers in digits or in words, "niner" and "nine",
@@ -30,8 +30,8 @@ SLOTS = (
     "frequency_khz",
     "hold_short",
 )
-"""What is compared of each instruction of a call: the fields of `Instruction` that a controller
-and a pilot read back (ICAO Doc 4444, 4.5.7.5.1; FAA AIM 4-4-7 b)."""
+"""Fields of `Instruction` that are compared: those that are read back (ICAO Doc 4444, 4.5.7.5.1;
+FAA AIM 4-4-7 b)."""
 LETTER_WORDS = {word[0]: word for word in LETTERS}
 PLAIN_DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 ROUND_NUMBER = re.compile(r"([1-9][0-9]?)([0-9])00")
@@ -46,7 +46,7 @@ def in_words(text: str) -> list[str]:
 
 
 def _spelled(word: str) -> Iterable[str]:
-    """Yield a word as it is spelled elsewhere, a number as it is spoken."""
+    """Return a word in its usual spelling, a number as it is spoken."""
     if word in DIGITS:
         return [PLAIN_DIGITS[int(DIGITS[word])]]
     if word in SPELLINGS:
@@ -77,7 +77,7 @@ def _digits(digits: str) -> list[str]:
 
 
 def _without_tens(words: Sequence[str]) -> Iterator[str]:
-    """Yield them with numbers of two digits as these: "twenty three" as "two three"."""
+    """Yield words with numbers of two digits as digits: "twenty three" as "two three"."""
     for index, word in enumerate(words):
         if word not in TENS:
             yield word
@@ -89,7 +89,7 @@ def _without_tens(words: Sequence[str]) -> Iterator[str]:
 
 
 def _joined(words: Iterable[str]) -> Iterator[str]:
-    """Yield them with those as one word that some write as two, such as "take off"."""
+    """Yield words, each pair that is one word elsewhere joined, such as "take off"."""
     before = ""
     for word in words:
         if PAIRS.get(before, {}).get(word) == (before + word,):
@@ -108,14 +108,14 @@ def _joined(words: Iterable[str]) -> Iterator[str]:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Words next to each other that are the same in both texts, or all are not."""
+    """Adjacent words that are equal in both texts, or all differ."""
 
     said: tuple[str, ...]
     heard: tuple[str, ...]
 
     @property
     def kind(self) -> Literal["equal", "substitute", "delete", "insert"]:
-        """What became of the words said."""
+        """Kind of the difference."""
         if self.said == self.heard:
             return "equal"
         if not self.heard:
@@ -124,7 +124,7 @@ class Stretch:
 
     @property
     def errors(self) -> int:
-        """How many words are wrong, left out, or too many."""
+        """Number of words that are wrong, left out, or too many."""
         return 0 if self.kind == "equal" else max(len(self.said), len(self.heard))
 
 
@@ -151,12 +151,12 @@ def align(said: str, heard: str) -> tuple[Stretch, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """What was recognised of one call, counted."""
+    """Counts of what was recognised in one call."""
 
     words: int
     errors: int
     has_callsign: bool
-    """Whether the call names somebody whom the parser knows."""
+    """True if the call names a callsign that the parser knows."""
     callsign_found: bool
     slots: int
     slots_found: int
@@ -164,7 +164,7 @@ class Score:
 
 
 def score(said: str, heard: str, callsigns: Sequence[str]) -> Score:
-    """Return how a transcript compares to what was said."""
+    """Return the counts of a transcript against what was said."""
     stretches = align(said, heard)
     meant, taken = parse_call(said, callsigns), parse_call(heard, callsigns)
     slots, found = slots_of(meant), slots_of(taken)
@@ -190,7 +190,7 @@ def slots_of(call: Call) -> Counter[tuple[str, object]]:
 
 
 def recognition(scores: Sequence[Score], snr_db: float | None) -> RecognitionStatistics:
-    """Return the statistics of some calls."""
+    """Return the statistics of several calls."""
     words = sum(one.words for one in scores)
     slots = sum(one.slots for one in scores)
     return RecognitionStatistics(

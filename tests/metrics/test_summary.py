@@ -17,8 +17,9 @@ from airhilt.messages import (
     Transcript,
     Transmission,
 )
-from airhilt.metrics.collector import Collector, pair_of
+from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
+from airhilt.metrics.roster import pair_of
 from airhilt.metrics.summary import LatencyStatistics, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine

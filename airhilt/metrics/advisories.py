@@ -1,0 +1,152 @@
+"""The advisories of a run: their subjects, their course over revisions, and nuisance alerts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from airhilt.messages import CONTROLLER, SPEAK_MIN_LEVEL, Advisory, AdvisoryAudio, Severity
+from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion, severest
+from airhilt.units import SECOND_NS
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair
+
+JUSTIFIED_WITHIN_S = 300.0
+"""An alert is no nuisance if its traffic will really lose separation within this time, in s."""
+
+
+@dataclass
+class AdvisoryRecord:
+    """One advisory over its revisions.
+
+    Attributes
+    ----------
+    first
+        The advisory as it was published first.
+    loses_separation
+        True if its traffic was then going to lose separation.
+    spoken_ns
+        Time at which its voice was first heard, None if it never was.
+    """
+
+    first: Advisory
+    loses_separation: bool
+    severities: list[Severity] = field(default_factory=list)
+    revisions: set[int] = field(default_factory=set)
+    spoken_ns: int | None = None
+
+
+class AdvisoryRecords:
+    """All advisories of a run, by their ids.
+
+    Parameters
+    ----------
+    callsigns
+        Callsigns of the actors by all their names, as `callsigns_of` returns them.
+    pair
+        The annotated pair, None if the scenario has no conflict.
+    """
+
+    def __init__(
+        self, callsigns: Mapping[str, str], pair: Pair | None, monitor: ConflictMonitor
+    ) -> None:
+        self._callsigns = callsigns
+        self._pair = pair
+        self._monitor = monitor
+        self._records: dict[str, AdvisoryRecord] = {}
+
+    def add(self, advisory: Advisory) -> bool:
+        """Add an advisory; return true if it is a new revision."""
+        record = self._records.get(advisory.id)
+        if record is None:
+            record = AdvisoryRecord(advisory, self._loses_separation(advisory))
+            self._records[advisory.id] = record
+        if advisory.revision in record.revisions:
+            return False
+        record.revisions.add(advisory.revision)
+        record.severities.append(advisory.severity)
+        return True
+
+    def add_audio(self, audio: AdvisoryAudio) -> None:
+        """Add the audio of an advisory."""
+        record = self._records.get(audio.id)
+        if record is not None and record.spoken_ns is None:
+            record.spoken_ns = audio.t_ns
+
+    def warns_of_conflict(self, advisory: Advisory) -> bool:
+        """Return true if an advisory warns somebody in the run of the annotated conflict."""
+        reaches_somebody = advisory.recipient == CONTROLLER or advisory.recipient in self._callsigns
+        return (
+            advisory.active
+            and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank
+            and reaches_somebody
+            and self._concerns_conflict(advisory)
+        )
+
+    def nuisance_alerts(self, incursions: Iterable[RunwayIncursion]) -> int:
+        """Return the number of alerts about traffic in no conflict, annotated or real."""
+        involved = _involved(incursions)
+        return sum(
+            severest(record.severities).rank >= SPEAK_MIN_LEVEL.rank
+            and self._is_nuisance(record, involved)
+            for record in self._records.values()
+        )
+
+    def summaries(self, incursions: Iterable[RunwayIncursion]) -> list[AdvisorySummary]:
+        """Return each advisory with its course."""
+        involved = _involved(incursions)
+        return [
+            AdvisorySummary(
+                id=record.first.id,
+                kind=record.first.kind,
+                traffic=self._traffic(record.first),
+                t_first_s=record.first.t_ns / SECOND_NS,
+                t_spoken_s=None if record.spoken_ns is None else record.spoken_ns / SECOND_NS,
+                severity=severest(record.severities),
+                revisions=len(record.revisions),
+                nuisance=self._is_nuisance(record, involved),
+            )
+            for record in self._records.values()
+        ]
+
+    def _concerns_conflict(self, advisory: Advisory) -> bool:
+        """Return true if an advisory's traffic is the annotated pair's.
+
+        On a runway an assistant may name what it has no callsign for, such as a deer.
+        """
+        named = set(self._traffic(advisory))
+        if advisory.kind == "runway_conflict":
+            named &= set(self._callsigns)
+        return self._pair is not None and bool(named) and named <= set(self._pair)
+
+    def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
+        """Return an advisory's traffic by callsign; a name that no actor has stays as it is."""
+        return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
+
+    def _loses_separation(self, advisory: Advisory) -> bool:
+        """Return true if the traffic is a pair that will really lose separation soon."""
+        traffic = advisory.traffic
+        if len(traffic) != 2 or not all(name in self._callsigns for name in traffic):
+            return False
+        first, second = self._traffic(advisory)
+        loss_s = self._monitor.time_to_loss_s((first, second))
+        return loss_s is not None and loss_s <= JUSTIFIED_WITHIN_S
+
+    def _is_nuisance(self, record: AdvisoryRecord, involved: Iterable[frozenset[str]]) -> bool:
+        """Return true if the traffic is in no conflict, annotated or real.
+
+        In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
+        """
+        if self._concerns_conflict(record.first):
+            return False
+        if record.first.kind == "loss_of_separation":
+            return self._pair is None or not record.loses_separation
+        named = set(self._traffic(record.first))
+        return not any(named & actors for actors in involved)
+
+
+def _involved(incursions: Iterable[RunwayIncursion]) -> list[frozenset[str]]:
+    """Return the actors in each incursion."""
+    return [
+        frozenset(actor for actor in (one.user, one.intruder) if actor is not None)
+        for one in incursions
+    ]

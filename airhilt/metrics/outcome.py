@@ -1,0 +1,93 @@
+"""What became of a conflict, as the monitors of the truth say."""
+
+from __future__ import annotations
+
+from airhilt.metrics.summary import ClosestApproach, RunwayIncursion
+from airhilt.units import SECOND_NS
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
+from airhilt.world.truth.runways import IncursionCategory, RunwayMonitor
+
+SEVEREST_FIRST: tuple[IncursionCategory, ...] = ("accident", "A", "B", "C", "D")
+"""Categories of runway incursions in falling order."""
+SERIOUS = frozenset(SEVEREST_FIRST[:3])
+"""Categories that mean that a conflict was not avoided."""
+INFRINGEMENTS = frozenset({"loss_of_separation", "nmac", "collision"})
+"""Phases that mean that a conflict was not avoided."""
+
+
+class Outcome:
+    """The outcome of a run.
+
+    Parameters
+    ----------
+    monitor, runways
+        Monitors of the run; runways is None away from airports.
+    pair
+        The annotated pair, None if the scenario has no conflict.
+    """
+
+    def __init__(
+        self, monitor: ConflictMonitor, runways: RunwayMonitor | None, pair: Pair | None
+    ) -> None:
+        self._monitor = monitor
+        self._runways = runways
+        self._pair = pair
+
+    @property
+    def pair_truth(self) -> PairTruth | None:
+        """Truth of the annotated pair; without one, of the pair that came nearest."""
+        pairs = self._monitor.pairs
+        if self._pair is not None:
+            return pairs.get(self._pair)
+        near = [truth for truth in pairs.values() if truth.closest is not None]
+        return min(near, key=lambda t: t.closest.slant_m if t.closest else 0.0, default=None)
+
+    @property
+    def closest_approach(self) -> ClosestApproach | None:
+        """Closest approach of that pair."""
+        closest = self.pair_truth.closest if self.pair_truth else None
+        if closest is None:
+            return None
+        return ClosestApproach(
+            t_s=closest.t_ns / SECOND_NS,
+            horizontal_m=closest.horizontal_m,
+            vertical_m=closest.vertical_m,
+        )
+
+    def happened(self, phase: str) -> bool:
+        """Return true if any pair came to a phase, such as ``nmac``."""
+        return any(phase in truth.first_ns for truth in self._monitor.pairs.values())
+
+    def incursions(self) -> list[RunwayIncursion]:
+        """Return all runway incursions."""
+        if self._runways is None:
+            return []
+        return [
+            RunwayIncursion(
+                t_s=incursion.t_ns / SECOND_NS,
+                runway=incursion.runway,
+                user=incursion.user,
+                intruder=incursion.intruder,
+                category=incursion.category,
+                closest_m=None if incursion.closest is None else incursion.closest.slant_m,
+            )
+            for incursion in self._runways.incursions.values()
+        ]
+
+    def worst_category(self) -> IncursionCategory | None:
+        """Return the most severe category of the incursions, None if there were none."""
+        categories = [incursion.category for incursion in self.incursions()]
+        return min(categories, key=SEVEREST_FIRST.index, default=None)
+
+    def avoided(self, was_warned: bool) -> bool | None:
+        """Return true if the conflict was avoided after a warning, None if nothing happened."""
+        truth = self.pair_truth
+        if truth is not None and truth.first_ns.keys() & INFRINGEMENTS:
+            return False
+        pair = set(self._pair or ())
+        if any(
+            incursion.category in SERIOUS and {incursion.user, incursion.intruder} <= pair
+            for incursion in self.incursions()
+        ):
+            return False
+        return True if was_warned else None
