@@ -26,7 +26,7 @@ EXTERNAL = "external"
 
 
 class Engines(NamedTuple):
-    """What the reference workers work with, as on the command line; None: not at all."""
+    """Engines of the reference workers, as on the command line; None: no such worker."""
 
     asr: str | None = None
     tts: str | None = None
@@ -35,7 +35,7 @@ class Engines(NamedTuple):
 
 
 class RadioSetup(Protocol):
-    """How a scenario uses the radio, as far as the workers are concerned."""
+    """Use of the radio by a scenario, as far as workers depend on it."""
 
     @property
     def topology(self) -> str:

@@ -1,4 +1,4 @@
-"""What a worker is: its author needs what is exported here, and `airhilt.messages`."""
+"""Workers: their authors need what is exported here, and `airhilt.messages`."""
 
 from airhilt.sim.worker import Input, Output
 from airhilt.workers.checker import check_worker

@@ -30,7 +30,7 @@ NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 
 
 Where = Literal["in process", "attached", "caller"]
-"""Where a worker runs: made by the run, in another process, or given by the run's caller."""
+"""Place where a worker runs: made by the run, in another process, or given by the run's caller."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ The calls of the folder (not those of training, nor those that scores are given 
 channel at many ratios. Two logistic curves are fitted by maximum likelihood (Platt, 1999): from
 the posterior of a word, and from the product of a call's, to how often they are right. Words
 below the threshold that costs least errors are left out of transcripts, and transmissions whose
-surest word is no surer than in noise alone are empty.
+best word is no better than in noise alone are empty.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def main() -> None:
         for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
     word_curve = fit(np.array(word_posteriors), np.array(word_right))
-    least_surest, talkative = quietest_threshold(word_curve, silent)
+    threshold, talkative = quietest_threshold(word_curve, silent)
     least, errors = best_threshold(word_curve, calls)
     confidences, whole = [], []
     for reference, hypothesis, posteriors in calls:
@@ -102,7 +102,7 @@ def main() -> None:
     card["word_calibration"] = word_curve
     card["call_calibration"] = fit(np.array(confidences), np.array(whole))
     card["least_word_confidence"] = least
-    card["least_surest_word"] = least_surest
+    card["best_word_threshold"] = threshold
     card["calibrated_on"] = {
         "calls": len(calls),
         "word_error_rate": round(errors, 4),
@@ -114,14 +114,14 @@ def main() -> None:
 
 
 def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tuple[float, float]:
-    """Return how sure the surest word must be, and how many silent transmissions pass.
+    """Return the confidence that the best word must have, and the share of silence that passes.
 
     That is the least at which `MOST_TALKATIVE` of them do.
     """
-    surest = logistic(curve, np.array([max(each, default=0.0) for each in silent]))
-    least = math.ceil(100.0 * float(np.quantile(surest, 1.0 - MOST_TALKATIVE))) / 100.0
+    best = logistic(curve, np.array([max(each, default=0.0) for each in silent]))
+    least = math.ceil(100.0 * float(np.quantile(best, 1.0 - MOST_TALKATIVE))) / 100.0
     has_words = np.array([bool(each) for each in silent])
-    return least, float(np.mean(has_words & (surest >= least)))
+    return least, float(np.mean(has_words & (best >= least)))
 
 
 def best_threshold(

@@ -354,7 +354,7 @@ def export(folder: Path, target: Path) -> None:
         "word_calibration": {"slope": 1.0, "offset": 0.0},
         "call_calibration": {"slope": 1.0, "offset": 0.0},
         "least_word_confidence": 0.0,
-        "least_surest_word": 0.0,
+        "best_word_threshold": 0.0,
     }
     (target / "card.json").write_text(json.dumps(card, indent=2) + "\n")
 

@@ -35,10 +35,10 @@ from scipy import optimize
 from airhilt.assistant.vision.detector import Found, Picture, once
 from airhilt.assistant.vision.detectors.embedded import (
     CARD,
+    DOUBTFUL,
     LEAST_SCORE,
     MODEL,
     REFERENCE_PX,
-    UNSURE,
     Calibration,
     EmbeddedDetector,
 )
@@ -164,7 +164,7 @@ def false_detections(detector: EmbeddedDetector, pictures: Iterator[Exposure]) -
                 if covered_share(each.box, shot.own) <= MOST_OF_OWN_AIRCRAFT
             ]
         for threshold, tracker in trackers.items():
-            heard = [each for each in found if each.confidence >= UNSURE * threshold]
+            heard = [each for each in found if each.confidence >= DOUBTFUL * threshold]
             confirmed[threshold] |= {
                 each.track_id
                 for each in tracker.follow(shot.t_ns, shot.view, heard)
@@ -272,7 +272,7 @@ def main() -> None:
         calibration = fitted(*findings(EmbeddedDetector(given.network), shots))
         card["calibration"] = calibration.model_dump()
         write(path, card)
-    detector = EmbeddedDetector(given.network, UNSURE * min(THRESHOLDS))
+    detector = EmbeddedDetector(given.network, DOUBTFUL * min(THRESHOLDS))
     casting = Casting(given.airport, SIZE)
     counts = counted(detector, casting, given.cameras, given.seed, given.seconds, given.renderer)
     kinds = sorted(counts)

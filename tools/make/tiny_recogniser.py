@@ -70,7 +70,7 @@ def main() -> None:
         "word_calibration": as_it_is,
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,
-        "least_surest_word": 0.0,
+        "best_word_threshold": 0.0,
     }
     (out / "card.json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
 

@@ -22,7 +22,7 @@ from airhilt.phraseology.telephony import names
 SAME = (("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower"))
 """Words that stand for the same digit."""
 MOST_LOSS = 2.5
-"""Of `Spotted.loss`: with more, the callsign was not said. Chosen on calls like those of training
+"""Largest `Spotted.loss` with which a callsign was said. Chosen on calls like those of training
 (``tools/asr/calibrate_asr.py``), and on calls by somebody whose callsign is one digit off."""
 MARGIN = 0.3
 """Least loss, per word, by which every other callsign must fit worse."""

@@ -28,7 +28,7 @@ Class D reaches up to 2,500 ft (FAA AIM, 3-2-5), by custom within some 5 NM."""
 CERTAINLY_INSIDE = 1.25
 """Factor on the 95 % position error: who is this far inside an area does not stand outside it."""
 CLEAR_OF_PAVEMENT_M = 10.0
-"""Who is nearer to the pavement, in m, is on the runway, however inaccurate the position."""
+"""Distance from the pavement, in m, within which a mobile counts as on the runway."""
 RAY_M = 3000.0
 
 

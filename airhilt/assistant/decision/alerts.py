@@ -1,4 +1,4 @@
-"""What a decision engine tells: one alert a conflict, as structure, for all its recipients."""
+"""Alerts of a decision engine: one a conflict, as structure, for all its recipients."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ class Approach(NamedTuple):
 
     @property
     def is_growing(self) -> bool:
-        """Whether it comes nearer by more than two standard deviations."""
+        """True if it comes nearer by more than two standard deviations."""
         return self.closing > 2.0 * self.closing_error
 
     def least_miss(self) -> float:

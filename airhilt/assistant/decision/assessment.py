@@ -1,4 +1,4 @@
-"""What is wrong on an airport's runways at one instant: the ladder's steps (a), (b) and (c)."""
+"""All threats on an airport's runways at one instant: the ladder's steps (a), (b) and (c)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a decision engine is: it takes evidence and gives alerts.
+"""The protocol of decision engines: messages in, alerts out.
 
 It knows no keys and no bus, and nothing of queues: that is its worker's part (see
 `airhilt.assistant.decision.worker`).
@@ -30,7 +30,7 @@ class Received(NamedTuple):
 
 
 class Decision(NamedTuple):
-    """What an engine has to say after all that it has received.
+    """The alerts of an engine after all that it has received.
 
     Attributes
     ----------

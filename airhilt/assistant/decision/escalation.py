@@ -1,4 +1,4 @@
-"""When an alert is told: once a severity has held, again when it rises, and at its end."""
+"""Timing of an alert: told once a severity has held, again when it rises, and at its end."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from typing import Literal
 from airhilt.phraseology import Action, Instruction
 
 RunwayUse = Literal["arrival", "departure", "rollout"]
-"""How an aircraft uses a runway."""
+"""Use of a runway by an aircraft."""
 
 Obstructs = Literal[
     "on",
@@ -27,7 +27,7 @@ Obstructs = Literal[
     "opposite",
     "on crossing",
 ]
-"""How somebody or something is in the way of the user of a runway."""
+"""Ways in which somebody or something obstructs the user of a runway."""
 
 _OBSTRUCTS: dict[Obstructs, str] = {
     "on": "{what} is on runway {where}",

@@ -138,7 +138,7 @@ class IntruderWatch:
 
     @property
     def is_alert(self) -> bool:
-        """Whether there is an encounter to be judged again even without news."""
+        """True if there is an encounter to be judged again even without news."""
         return bool(self._alerts)
 
     def judge(self, t_ns: int) -> list[Alert]:

@@ -1,4 +1,4 @@
-"""When two aircraft in flight will lose separation, by their tracks and cleared levels."""
+"""Predicted losses of separation in flight, from tracks and cleared levels."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class SeparationConfig:
 
 
 class Prediction(NamedTuple):
-    """What lies ahead of two aircraft, as of now.
+    """The predicted encounter of two aircraft, as of now.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ def predict(
     zone: TrafficZone | None,
     is_on_ground: bool,
 ) -> Prediction:
-    """Return what lies ahead of two aircraft.
+    """Return the predicted encounter of two aircraft.
 
     Parameters
     ----------

@@ -76,16 +76,16 @@ class Mobile:
     slow_speed_m_s: float
     """Mean of the speed over some seconds."""
     landed: bool = False
-    """Whether it has landed and not left the runway since."""
+    """True if it has landed and not left the runway since."""
 
     @property
     def on_ground(self) -> bool:
-        """Whether it is on the ground."""
+        """True if it is on the ground."""
         return self.altitude_m is None
 
     @property
     def is_rolling(self) -> bool:
-        """Whether it is faster, or accelerates more, than in taxiing."""
+        """True if it is faster, or accelerates more, than in taxiing."""
         gain_m_s = self.speed_m_s - self.slow_speed_m_s
         gathers = self.speed_m_s >= ACCELERATING_FROM_M_S and gain_m_s >= GAIN_M_S
         return self.speed_m_s >= ROLLING_M_S or (gathers and not self.landed)
@@ -140,7 +140,7 @@ class Use(NamedTuple):
 
     @property
     def is_climbing(self) -> bool:
-        """Whether it is a departure that has left the ground."""
+        """True if it is a departure that has left the ground."""
         return self.kind == "departure" and not self.mobile.on_ground
 
     def time_to_threshold_s(self, t_ns: int) -> float:

@@ -51,7 +51,7 @@ class SeenOnGround(NamedTuple):
 
     @property
     def is_animal(self) -> bool:
-        """Whether it is an animal, and neither vehicle nor aircraft."""
+        """True if it is an animal, and neither vehicle nor aircraft."""
         return self.label in ANIMALS
 
 

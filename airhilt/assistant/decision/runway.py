@@ -51,7 +51,7 @@ class RunwayWatch:
 
     @property
     def is_alert(self) -> bool:
-        """Whether there is a conflict to be judged again even without news."""
+        """True if there is a conflict to be judged again even without news."""
         return bool(self._ongoing)
 
     def runway_of_arrival(self, callsign: str) -> str | None:
@@ -101,7 +101,7 @@ class RunwayWatch:
             self._told += 1
             ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._told}", threat)
         ongoing.threat = threat
-        # What was said does not become surer by being heard again, and what is seen has lasted.
+        # Speech does not become more certain with time, and what is seen has lasted already.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
         if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):
             return []

@@ -62,7 +62,7 @@ class SeparationWatch:
 
     @property
     def is_alert(self) -> bool:
-        """Whether there is a conflict to be judged again even without news."""
+        """True if there is a conflict to be judged again even without news."""
         return bool(self._conflicts)
 
     # --- what is known ----------------------------------------------------------------------

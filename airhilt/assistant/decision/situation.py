@@ -42,7 +42,7 @@ class Obstacle(NamedTuple):
 
     @property
     def is_inside(self) -> bool:
-        """Whether it is in the area now."""
+        """True if it is in the area now."""
         return self.way.entry_m <= 0.0
 
 
@@ -80,7 +80,7 @@ class Situation:
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in roster}
-        """Whether each callsign is a vehicle."""
+        """Mark of each callsign that is a vehicle."""
         self._mobiles: dict[str, Mobile] = {}
         self._obstacles: dict[str, dict[str, Obstacle]] = {
             strip.name: {} for strip in self.aerodrome.strips

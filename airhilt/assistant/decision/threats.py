@@ -23,7 +23,7 @@ from airhilt.phraseology import Action
 PAPER_TIME_TO_GO_S = 8.0
 """Time to go in step (b) of the AIRHILT paper's ladder, in s (arXiv 2511.18718)."""
 BEHIND_M = 30.0
-"""Who is this far behind the user of a runway, in m, is no longer in its way."""
+"""Distance behind the user of a runway, in m, from which nobody is in its way."""
 STOPPING_MARGIN_M = 100.0
 """Nobody farther ahead than a landing's stopping distance and this, in m, is in its way."""
 WILDLIFE = "wildlife"

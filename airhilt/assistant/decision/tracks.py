@@ -37,7 +37,7 @@ class Track:
     cleared_m: float | None = None
     """Level that was last read back, or recommended, in m."""
     in_distress: bool = False
-    """Whether it is in distress, and goes where it can."""
+    """True if it is in distress, and goes where it can."""
 
     @classmethod
     def of(cls, report: AdsbReport, altitude_ft: float) -> Track:

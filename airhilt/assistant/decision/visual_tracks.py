@@ -138,7 +138,7 @@ class VisualTrack:
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether the belief has fallen so low that it is forgotten."""
+        """True if the belief has fallen so low that it is forgotten."""
         return len(self._looks) > 1 and self.belief < DOUBT
 
     @property

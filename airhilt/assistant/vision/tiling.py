@@ -47,7 +47,7 @@ class Piece(NamedTuple):
 
     found: Found
     is_cut: bool
-    """Whether its box ends where the tile does and the picture does not."""
+    """True if its box ends where the tile does and the picture does not."""
 
 
 def tiles_of(picture: Picture) -> list[Tile]:

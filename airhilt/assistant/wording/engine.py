@@ -1,4 +1,4 @@
-"""What a wording is."""
+"""The protocol of wordings."""
 
 from __future__ import annotations
 

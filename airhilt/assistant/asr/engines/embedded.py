@@ -11,10 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
@@ -68,7 +69,10 @@ class Card(BaseModel):
     """Calibration of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
     """Confidence below which words are left out."""
-    least_surest_word: Confidence
+    best_word_threshold: Annotated[
+        Confidence,
+        Field(validation_alias=AliasChoices("best_word_threshold", "least_surest_word")),
+    ]
     """Confidence that the best word must have; below it nobody speaks in the transmission."""
 
 
@@ -117,7 +121,7 @@ class Ctc:
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
         self._least = card.least_word_confidence
-        self._least_surest = card.least_surest_word
+        self._best_word_threshold = card.best_word_threshold
         self._roster: tuple[tuple[str, ...], Spotter] | None = None
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
@@ -138,10 +142,10 @@ class Ctc:
             (self._words[step.unit - 1], self._word(step.posterior))
             for step in self.path(self.posteriors(audio), callsigns)
         ]
-        surest = max((confidence for _, confidence in words), default=0.0)
+        best = max((confidence for _, confidence in words), default=0.0)
         kept = tuple(each for each in words if each[1] >= self._least)
-        if not kept or surest < self._least_surest:
-            return Recognised("", (), 1.0 - surest)
+        if not kept or best < self._best_word_threshold:
+            return Recognised("", (), 1.0 - best)
         whole = float(np.prod([confidence for _, confidence in words]))
         return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
 

@@ -43,7 +43,7 @@ LEAST_SCORE = 1e-4
 """Least score, and least distance of a score from 1, in the calibration."""
 THREADS = 2
 """Number of threads; a run waits while a picture is looked at, and two are faster."""
-UNSURE = 0.5
+DOUBTFUL = 0.5
 """Share of the threshold from which findings are reported, so that they can continue tracks."""
 
 
@@ -97,7 +97,7 @@ class EmbeddedDetector:
     path
         ONNX file, with its ``card.json`` beside it.
     threshold
-        Confidence below which nothing is reported; None: `UNSURE` times the card's.
+        Confidence below which nothing is reported; None: `DOUBTFUL` times the card's.
     threads
         Number of threads that share the work.
 
@@ -122,7 +122,7 @@ class EmbeddedDetector:
         self._classes = card.classes
         self._calibration = card.calibration
         self.threshold = card.threshold
-        self._threshold = UNSURE * card.threshold if threshold is None else threshold
+        self._threshold = DOUBTFUL * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._subject = f"detector {file}"
