@@ -61,11 +61,12 @@ class AudioRadio:
         first, draws = 0, f"channel/{on_air.utterance.id}"
         if on_air.is_open_ended:
             first, draws = max(begin - CONTEXT, 0), f"{draws}/{begin}"
+        others = [self._other(on_air, first, other, now_ns) for other in mixed_with]
         heard = self._channel.transmit(
             speech[first:],
             self._snr_db,
             stream(self._seed, draws),
-            [self._other(on_air, first, other, now_ns) for other in mixed_with],
+            [other for other in others if len(other.speech)],
             background,
         )
         if not is_over:

@@ -1,0 +1,485 @@
+"""A transmission opens, streams its audio while it lasts, and closes; then it comes as a whole."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from functools import partial
+from typing import Any, TypeVar, cast
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.audio.wav import SAMPLE_BYTES, from_pcm, to_pcm
+from airhilt.errors import SpeechError
+from airhilt.messages import (
+    Message,
+    SpokenTruth,
+    Transmission,
+    TransmissionChunk,
+    TransmissionClosed,
+    TransmissionOpened,
+)
+from airhilt.scenario.models import Radio
+from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.backends import FallbackRadio, RadioBackend, TextRadio
+from airhilt.sensors.radio.backends.audio import AudioRadio
+from airhilt.sensors.radio.channel import VhfChannel
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, OnAir, OpenMicrophone, Utterance
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sensors.radio.transmissions import Transmissions
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.sim.streams import stream
+from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, VoiceSpec
+
+SEED = 7
+SNR_DB = 10.0
+KHZ = 118_300
+
+M = TypeVar("M", bound=Message)
+
+
+class Buzzing:
+    """Voices that hum a text, 0.1 s for each of its letters."""
+
+    name = "buzzing"
+    version = "1"
+
+    def voice_of(self, speaker: str) -> VoiceSpec:
+        return VoiceSpec(speaker)
+
+    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
+        t = np.arange(len(text) * SAMPLE_RATE_HZ // 10) / SAMPLE_RATE_HZ
+        hum = np.sin(2 * np.pi * (300 + 40 * len(voice.name)) * t) * np.sin(2 * np.pi * 2 * t) ** 2
+        return (0.3 * hum).astype(np.float32)
+
+
+class Everywhere:
+    """Stations that are in reach of each other, except those that are out of reach."""
+
+    def __init__(self) -> None:
+        self.out_of_reach: set[str] = set()
+
+    def audible(self, speaker: str, listener: str) -> bool:
+        return not self.out_of_reach & {speaker, listener}
+
+    def received(self, speaker: str) -> bool:
+        return speaker not in self.out_of_reach
+
+    def background_of(self, name: str) -> str:
+        return "tower" if name == "Tower" else "cockpit"
+
+
+def audio_radio(profile: str = "vhf") -> AudioRadio:
+    return AudioRadio(Buzzing(), VhfChannel(PROFILES[profile]), SEED, SNR_DB)
+
+
+class Air:
+    """The transmissions of a run, and what was published of them."""
+
+    def __init__(self, backend: RadioBackend | None = None) -> None:
+        self.director = Director(Virtual())
+        self.stations = Everywhere()
+        self.published: list[tuple[str, Message, bytes]] = []
+        self.transmissions = Transmissions(
+            self.director,
+            Radio(snr_db=SNR_DB),
+            cast(Stations, self.stations),
+            backend or audio_radio(),
+            self.publish,
+            lambda ended: None,
+        )
+
+    def publish(self, key: str, message: Message, *, raw: bytes | None = None) -> None:
+        assert message.t_ns == self.director.now_ns
+        self.published.append((key, message, raw or b""))
+
+    def at(self, t_s: float, action: Callable[[], None]) -> None:
+        self.director.at(seconds_to_ns(t_s), action, Priority.SCRIPT)
+
+    def say(
+        self, t_s: float, name: str, seconds: float = 3.0, speaker: str = "", **more: Any
+    ) -> None:
+        text = "x" * round(10 * seconds)
+        said = Utterance(name, KHZ, speaker or name, None, text, **more)
+        self.at(t_s, partial(self.transmissions.say, said))
+
+    def press(
+        self, t_s: float, name: str, fed: list[tuple[float, Audio]], release_s: float
+    ) -> None:
+        """Press a button, feed samples at times, and release it."""
+        open_microphones: list[OpenMicrophone] = []
+
+        def begin() -> None:
+            said = Utterance(name, KHZ, name, None, "")
+            open_microphones.append(self.transmissions.press(said))
+
+        self.at(t_s, begin)
+        for at_s, samples in fed:
+            self.at(at_s, lambda samples=samples: open_microphones[0].feed(samples))
+        self.at(release_s, lambda: open_microphones[0].release())
+
+    def run(self, until_s: float | None = None) -> Air:
+        if until_s is not None:
+            self.director.at(seconds_to_ns(until_s), self.director.stop, Priority.OBSERVE)
+        self.director.run()
+        self.transmissions.close()
+        return self
+
+    def of(self, model: type[M], name: str) -> list[tuple[M, bytes]]:
+        return [
+            (message, raw)
+            for _, message, raw in self.published
+            if isinstance(message, model) and message.id == name  # type: ignore[attr-defined]
+        ]
+
+    def chunks(self, name: str) -> list[tuple[TransmissionChunk, bytes]]:
+        return self.of(TransmissionChunk, name)
+
+    def streamed(self, name: str) -> bytes:
+        return b"".join(pcm for _, pcm in self.chunks(name))
+
+    def whole(self, name: str) -> tuple[Transmission, bytes]:
+        (found,) = self.of(Transmission, name)
+        return found
+
+    def truth(self, name: str) -> SpokenTruth:
+        ((found, _),) = self.of(SpokenTruth, name)
+        return found
+
+    def closed(self, name: str) -> TransmissionClosed:
+        ((found, _),) = self.of(TransmissionClosed, name)
+        return found
+
+
+def spoken(seconds: float, frequency_hz: float = 440.0) -> Audio:
+    t = np.arange(round(seconds * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    return (0.3 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32)
+
+
+def packets(begin_s: float, audio: Audio, every_s: list[float]) -> list[tuple[float, Audio]]:
+    """Return what a microphone gives, when: its sound since the last time, at irregular times."""
+    fed, done, at_s = [], 0, begin_s
+    for wait_s in every_s:
+        at_s += wait_s
+        until = min(round((at_s - begin_s) * SAMPLE_RATE_HZ), len(audio))
+        fed.append((at_s, audio[done:until]))
+        done = until
+    return fed
+
+
+def check_stream(air: Air, name: str) -> None:
+    """Check what holds for every transmission that is received from beginning to end."""
+    whole, pcm = air.whole(name)
+    chunks = air.chunks(name)
+    assert air.streamed(name) == pcm
+    assert [chunk.seq for chunk, _ in chunks] == list(range(len(chunks)))
+    first_sample = 0
+    for chunk, raw in chunks:
+        assert chunk.first_sample == first_sample
+        assert len(raw) == SAMPLE_BYTES * chunk.samples <= SAMPLE_BYTES * SAMPLE_RATE_HZ // 2
+        assert hashlib.sha256(raw).hexdigest() == chunk.sha256
+        first_sample += chunk.samples
+        if chunk.t_ns < whole.t_end_ns:  # The squelch tail comes with the end.
+            assert chunk.t_ns >= whole.t_tx_ns + first_sample * SECOND_NS // SAMPLE_RATE_HZ
+    closed = air.closed(name)
+    assert closed.is_complete
+    assert (closed.samples, closed.sha256) == (whole.samples, whole.sha256)
+    assert (closed.t_tx_ns, closed.t_end_ns) == (whole.t_tx_ns, whole.t_end_ns)
+    assert (closed.t_ns, closed.snr_db) == (whole.t_end_ns, whole.snr_db)
+
+
+# --- calls of the script ------------------------------------------------------------------------
+
+
+def test_a_call_opens_streams_half_seconds_and_closes() -> None:
+    air = Air()
+    air.say(10.0, "call", 1.8)
+    air.run()
+    ((opened, raw),) = air.of(TransmissionOpened, "call")
+    assert (opened.t_ns, opened.t_tx_ns, raw) == (10 * SECOND_NS, 10 * SECOND_NS, b"")
+    chunks = air.chunks("call")
+    assert [chunk.t_ns / SECOND_NS for chunk, _ in chunks] == [10.5, 11.0, 11.5, 11.8]
+    assert [chunk.samples for chunk, _ in chunks[:3]] == [8_000, 8_000, 8_000]
+    check_stream(air, "call")
+    kinds = [type(message).__name__ for _, message, _ in air.published]
+    assert kinds == [
+        "TransmissionOpened", *["TransmissionChunk"] * 3, "SpokenTruth", "TransmissionChunk",
+        "TransmissionClosed", "Transmission",
+    ]  # fmt: skip
+    assert {key for key, *_ in air.published} == {
+        f"radio/{KHZ}/audio", f"radio/{KHZ}/tx", "truth/radio/call",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_whole_is_what_the_channel_makes_of_the_whole_call(profile: str) -> None:
+    air = Air(audio_radio(profile))
+    air.say(10.0, "call", 3.0)
+    _, pcm = air.run().whole("call")
+    voices = Buzzing()
+    speech = voices.synthesise("x" * 30, voices.voice_of("call"))
+    rng = stream(SEED, "channel/call")
+    heard = VhfChannel(PROFILES[profile]).transmit(speech, SNR_DB, rng, (), "cockpit")
+    assert pcm == to_pcm(heard)
+    check_stream(air, "call")
+
+
+def test_what_was_given_out_does_not_tell_of_a_call_that_comes_over_it_later() -> None:
+    alone, together = Air(), Air()
+    for air in (alone, together):
+        air.say(10.0, "first", 3.0)
+    together.say(11.2, "second", 3.0, listens_first=False)
+    alone.run()
+    together.run()
+    before = 2 * SAMPLE_BYTES * SAMPLE_RATE_HZ // 2
+    assert together.streamed("first")[:before] == alone.streamed("first")[:before]
+    assert together.streamed("first")[before:] != alone.streamed("first")[before:]
+    assert together.truth("first").blocked_by == ("second",)
+    for name in ("first", "second"):
+        check_stream(together, name)
+
+
+def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
+    streamed, known = Air(), Air()
+    for air in (streamed, known):
+        air.say(10.0, "first", 3.0)
+        air.say(11.2, "second", 3.0, listens_first=False)
+    streamed.run()
+    known.transmissions._receiver._stream = lambda on_air: None  # type: ignore[method-assign]
+    known.run()
+    for name in ("first", "second"):
+        assert streamed.whole(name) == known.whole(name)
+
+
+def test_a_call_that_the_end_of_the_run_cuts_off_is_as_long_as_it_was_on_the_air() -> None:
+    air = Air()
+    air.say(10.0, "call", 5.0)
+    air.run(until_s=12.2)
+    assert air.closed("call").t_end_ns == 12.2 * SECOND_NS
+    check_stream(air, "call")
+
+
+def test_nothing_is_streamed_of_a_speaker_who_is_out_of_reach() -> None:
+    air = Air()
+    air.stations.out_of_reach.add("far")
+    air.say(10.0, "far")
+    air.run()
+    assert [type(message) for _, message, _ in air.published] == [SpokenTruth]
+
+
+def test_a_speaker_who_is_lost_in_the_middle_of_a_call_leaves_what_was_heard_until_then() -> None:
+    air = Air()
+    air.say(10.0, "call", 3.0)
+    air.at(11.2, lambda: air.stations.out_of_reach.add("call"))
+    air.run()
+    closed = air.closed("call")
+    assert not closed.is_complete
+    assert closed.t_ns == 11.5 * SECOND_NS
+    assert closed.sha256 == hashlib.sha256(air.streamed("call")).hexdigest()
+    assert closed.samples == SAMPLE_RATE_HZ
+    assert not air.of(Transmission, "call")
+
+
+def test_a_speaker_who_comes_into_reach_in_the_middle_of_a_call_is_received_as_a_whole() -> None:
+    air = Air()
+    air.stations.out_of_reach.add("call")
+    air.say(10.0, "call", 3.0)
+    air.at(11.2, lambda: air.stations.out_of_reach.clear())
+    air.run()
+    assert air.whole("call")[0].samples > 3 * SAMPLE_RATE_HZ
+    assert not air.of(TransmissionOpened, "call")
+    assert not air.chunks("call")
+
+
+def test_a_stuck_microphone_is_streamed_like_any_transmission() -> None:
+    air = Air()
+    carrier = Utterance("stuck", KHZ, "AAL123", None, "")
+    air.at(10.0, partial(air.transmissions.transmit_carrier, carrier, 8.0))
+    air.say(12.0, "call", 3.0)
+    air.run()
+    assert air.truth("call").blocked_by == ("stuck",)
+    assert air.whole("stuck")[0].samples > 8 * SAMPLE_RATE_HZ
+    for name in ("call", "stuck"):
+        check_stream(air, name)
+
+
+# --- without sound ------------------------------------------------------------------------------
+
+
+def test_without_sound_a_call_opens_and_closes_without_chunks() -> None:
+    air = Air(TextRadio(160.0))
+    air.say(10.0, "call", 3.0)
+    air.run()
+    assert len(air.of(TransmissionOpened, "call")) == 1
+    assert not air.chunks("call")
+    closed = air.closed("call")
+    assert (closed.samples, closed.sha256, closed.is_complete) == (0, "", True)
+    assert air.whole("call")[0].samples == 0
+
+
+class Failing(AudioRadio):
+    """A radio whose channel fails once a time has come."""
+
+    def __init__(self, at_s: float) -> None:
+        super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, SNR_DB)
+        self._at_ns = seconds_to_ns(at_s)
+
+    def receive(self, on_air: OnAir, *rest: Any) -> bytes:
+        if self._now_ns(rest) >= self._at_ns:
+            raise SpeechError("worn out")
+        return super().receive(on_air, *rest)
+
+    @staticmethod
+    def _now_ns(rest: tuple[Any, ...]) -> int:
+        return int(rest[-1])
+
+
+def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:
+    lost: list[str] = []
+    air = Air(FallbackRadio(Failing(11.0), 160.0, lost.append))
+    air.say(10.0, "first", 3.0)
+    air.say(11.2, "second", 3.0, listens_first=False)
+    air.run()
+    assert lost == ["worn out"]
+    assert len(air.chunks("first")) >= 2
+    assert not air.closed("first").is_complete
+    assert air.whole("first")[1] == b""
+    assert not air.chunks("second")
+
+
+# --- a person's microphone ----------------------------------------------------------------------
+
+IRREGULAR_S = [0.02, 0.31, 0.05, 0.48, 0.02, 0.6, 0.1, 0.42]
+"""Waiting times between packets of a microphone; 2 s together."""
+
+
+def test_a_person_is_heard_while_speaking_and_as_a_whole_after_releasing_the_button() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
+    air.run()
+    whole, pcm = air.whole("AAL123")
+    assert (whole.t_tx_ns, whole.t_end_ns) == (10 * SECOND_NS, 12 * SECOND_NS)
+    check_stream(air, "AAL123")
+    assert [chunk.t_ns / SECOND_NS for chunk, _ in air.chunks("AAL123")][:3] == [10.5, 11.0, 11.5]
+    heard = from_pcm(pcm)[SAMPLE_RATE_HZ // 2 : 2 * SAMPLE_RATE_HZ]
+    spectrum = np.abs(np.fft.rfft(heard))
+    loudest_hz = np.fft.rfftfreq(len(heard), 1 / SAMPLE_RATE_HZ)[spectrum.argmax()]
+    assert loudest_hz == pytest.approx(440.0, abs=2.0)
+
+
+def test_a_persons_call_lasts_as_long_as_the_button_is_pressed_however_little_was_fed() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", packets(10.0, spoken(0.5), [0.25, 0.25]), 13.0)
+    air.run()
+    assert air.whole("AAL123")[0].t_end_ns == 13 * SECOND_NS
+    assert air.whole("AAL123")[0].samples > 3 * SAMPLE_RATE_HZ
+    check_stream(air, "AAL123")
+
+
+def test_a_persons_call_goes_on_until_all_that_was_fed_has_been_said() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", [(10.1, spoken(2.0))], 10.5)
+    air.run()
+    assert air.whole("AAL123")[0].t_end_ns == 12 * SECOND_NS
+    check_stream(air, "AAL123")
+
+
+def test_a_button_that_is_only_touched_gives_a_call_without_words() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", [], 10.0)
+    air.run()
+    assert air.whole("AAL123")[0].t_end_ns == 10 * SECOND_NS
+    check_stream(air, "AAL123")
+
+
+def test_who_hears_a_person_waits_until_the_button_is_released() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
+    air.say(11.0, "Tower")
+    air.run()
+    assert air.truth("Tower").t_tx_ns == seconds_to_ns(12.0 + GAP_S)
+    assert air.truth("Tower").blocked_by == ()
+
+
+def test_a_person_who_presses_during_a_call_blocks_it_and_both_are_told() -> None:
+    air = Air()
+    air.say(10.0, "Tower", 3.0)
+    air.press(11.2, "AAL123", packets(11.2, spoken(2.0), IRREGULAR_S), 13.2)
+    air.run()
+    assert air.truth("Tower").blocked_by == ("AAL123",)
+    assert air.truth("AAL123").blocked_by == ("Tower",)
+    for name in ("Tower", "AAL123"):
+        check_stream(air, name)
+    clear = Air()
+    clear.say(10.0, "Tower", 3.0)
+    alone = clear.run().whole("Tower")[1]
+    mixed = air.whole("Tower")[1]
+    assert mixed[: 2 * SAMPLE_RATE_HZ] == alone[: 2 * SAMPLE_RATE_HZ]
+    assert mixed != alone
+
+
+def test_two_persons_at_once_block_each_other() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
+    air.press(11.0, "DAL456", packets(11.0, spoken(2.0, 700.0), IRREGULAR_S), 13.0)
+    air.run()
+    assert air.truth("AAL123").blocked_by == ("DAL456",)
+    assert air.truth("DAL456").blocked_by == ("AAL123",)
+    for name in ("AAL123", "DAL456"):
+        check_stream(air, name)
+
+
+def test_a_person_who_speaks_at_the_end_of_the_run_is_cut_off() -> None:
+    air = Air()
+    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
+    air.run(until_s=11.3)
+    assert air.closed("AAL123").t_end_ns == 11.3 * SECOND_NS
+    check_stream(air, "AAL123")
+
+
+def test_a_microphone_whose_button_was_released_takes_no_more() -> None:
+    air = Air()
+    microphone = air.transmissions.press(Utterance("AAL123", KHZ, "AAL123", None, ""))
+    microphone.feed(spoken(0.1))
+    microphone.release()
+    microphone.release()
+    assert not microphone.is_open
+    with pytest.raises(ValueError, match="AAL123: the button has been released"):
+        microphone.feed(spoken(0.1))
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    calls=st.lists(
+        st.tuples(st.floats(0.0, 8.0), st.integers(1, 40), st.booleans(), st.booleans()),
+        min_size=1,
+        max_size=4,
+    ),
+    waits_s=st.lists(st.floats(0.001, 0.7), max_size=6),
+    until_s=st.floats(5.0, 20.0),
+)
+def test_whatever_is_on_the_air_the_chunks_are_the_whole(
+    calls: list[tuple[float, int, bool, bool]], waits_s: list[float], until_s: float
+) -> None:
+    air = Air()
+    for number, (at_s, tenths, listens, is_person) in enumerate(calls):
+        name = f"call{number}"
+        if is_person:
+            fed = packets(at_s, spoken(tenths / 10), waits_s)
+            air.press(at_s, name, fed, at_s + sum(waits_s) + 0.1)
+        else:
+            air.say(at_s, name, tenths / 10, listens_first=listens)
+    air.run(until_s)
+    opened = {
+        message.id for _, message, _ in air.published if isinstance(message, TransmissionOpened)
+    }
+    closed = {
+        message.id for _, message, _ in air.published if isinstance(message, TransmissionClosed)
+    }
+    for name in closed:
+        check_stream(air, name)
+    assert closed <= opened
