@@ -1,7 +1,7 @@
-"""Audio as bytes: PCM as it goes over the bus, and WAV files of it.
+"""WAV files.
 
-All audio of a run is 16 kHz, mono, 16 bits, little-endian. A file of anything else is refused
-and not converted, so that nobody measures a resampler without knowing.
+A file of anything but 16 kHz, mono, 16 bits is refused and not converted, so that nobody measures
+a resampler without knowing.
 """
 
 from __future__ import annotations
@@ -10,47 +10,9 @@ import io
 import wave
 from pathlib import Path
 
-import numpy as np
-
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
 from airhilt.files import replace_file
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
-
-FULL_SCALE = 32_768
-"""Of 16 bits."""
-SAMPLE_BYTES = 2
-
-
-def to_pcm(audio: Audio) -> bytes:
-    """Return samples as PCM; what is beyond full scale is clipped.
-
-    Raises
-    ------
-    SpeechError
-        They are not one row of finite numbers.
-    """
-    if audio.ndim != 1:
-        raise SpeechError(f"audio of shape {audio.shape}; expected one row of samples, mono")
-    if not np.isfinite(audio).all():
-        bad = int(np.flatnonzero(~np.isfinite(audio))[0])
-        raise SpeechError(
-            f"audio with {audio[bad]} at sample {bad}; expected finite numbers in [-1, 1]"
-        )
-    scaled = np.rint(audio.astype(np.float32) * FULL_SCALE)
-    return np.clip(scaled, -FULL_SCALE, FULL_SCALE - 1).astype("<i2").tobytes()
-
-
-def from_pcm(pcm: bytes) -> Audio:
-    """Return PCM as samples; `to_pcm` gives the same bytes again.
-
-    Raises
-    ------
-    SpeechError
-        The bytes are no whole number of samples.
-    """
-    if len(pcm) % SAMPLE_BYTES:
-        raise SpeechError(f"PCM of {len(pcm)} bytes; expected two bytes a sample, an even number")
-    return np.frombuffer(pcm, "<i2").astype(np.float32) / np.float32(FULL_SCALE)
 
 
 def encode_wav(audio: Audio) -> bytes:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
-from airhilt.audio.wav import SAMPLE_BYTES
+from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
 from airhilt.messages import (

@@ -10,7 +10,8 @@ import hashlib
 from contextlib import suppress
 from pathlib import Path
 
-from airhilt.audio.wav import encode_wav, from_pcm, read_wav, to_pcm
+from airhilt.audio.pcm import from_pcm, to_pcm
+from airhilt.audio.wav import encode_wav, read_wav
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import (
     AdvisoryAudio,

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.audio.wav import from_pcm, write_wav
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
+from airhilt.audio.wav import write_wav
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import recorded_pcm
 from airhilt.units import SECOND_NS
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,10 @@ import io
 import wave
 from typing import TYPE_CHECKING
 
-from airhilt.audio.wav import SAMPLE_BYTES, from_pcm, to_pcm
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record.audio import audio_file, recorded_pcm
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData

@@ -1,5 +1,6 @@
 """Voices: text to speech for those who talk on the radio, and for the assistant."""
 
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine, VoiceSpec
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.voices.engine import TtsEngine, VoiceSpec
 
 __all__ = ["SAMPLE_RATE_HZ", "Audio", "TtsEngine", "VoiceSpec"]

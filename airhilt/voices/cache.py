@@ -15,8 +15,8 @@ from contextlib import suppress
 from dataclasses import astuple
 from pathlib import Path
 
-from airhilt.audio.wav import from_pcm, to_pcm
-from airhilt.voices.engine import Audio, TtsEngine, VoiceSpec
+from airhilt.audio.pcm import Audio, from_pcm, to_pcm
+from airhilt.voices.engine import TtsEngine, VoiceSpec
 
 FORMAT = 1
 """Of the files; another one has other names."""

@@ -5,14 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-SAMPLE_RATE_HZ = 16_000
-"""Of all audio in a run."""
-
-Audio = NDArray[np.float32]
-"""Mono samples, shape (n,), in [-1, 1], at `SAMPLE_RATE_HZ`."""
+from airhilt.audio.pcm import Audio
 
 
 @dataclass(frozen=True, slots=True)

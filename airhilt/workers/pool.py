@@ -11,6 +11,7 @@ from typing import Any, Literal, Protocol
 
 from pydantic import ValidationError
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
     WORKER_OUTPUTS,
@@ -23,7 +24,6 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
-from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """First chunk of a key that stands for itself only; a wildcard there would take in truth."""

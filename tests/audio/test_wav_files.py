@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from airhilt.audio.wav import from_pcm, read_wav, to_pcm, write_wav
+from airhilt.audio.pcm import from_pcm, to_pcm
+from airhilt.audio.wav import read_wav, write_wav
 from airhilt.errors import SpeechError
 
 TONE = np.sin(np.arange(1_600) / 5).astype(np.float32) * np.float32(0.5)

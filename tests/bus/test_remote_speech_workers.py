@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from airhilt import run
-from airhilt.audio.wav import decode_wav, read_wav, to_pcm, write_wav
+from airhilt.audio.pcm import to_pcm
+from airhilt.audio.wav import decode_wav, read_wav, write_wav
 from airhilt.bus import free_endpoint
 from airhilt.cosim.replay import replay
 from airhilt.errors import RunFolderError
@@ -24,7 +25,6 @@ from processes import ActsAt, process
 
 HASHING_RECOGNISER = """
 import hashlib, sys
-from airhilt.audio.wav import to_pcm
 from airhilt.workers import serve
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker

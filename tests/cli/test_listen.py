@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.audio.wav import read_wav, to_pcm, write_wav
+from airhilt.audio.pcm import to_pcm
+from airhilt.audio.wav import read_wav, write_wav
 from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
 from airhilt.options import Options

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from airhilt import load
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import read_wav
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
@@ -18,7 +19,6 @@ from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import audio_file
 from airhilt.scenario.models import Scenario, StuckMicrophone
 from airhilt.units import SECOND_NS
-from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 DURATION_S = 75.0
 QUIET = Options(latency="fixed", assistant="none", speech=False)

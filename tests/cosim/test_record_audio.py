@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from airhilt import run
-from airhilt.audio.wav import read_wav, to_pcm
+from airhilt.audio.pcm import to_pcm
+from airhilt.audio.wav import read_wav
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
 from airhilt.errors import RunFolderError

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from airhilt.audio.wav import to_pcm, write_wav
+from airhilt.audio.pcm import to_pcm
+from airhilt.audio.wav import write_wav
 from airhilt.messages import (
     AdvisoryAudio,
     HearingTruth,

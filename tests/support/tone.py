@@ -6,7 +6,8 @@ import hashlib
 
 import numpy as np
 
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.audio.pcm import Audio
+from airhilt.voices.engine import VoiceSpec
 
 
 class Tone:

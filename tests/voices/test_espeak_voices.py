@@ -7,9 +7,10 @@ import sys
 import numpy as np
 import pytest
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.errors import SpeechError
 from airhilt.sensors.radio.channel import active
-from airhilt.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 from airhilt.voices.engines.espeak import Espeak
 
 CALL = "American one two three, runway zero one, cleared to land."

@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
-from airhilt.voices.engine import SAMPLE_RATE_HZ, VoiceSpec
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
+from airhilt.voices.engine import VoiceSpec
 from airhilt.voices.engines.espeak import ACCENTS, Espeak
 from asr_corpus import Talk
 

@@ -23,10 +23,10 @@ import jiwer
 import numpy as np
 
 from airhilt.assistant.asr.engines import asr_engine
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
 MISLEADING_DB = 10.0

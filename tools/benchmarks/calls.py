@@ -11,11 +11,11 @@ from pathlib import Path
 
 from airhilt import load, run
 from airhilt.assistant.asr.engines import asr_engine
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import read_wav
 from airhilt.library import names
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology import Instruction, parse_call, say
-from airhilt.voices.engine import SAMPLE_RATE_HZ
 from benchmarks.rounds import ROUNDS
 
 

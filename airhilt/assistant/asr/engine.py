@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from airhilt.voices.engine import Audio
+from airhilt.audio.pcm import Audio
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.fft import rfft
 from scipy.sparse import csr_array
 
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 
 BINS = 64
 BLOCK_FRAMES = 3_000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.assistant.asr.engine import AsrEngine
-from airhilt.audio.wav import SAMPLE_BYTES, from_pcm
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     Briefing,
@@ -17,7 +17,6 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.workers.protocol import Step
 
 

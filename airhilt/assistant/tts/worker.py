@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 
-from airhilt.audio.wav import SAMPLE_BYTES, to_pcm
+from airhilt.audio.pcm import SAMPLE_BYTES, to_pcm
 from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.messages import (
     AdvisoryAudio,
     HearingTruth,
@@ -19,7 +20,6 @@ from airhilt.report.sections import Content, Section
 from airhilt.report.sounds import Sounds
 from airhilt.report.text import cut
 from airhilt.units import SECOND_NS
-from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 BackgroundNoise = Literal["cockpit", "tower", "none"]
 """What else the microphone picks up."""

@@ -13,9 +13,9 @@ from functools import partial
 
 import numpy as np
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.sim import Director, Priority
 from airhilt.units import SECOND_NS, seconds_to_ns
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 GAP_S = 0.4
 """Pause in s before a call that had to wait for the frequency."""

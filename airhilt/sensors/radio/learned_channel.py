@@ -13,11 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
+from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
 from airhilt.onnx import open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import LEVEL_RMS, BackgroundNoise, Other, VhfChannel, active
-from airhilt.voices.engine import Audio
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
 TRIAL_SAMPLES = (1_600, 2_311)

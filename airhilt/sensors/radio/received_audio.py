@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from airhilt.audio.wav import SAMPLE_BYTES
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ
 from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.units import SECOND_NS
-from airhilt.voices.engine import SAMPLE_RATE_HZ
 
 CHUNK_SAMPLES = SAMPLE_RATE_HZ // 2
 """Most samples in a chunk: 0.5 s."""

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Iterable
 from functools import partial
 
-from airhilt.audio.wav import SAMPLE_BYTES
+from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.messages import (
     Transmission,
     TransmissionChunk,

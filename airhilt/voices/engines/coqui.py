@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from scipy.signal import resample_poly
 
+from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine, Package
 from airhilt.errors import SpeechError, first_line
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 
 MODEL_FILES = ("config.json", "model.pth", "vocab.json", "speakers_xtts.pth")
 """Of XTTS-v2, as its publisher names them."""

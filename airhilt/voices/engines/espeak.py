@@ -15,9 +15,10 @@ from importlib.metadata import version as installed_version
 import numpy as np
 from scipy.signal import resample_poly
 
+from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 
 ACCENTS = (
     "en-us",

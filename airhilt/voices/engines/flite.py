@@ -9,10 +9,11 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from airhilt.audio.pcm import Audio
 from airhilt.audio.wav import read_wav
 from airhilt.engines import Command, Engine
 from airhilt.errors import SpeechError
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 
 VOICES = ("slt", "rms", "awb", "kal16")
 """Built into Debian's ``flite``; each gives 16 kHz."""

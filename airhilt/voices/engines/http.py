@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 
+from airhilt.audio.pcm import Audio
 from airhilt.audio.wav import decode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
 from airhilt.services import USAGE, HttpService, is_service
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 20_000_000

@@ -11,11 +11,10 @@ import pytest
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker
-from airhilt.audio.wav import to_pcm
+from airhilt.audio.pcm import Audio, to_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Briefing, RosterEntry, Transcript, Transmission, Word
 from airhilt.sim.worker import Input, Output
-from airhilt.voices.engine import Audio
 from airhilt.workers.pool import parse_output, policy_of
 
 

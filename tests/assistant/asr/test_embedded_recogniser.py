@@ -17,10 +17,10 @@ import pytest
 import airhilt.assistant.asr.engines.embedded
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, best_path
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import Other, VhfChannel
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
 

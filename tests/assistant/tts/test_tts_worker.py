@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.tts import TtsWorker
-from airhilt.audio.wav import from_pcm
+from airhilt.audio.pcm import Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
 from airhilt.sim.worker import Input, Output
-from airhilt.voices.engine import Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 from tone import Tone
 
 

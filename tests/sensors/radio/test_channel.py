@@ -8,13 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.audio.wav import from_pcm
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
 from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 from airhilt.voices.engines.espeak import Espeak
 
 

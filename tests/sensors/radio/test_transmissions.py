@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.audio.wav import SAMPLE_BYTES, from_pcm, to_pcm
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     Message,
@@ -33,7 +33,7 @@ from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS, seconds_to_ns
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, VoiceSpec
+from airhilt.voices.engine import VoiceSpec
 
 SEED = 7
 SNR_DB = 10.0

@@ -20,11 +20,11 @@ from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.spotting import Spotted, Spotter
+from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
 from airhilt.messages import Confidence
 from airhilt.onnx import open_network
-from airhilt.voices.engine import Audio
 
 MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""

@@ -8,13 +8,13 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from airhilt.assistant.asr.engine import Recognised
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.audio.wav import encode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_problem
 from airhilt.messages import Confidence, Word
 from airhilt.phraseology.canonical import canonical
 from airhilt.services import USAGE, HttpService, is_service
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 1_000_000

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from airhilt.assistant.asr.engine import Recognised
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.engines import Engine, Package
 from airhilt.errors import SpeechError, first_line
 from airhilt.phraseology.canonical import canonical
 from airhilt.phraseology.telephony import TELEPHONY
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio
 
 MODEL_FILES = ("config.json", "model.bin", "tokenizer.json")
 """Files of a folder that CTranslate2's converter made from Whisper.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from airhilt.audio.wav import to_pcm
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
 from airhilt.sensors.radio.frequency_arbiter import OnAir
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
-from airhilt.voices.engine import SAMPLE_RATE_HZ, Audio, TtsEngine
+from airhilt.voices.engine import TtsEngine
 
 CONTEXT = 2 * SAMPLE_RATE_HZ
 """Samples before those that are given out, from which the level of speech is taken in a

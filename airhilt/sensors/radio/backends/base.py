@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from airhilt.audio.pcm import Audio
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.frequency_arbiter import OnAir
-from airhilt.voices.engine import Audio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.backends.base import RadioBackend
 from airhilt.sensors.radio.backends.text import TextRadio
 from airhilt.sensors.radio.frequency_arbiter import OnAir
-from airhilt.voices.engine import Audio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise
