@@ -127,6 +127,10 @@ class Engine(Generic[T_co]):
             return self.name
         return with_argument if self.is_argument_required else f"{self.name}, {with_argument}"
 
+    def lacks(self) -> str:
+        """Return how to get what is missing for it; empty if nothing is."""
+        return next((each.remedy() for each in self.requires if not each.found()), "")
+
     def accepts(self, argument: str) -> bool:
         """Return whether this may follow the name; empty stands for nothing."""
         return bool(self.argument) if argument else not self.is_argument_required
@@ -200,7 +204,11 @@ class EngineFamily(Family, Generic[T]):
 
     def expected(self) -> str:
         """Return what may be written, for error messages."""
-        *others, last = [*(engine.forms() for engine in self.members()), *self.also]
+        words = [
+            f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
+            for engine in self.members()
+        ]
+        *others, last = [*words, *self.also]
         return f"{', '.join(others)}, or {last}" if others else last
 
     def _suggestion(self, name: str) -> str:

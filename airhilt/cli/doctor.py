@@ -108,10 +108,8 @@ def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
     title = f"{family.word} {name}"
     try:
         engine: Engine[Any] = family.load(name)
-        for requirement in engine.requires:
-            if not requirement.found():
-                remedy = f"{engine.summary}; {requirement.remedy()}"
-                return Finding(title, "", needed, remedy)
+        if lacks := engine.lacks():
+            return Finding(title, "", needed, f"{engine.summary}; {lacks}")
         if engine.accepts("") and not engine.usage:
             engine.create("")
     except AirhiltError as error:

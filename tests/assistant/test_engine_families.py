@@ -21,6 +21,7 @@ from airhilt.assistant.wording.engines.template import Template
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
+from airhilt.engines import Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     ActorTruth,
@@ -323,7 +324,16 @@ def test_a_model_file_goes_to_the_detector_that_takes_such_files(tmp_path: Path)
     assert DETECTORS.choose(f"{tmp_path}/mine.onnx")[0].name == "embedded"
 
 
-def test_an_error_names_all_forms_and_the_nearest_name() -> None:
+def test_an_error_says_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Package, "found", lambda _: "")
+    with pytest.raises(
+        VisionError, match=r"yolo:FILE \(needs pip install 'airhilt\[yolo\]'\), the"
+    ):
+        DETECTORS.create("nobody")
+
+
+def test_an_error_names_all_forms_and_the_nearest_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Package, "found", lambda package: f"{package.name} 1")
     with pytest.raises(VisionError) as caught:
         DETECTORS.create("embeded")
     assert str(caught.value) == (
