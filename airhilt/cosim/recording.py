@@ -30,7 +30,7 @@ from airhilt.options import Options
 from airhilt.record import Logged, RunFolder, RunInfo
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import RecordedLatencies
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 from airhilt.services import is_service
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS

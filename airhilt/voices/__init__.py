@@ -1,4 +1,4 @@
-"""Voices: text to speech for those who talk on the radio, and for the assistant."""
+"""Voices: text to speech for the speakers on the radio, and for the assistant."""
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.voices.engine import TtsEngine, VoiceSpec

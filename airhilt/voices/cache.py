@@ -1,8 +1,8 @@
-"""Speech that has been synthesised before, kept in files.
+"""A cache of synthesised speech in files.
 
-A sweep says the same lines a thousand times. A file's name is a hash of all that decides its
-samples, so nothing in the cache is ever out of date, several processes may share it, and it may be
-deleted at any time.
+A sweep speaks the same lines a thousand times. The name of a file is a hash of everything that
+determines its samples. So nothing in the cache is ever out of date, several processes may share it,
+and it may be deleted at any time.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from airhilt.audio.pcm import Audio, from_pcm, to_pcm
 from airhilt.voices.engine import TtsEngine, VoiceSpec
 
 FORMAT = 1
-"""Of the files; another one has other names."""
+"""Version of the file format; it is part of the names."""
 MAXIMUM_BYTES = 512_000_000
-"""Of all files together, about 5,000 calls; those that were used longest ago go first."""
+"""Size of all files together, about 5,000 calls; the least recently used ones are deleted."""
 _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
@@ -33,17 +33,17 @@ def user_cache_folder() -> Path:
 
 
 class CachedTts:
-    """A `TtsEngine` that asks another one only for what it has not said before.
+    """A `TtsEngine` that asks another one only for texts that are not in the cache.
 
-    Samples are what 16 bits can hold, from the cache or not. A folder that cannot be written
-    costs time and nothing else.
+    Samples are rounded to 16 bits, from the cache or not. If the folder cannot be written, speech
+    is synthesised every time.
 
     Parameters
     ----------
     folder
-        Of the files; None takes `user_cache_folder`.
+        Folder of the files; None takes `user_cache_folder`.
     maximum_bytes
-        Kept when the cache is opened.
+        Size to which the cache is reduced when it is opened.
     """
 
     def __init__(
@@ -57,12 +57,12 @@ class CachedTts:
 
     @property
     def name(self) -> str:
-        """That of the engine."""
+        """Name of the engine."""
         return self._engine.name
 
     @property
     def version(self) -> str:
-        """That of the engine."""
+        """Version of the engine."""
         return self._engine.version
 
     def voice_of(self, speaker: str) -> VoiceSpec:
@@ -94,7 +94,7 @@ class CachedTts:
 
 
 def _read(path: Path) -> bytes | None:
-    """Return the PCM of a file and mark it as used; None if it is not there or damaged."""
+    """Return the PCM of a file and mark it as used; None if it is missing or damaged."""
     try:
         data = path.read_bytes()
     except OSError:
@@ -108,7 +108,7 @@ def _read(path: Path) -> bytes | None:
 
 
 def _write(path: Path, pcm: bytes) -> None:
-    """Write a file all or nothing: others see the old one, or the new one, or none."""
+    """Write a file all or nothing; other processes never see a part of it."""
     with suppress(OSError):
         number, partial = tempfile.mkstemp(".partial", path.stem, path.parent)
         try:

@@ -1,4 +1,4 @@
-"""What every engine of speech synthesis does."""
+"""The protocol of speech synthesis engines."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ class VoiceSpec:
     """The voice of one speaker."""
 
     name: str
-    """As the engine calls it."""
+    """Name of the voice in the engine."""
     rate: float = 1.0
-    """Of speaking; 1 is the engine's own."""
+    """Rate of speaking; 1 is the engine's own."""
     pitch: float = 1.0
-    """1 is the engine's own."""
+    """Pitch of the voice; 1 is the engine's own."""
 
 
 class TtsEngine(Protocol):
-    """Speaks a text. The same text and voice give the same samples every time."""
+    """Turns text into speech. The same text and voice give the same samples every time."""
 
     @property
     def name(self) -> str:
-        """Short name, in logs and keys of the cache."""
+        """Short name, for logs and the cache."""
         ...
 
     @property
     def version(self) -> str:
-        """Changes when the samples may."""
+        """Version; it changes whenever the samples may change."""
         ...
 
     def voice_of(self, speaker: str) -> VoiceSpec:
-        """Return the voice of a speaker: the same in every run, and unlike other speakers'."""
+        """Return the voice of a speaker, the same in every run."""
         ...
 
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:

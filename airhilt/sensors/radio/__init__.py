@@ -1,1 +1,1 @@
-"""The radio: what is said on a frequency, and what it means."""
+"""The radio: calls on frequencies, the channel between, and what listeners make of them."""

@@ -1,4 +1,4 @@
-"""What people say on the radio that no script has: they ask again, read back, correct."""
+"""Words of calls that no script has: readbacks, questions and corrections."""
 
 from __future__ import annotations
 
@@ -20,7 +20,13 @@ class Answers:
         return speak_readback(callsign, instructions, self.style)
 
     def say_again(self, by: str | None, to: str | None) -> str:
-        """Return the question for a call again, by one actor or to one; units have no callsign."""
+        """Return the request to repeat a call.
+
+        Parameters
+        ----------
+        by, to
+            Callsigns of the actor who asks and of the actor who is asked; None for a unit.
+        """
         if by is not None:
             return speak_say_again(by, self.style)
         return "Say again." if to is None else f"{speak_callsign(to, self.style)}, say again."

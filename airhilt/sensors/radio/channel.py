@@ -1,4 +1,4 @@
-"""The VHF channel: what becomes of speech between a microphone and somebody else's headset.
+"""The VHF channel between a microphone and the headset of a listener.
 
 Double-sideband amplitude modulation (ICAO Annex 10 volume III part II, 2.1 to 2.3): the audio
 band is narrow, the receiver's gain follows the carrier, noise comes through at a level that
@@ -23,42 +23,42 @@ from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
 
 BackgroundNoise = Literal["cockpit", "tower", "none"]
-"""What else the microphone picks up."""
+"""Noise around the microphone."""
 
 LEVEL_RMS = 0.1
-"""Of active speech in what is received: -20 dB of full scale, as ITU-T P.56 recommends levels."""
+"""RMS of active speech in the received audio: -20 dB of full scale, as ITU-T P.56 recommends."""
 _FRAME = SAMPLE_RATE_HZ // 50
 _MARGIN = 10.0**-1.59
-"""Below the active level by 15.9 dB, a frame is a pause (ITU-T P.56, 5.2)."""
+"""Power of a pause, as a fraction of that of active speech: -15.9 dB (ITU-T P.56, 5.2)."""
 PEAK_MODULATION = 0.85
-"""Of a carrier, which every transmitter reaches (ICAO Annex 10 volume III part II, chapter 2)."""
+"""Modulation depth that every transmitter reaches (ICAO Annex 10 volume III part II, chapter 2)."""
 MODULATION = PEAK_MODULATION * 10.0 ** (-12.0 / 20.0)
-"""Of a carrier by active speech, RMS: 0.21, as the peaks of speech lie some 12 dB above its level
-(10 to 13 dB in what this channel makes of synthetic voices)."""
+"""RMS modulation depth of active speech: 0.21, because the peaks of speech lie some 12 dB above its
+level (10 to 13 dB in what this channel makes of synthetic voices)."""
 _OPEN_MICROPHONE = PEAK_MODULATION / 3.0
-"""Of a carrier by noise, RMS. Where nobody speaks, the transmitter raises what there is: it is to
-keep its average modulation as high as it can (ibid.), and the peaks of noise are 3 sigma."""
+"""RMS modulation depth of noise where nobody speaks. A transmitter is to keep its average
+modulation as high as it can (ibid.), and the peaks of noise are 3 sigma."""
 WHISTLES_HZ = (400.0, 1_200.0)
-"""How far two carriers are apart. Airborne transmitters may be off by 5 parts in a million where
-channels are 8.33 kHz wide (ibid.): two of them by 1.2 kHz at most at 120 MHz."""
+"""Range of the difference between two carriers, in Hz. Airborne transmitters may be off by 5 parts
+in a million where channels are 8.33 kHz wide (ibid.): two of them by at most 1.2 kHz at 120 MHz."""
 
 
 class Other(NamedTuple):
-    """Somebody who talks at the same time."""
+    """Another transmission at the same time."""
 
     speech: Audio
     begin: int
-    """Sample of ours at which it begins."""
+    """Sample of the wanted transmission at which it begins."""
     whistle_hz: float
-    """How far the two carriers are apart."""
+    """Difference of the two carriers."""
 
 
 class Channel(Protocol):
-    """What takes speech from one to another."""
+    """What happens to speech between a speaker and a listener."""
 
     @property
     def name(self) -> str:
-        """In logs."""
+        """Name of the channel in logs."""
         ...
 
     def transmit(
@@ -69,21 +69,23 @@ class Channel(Protocol):
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",
     ) -> Audio:
-        """Return what is heard of ``speech``; at least as long as it.
+        """Return the received audio of ``speech``; it is at least as long.
 
         Parameters
         ----------
         snr_db
-            Speech to noise; None leaves noise out.
+            Signal-to-noise ratio; None leaves noise out.
         others
-            Who talks at the same time.
+            Transmissions at the same time.
+        background
+            Noise around the speaker.
         """
         ...
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What a receiver's detector gives, before gain control: wanted signal, and all else."""
+    """Output of a receiver's detector before gain control: the wanted signal, and all else."""
 
     signal: Audio
     noise: Audio
@@ -106,7 +108,7 @@ class VhfChannel:
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",
     ) -> Audio:
-        """Return what is heard: the call, noise, and the squelch tail."""
+        """Return the received audio: the call, noise, and the squelch tail."""
         profile = self._profile
         parts = self.parts(speech, snr_db, rng, others, background)
         heard = parts.signal + parts.noise + parts.interference
@@ -171,12 +173,12 @@ class VhfChannel:
     def interference(
         self, signal: Audio, others: Sequence[Other], rng: np.random.Generator
     ) -> Audio:
-        """Return what others add to a detected signal, and take from it, shape (count,).
+        """Return what other transmissions add to a detected signal, shape (count,).
 
-        Carriers add up before the detector, which gives out the envelope of their sum, as far as
-        one fully modulated carrier would drive it. All are taken to be received as strongly as
-        ours, and to come from cockpits. Their beat then is nearly the whole carrier, 7 to 9 dB
-        more than speech, which modulates it by `MODULATION`; speech comes through in shreds.
+        Carriers add up before the detector, which gives out the envelope of their sum, limited to
+        that of one fully modulated carrier. All are assumed to be received equally strongly, and
+        the others to come from cockpits. Their beat is nearly the whole carrier then, 7 to 9 dB
+        above speech, which modulates it by `MODULATION`; only parts of words come through.
         """
         count = len(signal)
         field = (1.0 + MODULATION / LEVEL_RMS * signal).astype(np.complex64)
@@ -203,7 +205,7 @@ class VhfChannel:
 
 
 def active(speech: Audio) -> NDArray[np.bool_]:
-    """Return where somebody speaks, shape (n,), after ITU-T P.56, method B, in frames of 20 ms."""
+    """Return which samples are speech, shape (n,): ITU-T P.56, method B, in frames of 20 ms."""
     count = -(-len(speech) // _FRAME)
     padded = np.zeros(count * _FRAME, np.float32)
     padded[: len(speech)] = speech
@@ -260,7 +262,7 @@ def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Au
 
 
 def _surroundings(count: int, background: BackgroundNoise, rng: np.random.Generator) -> Audio:
-    """Return the noise of a place, of power one: rumble and airflow, or a room's murmur."""
+    """Return the noise of a cockpit (rumble, airflow, hum) or of a tower, with power 1."""
     size = next_fast_len(count, real=True)
     frequency = np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ).astype(np.float32)
     corner = 400.0 if background == "cockpit" else 900.0
@@ -275,7 +277,7 @@ def _surroundings(count: int, background: BackgroundNoise, rng: np.random.Genera
 
 
 def _even_out(samples: Audio, strength: float) -> Audio:
-    """Return samples whose level is drawn towards `LEVEL_RMS`, as gain control does."""
+    """Return samples after gain control, which brings their level closer to `LEVEL_RMS`."""
     if strength == 0.0:
         return samples
     count = -(-len(samples) // _FRAME)

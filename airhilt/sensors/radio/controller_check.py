@@ -7,7 +7,7 @@ from collections.abc import Callable
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
-from airhilt.sensors.radio.frequency_arbiter import Utterance
+from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.world.actors.listening import Listener, commands_of

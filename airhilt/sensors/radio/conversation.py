@@ -17,9 +17,11 @@ from airhilt.scenario.models import Condition, RadioLine, Scenario
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
-from airhilt.sensors.radio.frequency_arbiter import GAP_S, OpenMicrophone, Utterance
+from airhilt.sensors.radio.frequency_arbiter import GAP_S
 from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
+from airhilt.sensors.radio.on_air import Utterance
+from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.radio_call import RadioCall, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript

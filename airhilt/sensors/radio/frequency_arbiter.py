@@ -8,14 +8,15 @@ the end, and neither notices (a transmitter does not receive).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
-from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.audio.pcm import Audio
+from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sim import Director, Priority
-from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.units import seconds_to_ns
 
 GAP_S = 0.4
 """Pause in s before a call that had to wait for the frequency."""
@@ -26,67 +27,6 @@ milliseconds."""
 
 Speak = Callable[[str, str], tuple[Audio | None, float]]
 """Returns the speech of a speaker's text, None without sound, and its duration in s."""
-
-
-@dataclass(frozen=True, slots=True)
-class Utterance:
-    """What somebody wants to say on a frequency."""
-
-    id: str
-    """Stable: the same in each run of a scenario in which it is said."""
-    frequency_khz: int
-    speaker: str
-    addressed: str | None
-    text: str
-    """Empty if nothing is said, or nobody knows what."""
-    in_reply_to: str | None = None
-    listens_first: bool = True
-    """False: it is said even if the frequency is busy."""
-
-
-@dataclass(slots=True, eq=False)
-class OnAir:
-    """One transmission."""
-
-    utterance: Utterance
-    t_tx_ns: int
-    end_ns: int | None
-    """Planned or real end; None while a person holds the button."""
-    speech: Audio | None
-    """What is said, as far as it is known; None without sound, and of a stuck microphone."""
-    is_carrier: bool = False
-    """Whether it is only a carrier, as a stuck microphone gives."""
-    is_open_ended: bool = False
-    """Whether its sound becomes known only while it lasts."""
-    overlapping: list[OnAir] = field(default_factory=list)
-    """Transmissions of others on the frequency at the same time, whoever hears them."""
-    waiting: list[Callable[[], None]] = field(default_factory=list)
-    """Attempts to speak that are made when it has ended."""
-
-    @property
-    def t_end_ns(self) -> int:
-        """End of a transmission that has ended, or whose end was planned.
-
-        Raises
-        ------
-        ValueError
-            The end is not known yet.
-        """
-        if self.end_ns is None:
-            raise ValueError(f"{self.utterance.id}: still on the air, and its end is not known")
-        return self.end_ns
-
-    def has_ended(self, now_ns: int) -> bool:
-        """Return whether it is over."""
-        return self.end_ns is not None and self.end_ns <= now_ns
-
-    def known_until_ns(self, now_ns: int) -> int:
-        """Return the time up to which its sound is known."""
-        if not self.is_open_ended or self.has_ended(now_ns):
-            return self.t_end_ns
-        if self.speech is None:
-            return now_ns
-        return self.t_tx_ns + len(self.speech) * SECOND_NS // SAMPLE_RATE_HZ
 
 
 class FrequencyArbiter:
@@ -222,53 +162,3 @@ class FrequencyArbiter:
         self._ended(on_air)
         for action in on_air.waiting:
             self._director.at(on_air.end_ns + seconds_to_ns(GAP_S), action, Priority.SCRIPT)
-
-
-class OpenMicrophone:
-    """Microphone of somebody who holds the transmit button: its sound is known as it comes.
-
-    Parameters
-    ----------
-    end
-        Ends the transmission.
-    """
-
-    def __init__(self, director: Director, on_air: OnAir, end: Callable[[], None]) -> None:
-        self._director = director
-        self._on_air = on_air
-        self._end = end
-        self._buffer = np.zeros(SAMPLE_RATE_HZ, np.float32)
-        self._count = 0
-        self.is_open = True
-
-    def feed(self, samples: Audio) -> None:
-        """Add what the microphone has picked up since the button was pressed, or last time.
-
-        Raises
-        ------
-        ValueError
-            The button has been released.
-        """
-        if not self.is_open:
-            raise ValueError(f"{self._on_air.utterance.id}: the button has been released")
-        count = self._count + len(samples)
-        if count > len(self._buffer):
-            self._buffer = np.resize(self._buffer, 2 * count)
-        self._buffer[self._count : count] = samples
-        self._count = count
-        self._on_air.speech = self._buffer[:count]
-
-    def release(self) -> None:
-        """End the transmission; if more was fed than time has passed, once that has been said.
-
-        What has not been fed by then is silence.
-        """
-        if not self.is_open:
-            return
-        self.is_open = False
-        said_until_ns = self._on_air.known_until_ns(self._director.now_ns)
-        if said_until_ns <= self._director.now_ns:
-            self._end()
-        else:
-            self._on_air.end_ns = said_until_ns
-            self._director.at(said_until_ns, self._end, Priority.SCRIPT)

@@ -1,4 +1,4 @@
-"""How well somebody with a headset understands a call in noise."""
+"""Model of how well a person with a headset understands a call in noise."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ UNDERSTOOD_SLOPE_DB = 1.4
 """Scale of the logistic curve: 18 % a decibel at its middle, within the 15 to 20 % of Plomp and
 Mimpen."""
 NOTICED_HALF_DB = -6.0
-"""SNR at which half of all calls are noticed as such by those whom they are for: an estimate, where
-half of those everyday sentences, so that many callsigns, come through."""
+"""SNR at which half of all calls are noticed by their addressees: an estimate. Half of those
+everyday sentences come through at this ratio, and so do many callsigns."""
 NOTICED_SLOPE_DB = 1.4
 MISHEARD_SHARE = 0.1
-"""Of the calls that are noticed and not understood, those that are taken for something else: an
-estimate. Most people know when they have not understood."""
+"""Share of the calls noticed but not understood that are taken for something else: an estimate.
+Most people know when they have not understood."""
 
 CONFUSED_WITH = {
     "five": "nine", "fife": "niner", "nine": "five", "niner": "fife",
     "two": "three", "three": "two", "tree": "two", "one": "nine", "four": "five", "six": "eight",
     "eight": "six", "seven": "zero", "zero": "seven", "left": "right", "right": "left",
 }  # fmt: skip
-"""What a word is taken for. Five and nine are why Annex 10 has "fife" and "niner" (volume II,
-5.2.1.4.3); the others are estimates."""
+"""Words, and the word that each is taken for. Five and nine are the reason for "fife" and "niner"
+in Annex 10 (volume II, 5.2.1.4.3); the others are estimates."""
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """What reached somebody of a call."""
+    """What a listener has heard of a call."""
 
     outcome: Outcome
     text: str
-    """Empty if nothing did; of an unsure listener, the words that he is unsure of."""
+    """Words that were heard, sure or not; empty if there are none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class HearingModel:
     seed: int
 
     def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
-        """Return what a listener makes of a transmission that nothing blocks."""
+        """Return what a listener hears of a transmission that is not blocked."""
         if snr_db is None:
             return Heard("understood", text)
         draws = stream(self.seed, f"hearing/{listener}/{transmission}").random(3)
@@ -70,12 +70,12 @@ class HearingModel:
 
 
 def probability_understood(snr_db: float) -> float:
-    """Return how probable it is that a call is understood as it was said."""
+    """Return the probability that a call is understood as it was said."""
     return _logistic((snr_db - UNDERSTOOD_HALF_DB) / UNDERSTOOD_SLOPE_DB)
 
 
 def probability_noticed(snr_db: float) -> float:
-    """Return how probable it is that somebody notices that a call is for him."""
+    """Return the probability that an addressee notices a call."""
     return _logistic((snr_db - NOTICED_HALF_DB) / NOTICED_SLOPE_DB)
 
 
@@ -84,7 +84,7 @@ def _logistic(x: float) -> float:
 
 
 def _misheard(text: str, draw: float) -> str | None:
-    """Return the text with one word taken for another; None if it has none that is."""
+    """Return the text with one word taken for another; None if it has no such word."""
     words = [
         found for found in re.finditer(r"[A-Za-z]+", text) if found[0].lower() in CONFUSED_WITH
     ]

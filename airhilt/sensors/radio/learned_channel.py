@@ -1,9 +1,9 @@
 """A radio channel that was learned from recordings, as an ONNX file that a user supplies.
 
 The model does to speech what radio and room did to it in its recordings (SimuGAN and its like):
-input ``[1, n]``, float32, 16 kHz, mono, in [-1, 1]; output of the same shape. It takes the place of
-the modulation of `VhfChannel`; noise at the chosen ratio, and those who talk at the same time,
-are those of the VHF channel, so that a sweep over SNR means the same with both.
+input ``[1, n]``, float32, 16 kHz, mono, in [-1, 1]; output of the same shape. It replaces the
+modulation of `VhfChannel`. Noise and other transmissions are added as in the VHF channel, so that a
+sweep over SNR means the same with both.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from airhilt.sensors.radio.channel import LEVEL_RMS, BackgroundNoise, Other, Vhf
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
 TRIAL_SAMPLES = (1_600, 2_311)
-"""Lengths that a model is tried with when it is loaded; the second is odd on purpose."""
+"""Numbers of samples that a model is tried with when it is loaded; the second is odd on purpose."""
 
 
 class LearnedChannel:
-    """A `Channel` that an ONNX model makes.
+    """A `Channel` whose modulation is an ONNX model.
 
     Raises
     ------
     SpeechError
-        The file is no such model.
+        The file is not a model of this kind.
     """
 
     def __init__(self, path: Path) -> None:
@@ -54,7 +54,7 @@ class LearnedChannel:
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",  # noqa: ARG002
     ) -> Audio:
-        """Return what is heard of ``speech``, as long as it; the model has its own background."""
+        """Return the received audio of ``speech``; the model has a background of its own."""
         noise = self._vhf.parts(speech, snr_db, rng).noise
         signal = self._signal(np.asarray(speech, np.float32))
         heard = signal + noise + self._vhf.interference(signal, others, rng)

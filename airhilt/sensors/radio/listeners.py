@@ -10,8 +10,8 @@ from typing import Literal
 from airhilt.messages import HearingTruth, Message, Transcript
 from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
-from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
 from airhilt.sensors.radio.hearing import HearingModel, Outcome
+from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority

@@ -8,7 +8,7 @@ from functools import partial
 from airhilt.scenario.models import Radio
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.controller_check import ControllerCheck
-from airhilt.sensors.radio.frequency_arbiter import Utterance
+from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 from airhilt.units import SECOND_NS
 
 CHUNK_SAMPLES = SAMPLE_RATE_HZ // 2

@@ -16,7 +16,7 @@ from airhilt.messages import (
 from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.received_audio import Chunk, ReceivedAudio
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority

@@ -1,4 +1,4 @@
-"""Who is on which frequency, and in whose reach."""
+"""Stations: who is on which frequency, and in reach of whom."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise
 
 GROUND_ANTENNA_M = 50.0 * FOOT
-"""Height of a unit's antenna, at the scene's centre: that of an ADS-B receiver by default."""
+"""Height of the units' antenna in m, the same as that of an ADS-B receiver by default."""
 
 
 class Stations:
     """Actors and units with their radios.
 
-    Somebody is on a frequency if a line of the script has him speak there, be addressed, or do
-    something.
+    An actor or a unit is on a frequency if a line of the script there is spoken by it, is
+    addressed to it, or has a command for it.
     """
 
     def __init__(
@@ -45,41 +45,41 @@ class Stations:
             )
 
     def on(self, frequency_khz: int) -> tuple[str, ...]:
-        """Return who is on a frequency, actors and units."""
+        """Return the names of the actors and units on a frequency."""
         return tuple(self._on.get(frequency_khz, ()))
 
     def actors_on(self, frequency_khz: int) -> tuple[str, ...]:
-        """Return the callsigns of the actors that are on a frequency."""
+        """Return the callsigns of the actors on a frequency."""
         return tuple(name for name in self.on(frequency_khz) if name in self._actors)
 
     def frequencies_of(self, name: str) -> tuple[int, ...]:
-        """Return the frequencies that somebody is on."""
+        """Return the frequencies of an actor or a unit, in kHz."""
         return tuple(frequency for frequency, names in self._on.items() if name in names)
 
     def is_actor(self, name: str) -> bool:
-        """Return whether somebody is an actor, not a unit."""
+        """Return whether a name is that of an actor, not of a unit."""
         return name in self._actors
 
     def is_there(self, name: str) -> bool:
-        """Return whether somebody can still speak and hear."""
+        """Return whether an actor or a unit still exists."""
         return self._place(name) is not None
 
     def bound_runway(self, name: str) -> str | None:
-        """Return the runway that an actor means to use."""
+        """Return the runway that an actor is going to use; None for others."""
         return self._actors[name].bound_runway if name in self._actors else None
 
     def is_crew(self, name: str) -> bool:
-        """Return whether somebody is the crew of an aircraft."""
+        """Return whether a name is that of an aircraft."""
         return name in self._actors and self._actors[name].category == "aircraft"
 
     def background_of(self, name: str) -> BackgroundNoise:
-        """Return what else the microphone of somebody picks up."""
+        """Return the noise around the microphone of an actor or a unit."""
         return "cockpit" if self.is_actor(name) else "tower"
 
     def audible(self, speaker: str, listener: str) -> bool:
-        """Return whether a listener is above the radio horizon of a speaker, and still there.
+        """Return whether a listener is above the radio horizon of a speaker, and both still exist.
 
-        All units share one site, which is where the run receives.
+        All units share one site, which is also that of the receiver.
         """
         if speaker == listener:
             return True
@@ -93,11 +93,11 @@ class Stations:
         )
 
     def received(self, speaker: str) -> bool:
-        """Return whether a speaker is in reach of the units' site."""
+        """Return whether a speaker is in reach of the receiver at the units' site."""
         return self.audible(speaker, "")
 
     def _place(self, name: str) -> Kinematics | None:
-        """Return where somebody is; None if he is no more."""
+        """Return the position of an actor or a unit; None if it exists no more."""
         actor = self._actors.get(name)
         if actor is None:
             return self._site

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from airhilt.scenario.models import Failure, StuckMicrophone
-from airhilt.sensors.radio.frequency_arbiter import Utterance
+from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns

@@ -9,12 +9,9 @@ from airhilt.messages import SpokenTruth, Transcript
 from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
-from airhilt.sensors.radio.frequency_arbiter import (
-    FrequencyArbiter,
-    OnAir,
-    OpenMicrophone,
-    Utterance,
-)
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
+from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.receiver import Receiver
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director

@@ -16,21 +16,22 @@ from airhilt.errors import SpeechError, first_line
 from airhilt.voices.engine import VoiceSpec
 
 MODEL_FILES = ("config.json", "model.pth", "vocab.json", "speakers_xtts.pth")
-"""Of XTTS-v2, as its publisher names them."""
+"""Files of XTTS-v2, as its publisher names them."""
 UP, DOWN = 2, 3
-"""From the 24 kHz of XTTS-v2 (``output_sample_rate`` of its config.json) to 16 kHz."""
+"""Resampling factors from the 24 kHz of XTTS-v2 (``output_sample_rate`` in its config.json) to
+16 kHz."""
 LANGUAGE = "en"
 _SEED_BYTES = 7
-"""Of what a generator of torch takes, below 64 bits with their sign."""
+"""Size of a seed for torch, whose generators take 64 bits with a sign."""
 
 
 class Coqui:
-    """Speaks with XTTS-v2. It has no pitch: that of a voice is not followed.
+    """Speaks with XTTS-v2, which ignores the pitch of a voice.
 
     Parameters
     ----------
     folder
-        With `MODEL_FILES`.
+        Folder with `MODEL_FILES`.
 
     Raises
     ------
@@ -86,7 +87,7 @@ class Coqui:
         return VoiceSpec(names[int.from_bytes(digest[:2]) % len(names)], round(rate, 3))
 
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
-        """Return the text as speech; what the model draws comes from text and voice."""
+        """Return the text as speech; the seed of the model comes from text and voice."""
         if voice.name not in self._speakers:
             raise SpeechError(
                 f"voice coqui: there is no voice {voice.name!r}; expected one of "
@@ -112,7 +113,7 @@ class Coqui:
 
 
 def _fingerprint(folder: Path) -> str:
-    """Return what tells one model from another without reading its gigabytes."""
+    """Return a hash of the sizes and times of a model's files, which are too large to read."""
     stats = [(folder / name).stat() for name in MODEL_FILES]
     text = repr([(stat.st_size, stat.st_mtime_ns) for stat in stats])
     return hashlib.sha256(text.encode()).hexdigest()[:12]

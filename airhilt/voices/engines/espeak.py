@@ -1,8 +1,8 @@
 """The embedded voices: espeak-ng, from the wheel ``espeakng-loader``.
 
-The library keeps state from one utterance to the next, even over `espeak_Terminate`, so that the
-same text would not give the same samples twice. Each utterance therefore has the library loaded
-anew, its random numbers seeded, and the library unloaded again.
+The library keeps state from one utterance to the next, even after `espeak_Terminate`, so that the
+same text would not give the same samples twice. Therefore each utterance loads the library anew,
+seeds its random numbers, and unloads it.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ ACCENTS = (
     "gmw/en-GB-x-gbclan",
     "gmw/en-GB-x-gbcwmd",
 )
-"""English accents of espeak-ng that its wheel carries."""
+"""English accents of espeak-ng in its wheel."""
 VARIANTS = ("m1", "m3", "m7", "f2", "f4", "Alex", "Annie", "Andy", "Lee", "steph", "Michael", "max")
-"""Timbres that stay intelligible over a radio."""
+"""Timbres that are intelligible over a radio."""
 LIBRARY_RATE_HZ = 22_050
 NORMAL_WORDS_PER_MINUTE = 175
 NORMAL_PITCH = 50

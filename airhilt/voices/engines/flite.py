@@ -1,4 +1,4 @@
-"""CMU Flite, by its command ``flite``: few voices, more natural than espeak-ng."""
+"""CMU Flite, by its command ``flite``: few voices, but more natural than espeak-ng."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 
 VOICES = ("slt", "rms", "awb", "kal16")
-"""Built into Debian's ``flite``; each gives 16 kHz."""
+"""Voices in Debian's ``flite``, all of 16 kHz."""
 TIMEOUT_S = 60.0
 
 
 class Flite:
-    """Speaks with flite, one process an utterance."""
+    """Speaks with flite; each utterance is a process."""
 
     name = "flite"
 

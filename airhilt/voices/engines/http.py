@@ -1,4 +1,4 @@
-"""Voices of a service: JSON ``{text, voice, rate, pitch}`` goes there, a WAV file comes back."""
+"""Voices of an HTTP service: the request is JSON, the answer a WAV file."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from airhilt.voices.engine import VoiceSpec
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 20_000_000
-"""Of one answer: ten minutes of speech."""
+"""Largest size of an answer: ten minutes of speech."""
 
 
 class HttpTts:
     """Speaks with a service that answers POST requests with 16 kHz, mono, 16-bit WAV.
 
-    A speaker's voice has the speaker's name, and the service makes of it what it likes, but the
-    same every time.
+    The voice of a speaker has the speaker's name. The service chooses what it sounds like, and
+    must choose the same every time.
 
     Parameters
     ----------
     version
-        Of the service's model: another one has its lines synthesised anew.
+        Version of the service's model; with another version, nothing comes from the cache.
     """
 
     name = "http"

@@ -13,7 +13,7 @@ from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
-from airhilt.sensors.radio.frequency_arbiter import OnAir, Utterance
+from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.voices.engines.espeak import Espeak
 
 

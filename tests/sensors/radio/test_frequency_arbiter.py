@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.sensors.radio.frequency_arbiter import GAP_S, REACTION_S, FrequencyArbiter, Utterance
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, REACTION_S, FrequencyArbiter
+from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 

@@ -27,7 +27,9 @@ from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends import FallbackRadio, RadioBackend, TextRadio
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import VhfChannel
-from airhilt.sensors.radio.frequency_arbiter import GAP_S, OnAir, OpenMicrophone, Utterance
+from airhilt.sensors.radio.frequency_arbiter import GAP_S
+from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority, Virtual

@@ -7,7 +7,7 @@ import numpy as np
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.voices.engine import TtsEngine

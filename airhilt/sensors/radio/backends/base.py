@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from airhilt.audio.pcm import Audio
 from airhilt.messages import Transcript
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise

@@ -10,7 +10,7 @@ from airhilt.errors import SpeechError
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.backends.base import RadioBackend
 from airhilt.sensors.radio.backends.text import TextRadio
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from airhilt.messages import Transcript
-from airhilt.sensors.radio.frequency_arbiter import OnAir
+from airhilt.sensors.radio.on_air import OnAir
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import BackgroundNoise
