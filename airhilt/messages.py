@@ -207,9 +207,13 @@ TransmissionAudio = Annotated[
 """What comes on ``radio/<freq_khz>/audio``."""
 
 
-EmitterCategory = Literal["A0", "A1", "A2", "A3", "A5", "C1", "C2"]
-"""DO-260B, 2.2.3.2.5.2: A1 light, A2 small, A3 large, A5 heavy aircraft; C1 emergency, C2 service
-surface vehicle; A0 no information."""
+EmitterCategory = Literal[
+    "A0", "A1", "A2", "A3", "A4", "A5", "A6", "A7",
+    "B0", "B1", "B2", "B3", "B4", "B6", "B7",
+    "C0", "C1", "C2", "C3", "C4", "C5",
+]  # fmt: skip
+"""ADS-B emitter category (DO-260B, 2.2.3.2.5.2): A1 light, A2 small, A3 large, A5 heavy aircraft,
+B6 unmanned aircraft, C1 emergency, C2 service surface vehicle; A0, B0, C0 no information."""
 
 
 class AdsbReport(Message):
@@ -314,8 +318,15 @@ class CockpitInstruments(Message):
     selected_airspeed_kt: int = Field(description="calibrated airspeed that is flown to, or held")
 
 
-VisibleClass = Literal["airplane", "truck", "bird", "deer", "coyote"]
-"""Classes of what cameras see, by the names that COCO has where it has one."""
+VisibleClass = Annotated[
+    str,
+    Field(
+        pattern=r"^[a-z][a-z0-9_-]{0,39}$",
+        description="class of what cameras see, by COCO's name where COCO has one",
+        examples=["airplane", "truck", "bird", "deer", "coyote"],
+    ),
+]
+"""Class of what cameras see. Each kind of actor has its own; a detector knows those on its card."""
 
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom in pixels; (0, 0) is the outer corner of the first pixel."""

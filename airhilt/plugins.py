@@ -88,5 +88,14 @@ class Family:
                 f"{type(error).__name__}: {error}"
             ) from error
         if not isinstance(member, self.protocol) or getattr(member, "name", name) != name:
-            raise self.error(f"{found[0].value} is no {self.word} named {name!r}: {member!r}")
+            lacks = ", ".join(self._missing(member))
+            raise self.error(
+                f"{found[0].value} is no {self.word} named {name!r}: {member!r}"
+                + (f" has no {lacks}" if lacks else "")
+            )
         return member
+
+    def _missing(self, member: object) -> list[str]:
+        """Return the public names that the protocol has and a member has not."""
+        names = [name for name in vars(self.protocol) if not name.startswith("_")]
+        return [name for name in names if not hasattr(member, name)]

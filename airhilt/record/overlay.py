@@ -21,6 +21,8 @@ COLOURS: dict[VisibleClass, Colour] = {
     "deer": (140, 255, 120),
     "coyote": (190, 255, 90),
 }
+OTHER_COLOUR: Colour = (255, 255, 255)
+"""Colour of the boxes of classes that are not in `COLOURS`."""
 SEVERITY_COLOURS: dict[Severity, Colour] = {
     Severity.INFO: (235, 235, 235),
     Severity.ADVISORY: (120, 200, 255),
@@ -110,7 +112,7 @@ class Overlay:
         return image
 
     def _draw_box(self, pen: ImageDraw.ImageDraw, detection: Detection, strength: float) -> None:
-        red, green, blue = COLOURS[detection.label]
+        red, green, blue = COLOURS.get(detection.label, OTHER_COLOUR)
         colour = round(red * strength), round(green * strength), round(blue * strength)
         left, top, right, bottom = detection.box
         outer = (left - AROUND_PX, top - AROUND_PX, right + AROUND_PX - 1, bottom + AROUND_PX - 1)

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -39,18 +38,6 @@ from airhilt.world.surface.kinds import load_kind
 
 SECTORS = 32
 """Sectors of a turn, at whose ends plots are published (EUROCONTROL ASTERIX category 034)."""
-
-
-UNKNOWN_CROSS_SECTION_M2 = 1.0
-"""Radar cross section of a kind that states none, in square metres: that of a person."""
-
-
-@runtime_checkable
-class Echoing(Protocol):
-    """A kind of vehicle or animal that states its radar cross section."""
-
-    @property
-    def radar_cross_section_m2(self) -> float: ...  # noqa: D102
 
 
 class RadarType:
@@ -251,8 +238,7 @@ def cross_section_m2(actor: Actor) -> float:
     """Return the radar cross section of an actor, in square metres."""
     if isinstance(actor.spec, AircraftSpec):
         return AIRCRAFT_CROSS_SECTION_M2[actor.emitter_category]
-    kind = load_kind(actor.spec.kind)
-    return kind.radar_cross_section_m2 if isinstance(kind, Echoing) else UNKNOWN_CROSS_SECTION_M2
+    return load_kind(actor.spec.kind).radar_cross_section_m2
 
 
 def _squawk(actor: Actor) -> str | None:

@@ -40,7 +40,7 @@ def goose(size: Size, beat: int | None = None) -> Mesh:
     return _bird(size, GOOSE_BACK, GOOSE_NECK, beat, sides=8)
 
 
-def flock(size: Size, count: int, beat: int | None = None) -> Mesh:
+def flock(size: Size, beat: int | None = None, *, count: int) -> Mesh:
     """Return small birds within an ellipsoid of the flock's size."""
     places = stream(count, "birds of a flock").normal(size=(count, 3))
     places /= np.linalg.norm(places, axis=1, keepdims=True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, animal_model, vehicle_model
+from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, kind_model
 from airhilt.shapes.mesh import Mesh
 
 MODELS = [
     *map(aircraft_model, ("737", "B747", "c172p", "c310")),
-    *map(vehicle_model, ("follow_me", "fire_truck", "snow_plough", "tug_with_aircraft")),
-    *map(animal_model, ("deer", "coyote", "goose")),
+    *map(kind_model, ("follow_me", "fire_truck", "snow_plough", "tug_with_aircraft")),
+    *map(kind_model, ("deer", "coyote", "goose")),
 ]
 
 

@@ -8,7 +8,7 @@ from airhilt import load
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
-from airhilt.sensors.cameras.scene.bodies import BodyState, Model, aircraft_model, vehicle_model
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model, aircraft_model, kind_model
 from airhilt.sensors.cameras.scene.builder import light_of, world_of
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.view import Intrinsics, Pose
@@ -28,7 +28,7 @@ class LandingScene:
         self._models: dict[str, Model] = {
             "737": aircraft_model("737"),
             "B747": aircraft_model("B747"),
-            "fire_truck": vehicle_model("fire_truck"),
+            "fire_truck": kind_model("fire_truck"),
         }
         nose = Mount("737", Pose.of((0.0, 17.5, 1.0), 0.0, -0.03), sees_own_aircraft=False)
         self._cameras = [

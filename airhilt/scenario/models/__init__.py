@@ -14,9 +14,7 @@ from airhilt.scenario.models.actors import (
     Reactions,
     Standing,
     Transponder,
-    VehicleAction,
     VehicleSpec,
-    WildlifeAction,
     WildlifeSpec,
 )
 from airhilt.scenario.models.adsb import Adsb, AdsbReceiver
@@ -129,10 +127,8 @@ __all__ = [
     "Turbulence",
     "UnassistedOutcome",
     "Uniform",
-    "VehicleAction",
     "VehicleSpec",
     "Weather",
-    "WildlifeAction",
     "WildlifeSpec",
     "Wind",
 ]

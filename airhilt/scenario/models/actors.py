@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from airhilt.commands import AircraftCommand, VehicleCommand, WildlifeCommand
+from airhilt.commands import AircraftCommand, Command
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
 from airhilt.scenario.models.base import Callsign, Model
 from airhilt.scenario.models.conditions import Condition
@@ -90,8 +90,6 @@ class Transponder(Model):
 
 
 AircraftAction = Annotated[AircraftCommand, Field(discriminator="action")]
-VehicleAction = Annotated[VehicleCommand, Field(discriminator="action")]
-WildlifeAction = Annotated[WildlifeCommand, Field(discriminator="action")]
 
 
 class AircraftSpec(Model):
@@ -121,7 +119,9 @@ class VehicleSpec(Model):
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
     kind: str = Field(description="such as follow_me", examples=["fire_truck"])
     initial: GroundStart
-    commands: tuple[VehicleAction, ...] = Field(default=(), description="carried out at the start")
+    commands: tuple[Command, ...] = Field(
+        default=(), description="carried out at the start; the kind says which it understands"
+    )
     driver: Reactions = Reactions(reaction_median_s=2.5)
     transponder: Transponder = Transponder(equipped=False)
 
@@ -130,7 +130,7 @@ class PlannedAction(Model):
     """Action of an animal, carried out once a condition is true."""
 
     when: Condition
-    command: WildlifeAction
+    command: Command
 
 
 class WildlifeSpec(Model):

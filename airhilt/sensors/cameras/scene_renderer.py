@@ -26,10 +26,11 @@ from airhilt.sensors.cameras.scene.bodies import BodyState, Model
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import World
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
-from airhilt.sensors.cameras.scene.lights import Light, Lights, Spot, shine
+from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
 from airhilt.sensors.cameras.scene.projected_box import Box, Outline
 from airhilt.sensors.cameras.scene.rain import Streaks
 from airhilt.sensors.cameras.view import Pose, View, Window
+from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
 
 FINENESS = ((900, 4), (2500, 3), (16_000, 2))

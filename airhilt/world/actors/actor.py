@@ -52,6 +52,9 @@ class Actor(Protocol):
     def emitter_category(self) -> EmitterCategory:
         """ADS-B emitter category that its transponder sends."""
 
+    def mesh(self, t_s: float) -> str:
+        """Return the name of the mesh that it shows at a time in seconds."""
+
     def command(self, command: Command) -> None:
         """Carry out a command.
 

@@ -5,22 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from airhilt.commands import Command, ContinueCommand, HoldPositionCommand, TaxiCommand
+from airhilt.commands import Command
+from airhilt.errors import ScenarioError
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition
 from airhilt.scenario.models import VehicleSpec
-from airhilt.units import KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
-from airhilt.world.actors.taxi_paths import taxi_path
 from airhilt.world.mover import Driven
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.kind import Kind
 
 
 @dataclass(frozen=True)
 class Driver:
-    """Carries out commands, and stops when an advisory says so."""
+    """A vehicle of the scenario with its driver, who does what drivers of its kind understand."""
 
     spec: VehicleSpec
+    kind: Kind[Driven]
     body: Driven
     site: ScenarioSite
     reactions: ReactionModel
@@ -31,7 +32,11 @@ class Driver:
     @property
     def emitter_category(self) -> EmitterCategory:
         """ADS-B emitter category that its transponder sends."""
-        return "C1" if "fire" in self.spec.kind else "C2"
+        return self.kind.emitter_category
+
+    def mesh(self, t_s: float) -> str:
+        """Return the name of the mesh that it shows at a time in seconds."""
+        return self.kind.mesh_of(self.body, t_s)
 
     def command(self, command: Command) -> None:
         """Carry out a command.
@@ -39,44 +44,42 @@ class Driver:
         Raises
         ------
         Unable
-            There is no way there, or drivers have no such command.
+            There is no way there, or drivers of this kind have no such command.
         """
+        if not isinstance(command, self.kind.understands):
+            raise Unable(f"unable, a driver does not {command.action.replace('_', ' ')}")
+        self._carry_out(command)
+
+    def _carry_out(self, command: Command) -> bool:
         try:
-            self._carry_out(command)
+            return self.kind.carry_out(self.body, command, self.site)
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
-
-    def _carry_out(self, command: Command) -> None:
-        match command:
-            case TaxiCommand(speed_kt=speed):
-                state = self.body.state
-                here = (state.latitude_rad, state.longitude_rad)
-                nose_m = self.body.dimensions.length_m / 2.0
-                path = taxi_path(self.site, here, command, nose_m)
-                self.body.drive(path, None if speed is None else speed * KNOT)
-            case HoldPositionCommand():
-                self.body.stop()
-            case ContinueCommand():
-                self.body.resume()
-            case _:
-                raise Unable(f"unable, a driver does not {command.action.replace('_', ' ')}")
+        except ScenarioError as error:
+            raise Unable(str(error)) from None
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the driver's reaction to an advisory; None if there is none."""
+        recommendation = advisory.recommendation
         if (
-            not advisory.active
-            or not isinstance(advisory.recommendation, HoldPosition)
+            recommendation is None
+            or not advisory.active
             or advisory.severity.rank < FOLLOWED_FROM.rank
-            or not self.reactions.complies(advisory.id)
         ):
             return None
-        return Reaction(self.reactions.delay_s(advisory, again=False), self._stop, "holds position")
-
-    def _stop(self) -> bool:
-        if self.body.phase != "driving":
-            return False
-        self.body.stop()
-        return True
+        command = self.kind.command_for(recommendation)
+        if command is None or not self.reactions.complies(advisory.id):
+            return None
+        does = (
+            "holds position"
+            if isinstance(recommendation, HoldPosition)
+            else f"follows {recommendation.action}"
+        )
+        return Reaction(
+            self.reactions.delay_s(advisory, again=False),
+            lambda: self._carry_out(command),
+            does,
+        )
 
     def attend(self) -> None:
         """Do nothing: nothing of a driver waits for its moment."""

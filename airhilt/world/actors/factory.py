@@ -127,14 +127,15 @@ class _Builder:
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
         reactions = ReactionModel(actor.callsign, actor.driver, self.seed)
-        driver = Driver(actor, body, self.site, reactions)
+        driver = Driver(actor, kind, body, self.site, reactions)
         for command in actor.commands:
             driver.command(command)
         return driver
 
     def _animal(self, actor: WildlifeSpec) -> Animal:
         place, heading = on_ground(actor.initial, self.site, 0.0)
-        body = load_kind(actor.kind, "wildlife").create(
+        kind = load_kind(actor.kind, "wildlife")
+        body = kind.create(
             place,
             heading,
             ground_m=self.site.ground_m,
@@ -142,4 +143,4 @@ class _Builder:
             seed=self._seed_of(f"wildlife/{actor.callsign}"),
             height_m=actor.height_ft * FOOT,
         )
-        return Animal(actor, body, self.site, self.actors)
+        return Animal(actor, kind, body, self.site, self.actors)

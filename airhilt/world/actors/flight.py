@@ -12,6 +12,9 @@ from airhilt.world.actors.actor import Reaction
 from airhilt.world.actors.crew import Crew
 from airhilt.world.flight.aircraft import Aircraft
 
+GEAR_DOWN_BELOW_M = 600.0
+"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
+11 km before the threshold."""
 EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
     "jet": "A3",
     "heavy_jet": "A5",
@@ -38,6 +41,10 @@ class Flight:
     def emitter_category(self) -> EmitterCategory:
         """ADS-B emitter category that its transponder sends."""
         return EMITTER_CATEGORIES[self.body.kind.category]
+
+    def mesh(self, t_s: float) -> str:  # noqa: ARG002
+        """Return the name of its mesh: with the gear down near the ground, or clean."""
+        return "gear" if self.body.state.height_agl_m < GEAR_DOWN_BELOW_M else "clean"
 
     def command(self, command: Command) -> None:
         """Give a command to the crew.

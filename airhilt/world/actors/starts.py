@@ -8,9 +8,9 @@ from airhilt.geodesy.positions import RunwayPosition
 from airhilt.geodesy.wgs84 import Place, azimuth, onward
 from airhilt.scenario.models import Airborne, GroundStart, HoldingShort, LinedUp, OnFinal, Standing
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.taxi_paths import NOSE_MARGIN_M
 from airhilt.world.flight.state import InitialCondition
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.ways import NOSE_MARGIN_M
 
 AIM_POINT_M = 300.0
 """Distance from the threshold to where the glide path meets the runway, in m (ICAO Annex 14

@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING
 
 from airhilt.commands import TaxiCommand
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.positions import HoldShortPosition
-from airhilt.geodesy.wgs84 import Place, azimuth, distance_m, onward
+from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.world.actors.actor import Unable
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
+from airhilt.world.surface.ways import taxi_way
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Exit, Hold
 
-NOSE_MARGIN_M = 3.0
-"""Distance between the nose and a hold line, in m."""
 HOLD_REACH_M = 150.0
 """Greatest distance from a hold-short position at which an aircraft lines up from it, in m."""
 TOUCHDOWN_M = 450.0
@@ -38,28 +36,9 @@ def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: flo
         There is no such path.
     """
     try:
-        end = site.place(command.to)
-        if command.off_taxiways:
-            return [here, end]
-        path = site.airport.taxi_route(here, end, command.via)
+        return taxi_way(site, here, command, nose_m)
     except ScenarioError as error:
         raise Unable(str(error)) from None
-    if isinstance(command.to, HoldShortPosition):
-        return shortened(path, nose_m + NOSE_MARGIN_M)
-    return path
-
-
-def shortened(path: list[Place], by_m: float) -> list[Place]:
-    """Return a path without its last ``by_m`` metres; its first place always remains."""
-    left = list(path)
-    while len(left) > 1:
-        length = distance_m(left[-2], left[-1])
-        if length > by_m:
-            back = azimuth(left[-1], left[-2])
-            return [*left[:-1], onward(left[-1], back, by_m)]
-        by_m -= length
-        left.pop()
-    return left
 
 
 def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:

@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from airhilt.commands import Command, MoveCommand, StandCommand
+from airhilt.commands import Command
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import relative
-from airhilt.geodesy.wgs84 import Place
-from airhilt.messages import Advisory
+from airhilt.messages import Advisory, EmitterCategory
 from airhilt.scenario.models import WildlifeSpec
-from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.mover import Creature
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.kind import Kind
 
 
 @dataclass(frozen=True)
@@ -23,13 +22,22 @@ class Animal:
     """Animal or flock of the scenario."""
 
     spec: WildlifeSpec
+    kind: Kind[Creature]
     body: Creature
     site: ScenarioSite
     others: Mapping[str, Actor]
     """All actors of the scenario, itself among them."""
     category: Literal["wildlife"] = "wildlife"
     bound_runway: None = None
-    emitter_category: Literal["A0"] = "A0"
+
+    @property
+    def emitter_category(self) -> EmitterCategory:
+        """ADS-B emitter category that a transponder on it would send."""
+        return self.kind.emitter_category
+
+    def mesh(self, t_s: float) -> str:
+        """Return the name of the mesh that it shows at a time in seconds."""
+        return self.kind.mesh_of(self.body, t_s)
 
     def command(self, command: Command) -> None:
         """Move as the plan says.
@@ -39,25 +47,12 @@ class Animal:
         Unable
             Animals have no such command, or there is no such place.
         """
-        match command:
-            case StandCommand():
-                self.body.stand()
-            case MoveCommand(gait=gait, to=to, height_ft=height):
-                try:
-                    self._move(gait, self.site.place(to), height * FOOT)
-                except (ValueError, ScenarioError) as error:
-                    raise Unable(str(error)) from None
-            case _:
-                raise Unable(f"animals do not {command.action.replace('_', ' ')}")
-
-    def _move(self, gait: Literal["walk", "run", "fly"], there: Place, height_m: float) -> None:
-        match gait:
-            case "walk":
-                self.body.walk_to(there)
-            case "run":
-                self.body.run_to(there)
-            case "fly":
-                self.body.fly_to(there, height_m)
+        if not isinstance(command, self.kind.understands):
+            raise Unable(f"animals do not {command.action.replace('_', ' ')}")
+        try:
+            self.kind.carry_out(self.body, command, self.site)
+        except (ValueError, ScenarioError) as error:
+            raise Unable(str(error)) from None
 
     def hear(self, advisory: Advisory) -> Reaction | None:  # noqa: ARG002
         """Return None: animals get no advisories."""

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import ClassVar, Literal, NamedTuple
-
-from pydantic import BaseModel, ConfigDict, Field, PositiveFloat
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from airhilt.geodesy.plane import Plane
 from airhilt.geodesy.wgs84 import Place
-from airhilt.shapes.sizes import Dimensions
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.vehicle_kind import VehicleKind
 
 STANDING_M_S = 1e-6
 """Slower than this is no movement."""
@@ -20,54 +20,6 @@ SAME_END_M = 1e-6
 """Nearer than this to the end of the path is there."""
 
 VehiclePhase = Literal["standing", "driving", "stopping"]
-
-
-class VehicleKind(BaseModel):
-    """A kind of ground vehicle: how large it is, and what it can do."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-    category: ClassVar[Literal["vehicle"]] = "vehicle"
-
-    name: str
-    description: str
-    source: str
-    """Where the numbers come from, and which of them are estimates."""
-    dimensions: Dimensions
-    cruise_m_s: PositiveFloat
-    """Driven at if no speed is asked for."""
-    maximum_m_s: PositiveFloat
-    acceleration_m_s2: PositiveFloat
-    braking_m_s2: PositiveFloat
-    lateral_m_s2: PositiveFloat
-    """Greatest acceleration across, in a corner."""
-    turning_radius_m: PositiveFloat
-    """Least, of the path of its middle."""
-    emitter_category: Literal["C1", "C2"] = Field(default="C2")
-    """DO-260B, 2.2.3.2.5.2: surface emergency or surface service vehicle."""
-    radar_cross_section_m2: PositiveFloat = 200.0
-    """Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to Radar
-    Systems, 3rd edition, table 2.2)."""
-
-    def create(
-        self,
-        place: Place,
-        heading_rad: float,
-        *,
-        ground_m: float,
-        tick_s: float,
-        seed: int = 0,  # noqa: ARG002
-        height_m: float = 0.0,
-    ) -> Vehicle:
-        """Return a vehicle of this kind; see `airhilt.world.surface.kinds.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin above the ground, or at no place.
-        """
-        if height_m != 0.0:
-            raise ValueError(f"height_m is {height_m}; a {self.name} does not fly")
-        return Vehicle(self, place, heading_rad, ground_m=ground_m, tick_s=tick_s)
 
 
 class _Stage(NamedTuple):

@@ -213,7 +213,7 @@ def test_a_network_without_a_card_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("card", "message"),
     [
-        ({"classes": ["airplane", "submarine"]}, "classes/1"),
+        ({"classes": ["airplane", "A submarine"]}, "classes/1"),
         ({"classes": []}, "classes"),
         ({"threshold": 2.0}, "threshold"),
     ],

@@ -128,7 +128,7 @@ class TestServiceThat:
             (b"", "Invalid JSON"),
             ([], "object"),
             ({}, "detections: Field required"),
-            ({"detections": [TRUCK | {"label": "dog"}]}, "detections/0/label"),
+            ({"detections": [TRUCK | {"label": "A dog"}]}, "detections/0/label"),
             ({"detections": [TRUCK | {"confidence": 1.5}]}, "detections/0/confidence"),
             ({"detections": [TRUCK | {"confidence": float("nan")}]}, "detections/0/confidence"),
             ({"detections": [TRUCK | {"box": [1, 2, 3]}]}, "detections/0/box"),

@@ -17,8 +17,7 @@ from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
 from airhilt.sensors.cameras.scene.bodies import (
     BodyState,
     aircraft_model,
-    animal_model,
-    vehicle_model,
+    kind_model,
 )
 from airhilt.sensors.cameras.scene.builder import light_of, world_of
 from airhilt.sensors.cameras.scene_renderer import Frame, SceneRenderer
@@ -35,8 +34,8 @@ RENDERERS = [
 MODELS = {
     "737": aircraft_model("737"),
     "c310": aircraft_model("c310"),
-    "fire_truck": vehicle_model("fire_truck"),
-    "deer": animal_model("deer"),
+    "fire_truck": kind_model("fire_truck"),
+    "deer": kind_model("deer"),
 }
 
 

@@ -19,11 +19,11 @@ from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.taxi_paths import (
     exit_for,
     hold_beside,
-    shortened,
     taxi_path,
 )
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.ways import shortened
 
 
 @cache

@@ -140,7 +140,7 @@ def test_imported_airports_are_what_the_importer_makes(icao: str, name: str) -> 
 
 def test_washington_is_what_its_tool_makes(tmp_path: Path) -> None:
     out = tmp_path / "kdca.json"
-    tool = runpy.run_path(str(ROOT / "tools" / "make_kdca.py"))
+    tool = runpy.run_path(str(ROOT / "tools" / "make" / "kdca.py"))
     tool["main"](str(RUNWAYS), str(FREQUENCIES), str(out))
     assert out.read_bytes() == library.find("airports", "kdca").read_bytes()
 

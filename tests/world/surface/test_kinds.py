@@ -25,7 +25,7 @@ THERE = Plane(HERE, 0.0).to_place(60.0, 80.0)
 @pytest.fixture
 def bus_and_drone() -> tuple[str, str]:
     """The files that the guide shows."""
-    bus, drone = re.findall(r"```python\n(.*?)```", GUIDE.read_text(), flags=re.DOTALL)
+    bus, _, drone = re.findall(r"```python\n(.*?)```", GUIDE.read_text(), flags=re.DOTALL)
     return bus, drone
 
 
@@ -47,10 +47,7 @@ def other_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[P
     installed = tmp_path / "my_package-1.0.dist-info"
     installed.mkdir()
     (installed / "METADATA").write_text("Metadata-Version: 2.1\nName: my-package\nVersion: 1.0\n")
-    declared = re.search(r"```toml\n(.*?)```", GUIDE.read_text(), flags=re.DOTALL)
-    assert declared is not None
-    _, line = declared[1].splitlines()
-    (installed / "entry_points.txt").write_text(f"[airhilt.kinds]\n{line.replace(chr(34), '')}\n")
+    (installed / "entry_points.txt").write_text("[airhilt.kinds]\ndrone = my_package.drone:KIND\n")
     monkeypatch.syspath_prepend(tmp_path)
     yield package
     for name in [name for name in sys.modules if name.split(".")[0] == "my_package"]:
@@ -133,6 +130,19 @@ def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(other_package: 
         load_kind("drone")
 
 
+def test_a_kind_that_lacks_something_is_told_what(other_package: Path) -> None:
+    (other_package / "drone.py").write_text(
+        "class Drone:\n"
+        "    name, category, label, emitter_category = 'drone', 'vehicle', 'drone', 'B6'\n"
+        "    radar_cross_section_m2, understands, dimensions = 0.01, (), None\n"
+        "    def create(self): ...\n"
+        "    def mesh_of(self): ...\n"
+        "KIND = Drone()\n"
+    )
+    with pytest.raises(ScenarioError, match=r"has no appearance, carry_out, command_for$"):
+        load_kind("drone")
+
+
 def test_what_is_no_kind_is_refused(other_package: Path) -> None:
     (other_package / "drone.py").write_text("KIND = 42\n")
     with pytest.raises(ScenarioError, match="no kind named 'drone': 42"):
@@ -157,7 +167,7 @@ def test_two_kinds_of_one_name_are_refused(
 
 
 def test_the_guide_lists_all_kinds() -> None:
-    table = GUIDE.read_text().split("|---|---|")[1].split("\n\n")[0]
+    table = GUIDE.read_text().split("|---|---|", 1)[1].split("\n\n")[0]
     folder = Path(kinds.__path__[0])
     assert set(re.findall(r"`(\w+)`", table)) == {
         path.stem for path in folder.glob("*.py") if path.stem != "__init__"

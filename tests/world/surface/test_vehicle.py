@@ -15,7 +15,8 @@ from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import CORNER_CUT_M
 from airhilt.world.surface.kinds import load_kind
-from airhilt.world.surface.vehicle import Vehicle, VehicleKind
+from airhilt.world.surface.vehicle import Vehicle
+from airhilt.world.surface.vehicle_kind import VehicleKind
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6

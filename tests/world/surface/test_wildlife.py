@@ -14,8 +14,9 @@ from airhilt.geodesy.plane import Plane
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
+from airhilt.world.surface.animal import GREATEST_SPREAD_RAD, AnimalBody
+from airhilt.world.surface.flocks import flock_aloft
 from airhilt.world.surface.kinds import load_kind
-from airhilt.world.surface.wildlife import GREATEST_SPREAD_RAD, AnimalBody, flock_aloft
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6

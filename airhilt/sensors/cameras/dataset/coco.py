@@ -11,7 +11,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -36,8 +36,10 @@ from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
-CLASSES: tuple[VisibleClass, ...] = get_args(VisibleClass)
-"""A category's id is its place here, from 1."""
+FIRST_CLASSES: tuple[VisibleClass, ...] = ("airplane", "truck", "bird", "deer", "coyote")
+"""Classes whose categories have the ids from 1, so that data sets of AIRHILT's own kinds agree.
+
+Classes of other kinds follow in the order of their names."""
 QUALITY = 95
 """Of the JPEGs; colours are not subsampled."""
 FAINTEST_PX = 0.5
@@ -220,7 +222,7 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
         The folder is not empty or cannot be written, or pictures cannot be drawn.
     """
     images: list[dict[str, Any]] = []
-    annotations: list[dict[str, Any]] = []
+    annotations: list[tuple[dict[str, Any], VisibleClass]] = []
     try:
         if folder.exists() and any(folder.iterdir()):
             raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
@@ -237,14 +239,21 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
                 for sighting in picture.frame.sightings:
                     if sighting.pixels >= FAINTEST_PX:
                         identity = len(annotations) + 1
-                        annotations.append(_annotation(identity, number, picture, sighting))
+                        annotation = _annotation(identity, number, picture, sighting)
+                        annotations.append((annotation, sighting.label))
         finally:
             if images:
+                classes = _classes(label for _, label in annotations)
                 document = {
                     "info": {"description": "AIRHILT", "version": __version__, **about},
                     "images": images,
-                    "annotations": annotations,
-                    "categories": [{"id": _category(name), "name": name} for name in CLASSES],
+                    "annotations": [
+                        {**annotation, "category_id": classes.index(label) + 1}
+                        for annotation, label in annotations
+                    ],
+                    "categories": [
+                        {"id": number, "name": name} for number, name in enumerate(classes, start=1)
+                    ],
                 }
                 data = json.dumps(document, separators=(",", ":")).encode()
                 replace_file(folder / "annotations.json", data)
@@ -252,12 +261,13 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
         raise CameraError(
             f"{folder}: cannot be written: {error.strerror}; make room, or choose another --out"
         ) from None
-    found = [CLASSES[annotation["category_id"] - 1] for annotation in annotations]
-    return {name: found.count(name) for name in CLASSES}
+    found = [label for _, label in annotations]
+    return {name: found.count(name) for name in _classes(found)}
 
 
-def _category(label: VisibleClass) -> int:
-    return CLASSES.index(label) + 1
+def _classes(found: Iterable[VisibleClass]) -> tuple[VisibleClass, ...]:
+    """Return the classes of a data set; a category's id is its place here, from 1."""
+    return (*FIRST_CLASSES, *sorted(set(found) - set(FIRST_CLASSES)))
 
 
 def _image(number: int, name: str, picture: Picture) -> dict[str, Any]:
@@ -289,7 +299,6 @@ def _annotation(identity: int, image: int, picture: Picture, sighting: Sighting)
     return {
         "id": identity,
         "image_id": image,
-        "category_id": _category(sighting.label),
         "bbox": [round(value, 2) for value in (left, top, right - left, bottom - top)],
         "area": round(sighting.pixels, 2),
         "segmentation": run_lengths(picture.frame.instance == actor),

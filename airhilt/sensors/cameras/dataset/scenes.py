@@ -22,8 +22,7 @@ from airhilt.sensors.cameras.scene.bodies import (
     BodyState,
     Model,
     aircraft_model,
-    animal_model,
-    vehicle_model,
+    kind_model,
 )
 from airhilt.sensors.cameras.scene.builder import air_and_sun
 from airhilt.sensors.cameras.scene.illumination import EXTINCTION, Illumination
@@ -60,8 +59,8 @@ _BIRDS = (("goose", 9, 1.6), ("flock", 7, 14.4))
 _GAME = (("deer", 14, 1.9), ("coyote", 12, 1.2))
 _MODELS: tuple[tuple[Callable[[str], Model], tuple[tuple[str, int, float], ...]], ...] = (
     (aircraft_model, _AIRCRAFT),
-    (vehicle_model, _VEHICLES),
-    (animal_model, (*_BIRDS, *_GAME)),
+    (kind_model, _VEHICLES),
+    (kind_model, (*_BIRDS, *_GAME)),
 )
 _EXTENT_M = {kind: extent for _, group in _MODELS for kind, _, extent in group}
 _OFTEN = {kind: often for _, group in _MODELS for kind, often, _ in group}

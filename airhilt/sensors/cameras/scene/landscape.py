@@ -17,7 +17,8 @@ from airhilt.errors import CameraError
 from airhilt.sensors.cameras.scene import markings, scenery
 from airhilt.sensors.cameras.scene.ground import Layer, cells, require_triangulation, ring, sheet
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.lights import Light, airport_lights
+from airhilt.sensors.cameras.scene.lights import airport_lights
+from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Colour, Mesh, join, srgb
 from airhilt.world.surface.layout import Layout
 

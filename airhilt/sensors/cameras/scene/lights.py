@@ -1,4 +1,4 @@
-"""Points of light: beside runways, on aircraft and on vehicles."""
+"""Points of light in pictures, and those beside runways and taxiways."""
 
 from __future__ import annotations
 
@@ -13,54 +13,21 @@ from shapely import Point
 
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.view import NEAR_M, Pose, View
-from airhilt.shapes.aircraft import wing_tip_m
-from airhilt.shapes.mesh import Colour, Floats, srgb
-from airhilt.shapes.sizes import Size
-from airhilt.world.flight.aircraft_type import AircraftType
+from airhilt.shapes.lights import BLUE, GREEN, LANDING_BEAM, RED, WHITE, Light
+from airhilt.shapes.mesh import Colour, Floats
 from airhilt.world.surface.layout import Layout
-
-WHITE = srgb(255, 244, 224)
-GREEN = srgb(40, 255, 120)
-RED = srgb(255, 40, 30)
-BLUE = srgb(60, 90, 255)
-AMBER = srgb(255, 170, 40)
 
 EDGE_SPACING_M = 60.0
 """ICAO Annex 14 volume I, 5.3.9.5: at most 60 m."""
 EDGE_CD = 3000.0
 THRESHOLD_CD = 5000.0
 TAXIWAY_CD = 20.0
-NAVIGATION_CD = 40.0
-"""14 CFR 25.1389: 40 cd ahead for position lights."""
-BEACON_CD = 400.0
-"""14 CFR 25.1401(f): at least 400 cd for anticollision lights."""
-STROBE_CD = 2000.0
-LANDING_CD = 300_000.0
-LANDING_BEAM = 60.0
-"""Sharpness of a landing light's beam: half of the light within some 9 degrees."""
-BEACON_HZ = 0.9
-STROBE_HZ = 1.0
-"""14 CFR 25.1401(c): 40 to 100 flashes a minute."""
-FLASH_PART = 0.12
 DAY_LUX = 3e-2
 NIGHT_LUX = 4e-6
 """Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
 GREATEST_RADIUS_PX = 9.0
 FAINTEST_LAMP = 0.02
 """Part of the light that saturates a pixel: what is fainter is not drawn."""
-
-
-class Light(NamedTuple):
-    """A point of light.
-
-    ``beam`` points where it shines most; None: it shines all round.
-    """
-
-    place_m: tuple[float, float, float]
-    colour: Colour
-    candela: float
-    beam: tuple[float, float, float] | None = None
-    beam_sharpness: float = LANDING_BEAM
 
 
 def airport_lights(layout: Layout) -> tuple[Light, ...]:
@@ -119,36 +86,6 @@ def _lamp(
     sharpness: float = LANDING_BEAM,
 ) -> Light:
     return Light((float(place[0]), float(place[1]), 0.4), colour, candela, beam, sharpness)
-
-
-def aircraft_lights(kind: AircraftType, t_s: float, landing: bool) -> Iterator[Light]:
-    """Yield the lights of an aircraft, in its own axes, that are on at an instant."""
-    half, at, tip_up = wing_tip_m(kind)
-    length = kind.dimensions.length_m
-    yield Light((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
-    yield Light((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)
-    yield Light((0.0, -0.5 * length, 0.5), WHITE, NAVIGATION_CD, (0.0, -1.0, 0.0), 0.8)
-    if (t_s * BEACON_HZ) % 1.0 < FLASH_PART:
-        top = 0.6 * kind.mesh.fuselage_diameter_m + 0.3
-        yield Light((0.0, 0.0, top), RED, BEACON_CD)
-        yield Light((0.0, 0.0, -top), RED, BEACON_CD)
-    if (t_s * STROBE_HZ + 0.5) % 1.0 < FLASH_PART:
-        for side in (-1.0, 1.0):
-            yield Light((side * half, at - 0.5, tip_up), WHITE, STROBE_CD)
-    if landing:
-        root = 0.14 * half if kind.category in ("jet", "heavy_jet") else 0.5 * half
-        for side in (-1.0, 1.0):
-            beam = (0.0, 0.998, -0.06)
-            yield Light((side * root, 0.12 * length, -0.3), WHITE, LANDING_CD / 2.0, beam)
-
-
-def vehicle_lights(size: Size, t_s: float) -> Iterator[Light]:
-    """Yield the flashing beacon and the headlamps of a vehicle, in its own axes."""
-    if (t_s * 1.3) % 1.0 < 0.35:
-        yield Light((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
-    for side in (-0.35, 0.35):
-        place = (side * min(size.span_m, 2.5), size.length_m / 2.0, 0.8)
-        yield Light(place, WHITE, 8000.0, (0.0, 1.0, -0.03), 20.0)
 
 
 class Spot(NamedTuple):

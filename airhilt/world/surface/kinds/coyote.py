@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.wildlife import AnimalKind
+from airhilt.world.surface.animal_kind import AnimalKind
 
 KIND = AnimalKind(
     name="coyote",
@@ -15,7 +16,9 @@ KIND = AnimalKind(
         "Radar cross section: that of a person (1 square metre; M. Skolnik, Introduction to "
         "Radar Systems, 3rd edition, table 2.2), by the 2/3 power of the mass."
     ),
+    label="coyote",
     dimensions=Dimensions(length_m=1.2, span_m=0.3, height_m=0.7),
+    mesh=animals.coyote,
     walk_m_s=1.6,
     run_m_s=17.9,
     acceleration_m_s2=4.5,

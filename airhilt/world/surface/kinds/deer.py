@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.wildlife import AnimalKind
+from airhilt.world.surface.animal_kind import AnimalKind
 
 KIND = AnimalKind(
     name="deer",
@@ -16,7 +17,9 @@ KIND = AnimalKind(
         "Radar cross section: that of a person, which weighs as much (M. Skolnik, Introduction "
         "to Radar Systems, 3rd edition, table 2.2)."
     ),
+    label="deer",
     dimensions=Dimensions(length_m=1.8, span_m=0.5, height_m=1.4),
+    mesh=animals.deer,
     walk_m_s=1.4,
     run_m_s=13.4,
     acceleration_m_s2=4.0,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import vehicles
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.vehicle import VehicleKind
+from airhilt.world.surface.vehicle_kind import VehicleKind
 
 KIND = VehicleKind(
     name="fire_truck",
@@ -15,11 +16,13 @@ KIND = VehicleKind(
         "across and the speed driven are estimates."
     ),
     dimensions=Dimensions(length_m=11.78, span_m=3.09, height_m=3.4),
+    mesh=vehicles.fire_truck,
+    label="truck",
+    emitter_category="C1",
     cruise_m_s=22.0,
     maximum_m_s=38.9,
     acceleration_m_s2=0.89,
     braking_m_s2=4.0,
     lateral_m_s2=2.0,
     turning_radius_m=16.0,
-    emitter_category="C1",
 )

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.wildlife import AnimalKind, Flight, flock_aloft, flock_on_the_ground
+from airhilt.world.surface.animal_kind import AnimalKind, Flight
+from airhilt.world.surface.flocks import flock_aloft, flock_on_the_ground
 
 COUNT = 300
 BIRD = Dimensions(length_m=0.21, span_m=0.37, height_m=0.2)
@@ -19,8 +23,10 @@ KIND = AnimalKind(
         "Radar cross section of a bird: that of the standard avian target (0.025 square metres,"
         " 0.5 kg; FAA AC 150/5220-25), by the 2/3 power of the mass."
     ),
+    label="bird",
     count=COUNT,
     dimensions=flock_on_the_ground(BIRD, COUNT, spacing_m=0.5),
+    mesh=partial(animals.flock, count=COUNT),
     walk_m_s=0.5,
     run_m_s=1.5,
     acceleration_m_s2=2.5,
@@ -31,6 +37,8 @@ KIND = AnimalKind(
     radar_cross_section_m2=COUNT * 0.007,
     flight=Flight(
         dimensions=flock_aloft(BIRD, COUNT, spacing_m=1.0),
+        mesh=partial(animals.flock, count=COUNT),
+        wing_beats_hz=9.0,
         speed_m_s=17.0,
         acceleration_m_s2=5.0,
         lateral_m_s2=8.0,

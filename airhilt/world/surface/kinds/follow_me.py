@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import vehicles
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.vehicle import VehicleKind
+from airhilt.world.surface.vehicle_kind import VehicleKind
 
 KIND = VehicleKind(
     name="follow_me",
@@ -14,6 +15,9 @@ KIND = VehicleKind(
         "accelerations are estimates."
     ),
     dimensions=Dimensions(length_m=5.8, span_m=2.1, height_m=1.9),
+    mesh=vehicles.follow_me,
+    label="truck",
+    emitter_category="C2",
     cruise_m_s=11.0,
     maximum_m_s=33.0,
     acceleration_m_s2=2.0,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.wildlife import AnimalKind, Flight
+from airhilt.world.surface.animal_kind import AnimalKind, Flight
 
 KIND = AnimalKind(
     name="goose",
@@ -13,11 +14,14 @@ KIND = AnimalKind(
         "Cornell Lab of Ornithology, All About Birds. 17.3 m/s is the airspeed of brent geese in "
         "autumn: M. Green and T. Alerstam, Journal of Avian Biology 31 (2000) 215-225. Geese climb "
         "less than 1 m/s for long (A. Hedenström and T. Alerstam, Journal of Experimental Biology "
-        "164 (1992) 19-38); 1.5 m/s for the short flights here, and all else, are estimates. "
+        "164 (1992) 19-38). About 4 wing beats a second: C. J. Pennycuick, Journal of Experimental "
+        "Biology 150 (1990) 171. 1.5 m/s for the short flights here, and all else, are estimates. "
         "Radar cross section: that of the standard avian target (0.025 square metres, 0.5 kg; "
         "FAA AC 150/5220-25), by the 2/3 power of the mass."
     ),
+    label="bird",
     dimensions=Dimensions(length_m=1.0, span_m=0.4, height_m=0.9),
+    mesh=animals.goose,
     walk_m_s=0.8,
     run_m_s=3.0,
     acceleration_m_s2=2.5,
@@ -28,6 +32,8 @@ KIND = AnimalKind(
     radar_cross_section_m2=0.1,
     flight=Flight(
         dimensions=Dimensions(length_m=1.0, span_m=1.6, height_m=0.5),
+        mesh=animals.goose,
+        wing_beats_hz=4.0,
         speed_m_s=17.3,
         acceleration_m_s2=3.0,
         lateral_m_s2=5.0,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from airhilt.shapes import vehicles
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.vehicle import VehicleKind
+from airhilt.world.surface.vehicle_kind import VehicleKind
 
 KIND = VehicleKind(
     name="snow_plough",
@@ -14,6 +15,9 @@ KIND = VehicleKind(
         "accelerations and the turning radius are estimates."
     ),
     dimensions=Dimensions(length_m=21.0, span_m=7.2, height_m=3.6),
+    mesh=vehicles.snow_plough,
+    label="truck",
+    emitter_category="C2",
     cruise_m_s=11.0,
     maximum_m_s=16.7,
     acceleration_m_s2=0.6,

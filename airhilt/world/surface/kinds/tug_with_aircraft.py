@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.vehicle import VehicleKind
+from airhilt.shapes import vehicles
+from airhilt.shapes.mesh import Mesh
+from airhilt.shapes.sizes import Dimensions, Size
+from airhilt.world.flight.aircraft_type import load_aircraft_type
+from airhilt.world.surface.vehicle_kind import VehicleKind
+
+
+def _mesh(size: Size) -> Mesh:
+    return vehicles.tug_with_aircraft(size, load_aircraft_type("737"))
+
 
 KIND = VehicleKind(
     name="tug_with_aircraft",
@@ -15,6 +23,9 @@ KIND = VehicleKind(
         "Accelerations and the turning radius are estimates."
     ),
     dimensions=Dimensions(length_m=49.5, span_m=35.8, height_m=12.5),
+    mesh=_mesh,
+    label="airplane",  # What is seen of it is the aircraft.
+    emitter_category="C2",
     cruise_m_s=4.0,
     maximum_m_s=6.9,
     acceleration_m_s2=0.3,

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
-
-from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
+from typing import TYPE_CHECKING, Literal
 
 from airhilt.geodesy.plane import Plane
 from airhilt.geodesy.wgs84 import Place
@@ -13,6 +11,9 @@ from airhilt.shapes.sizes import Dimensions
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.animal_kind import AnimalKind, Flight
 
 ARRIVED_M = 0.3
 """An animal on the ground that is nearer than this is there."""
@@ -43,111 +44,8 @@ TOUCHDOWN_M_S = 0.3
 LANDING_SPEED_SHARE = 0.5
 """Of the speed of flight, below `LANDING_HEIGHT_M` when landing."""
 LANDING_HEIGHT_M = 5.0
-FLOCK_PROPORTIONS = (2.8, 5.6)
-"""Middle and longest axis of a flock in the air against its thickness: M. Ballerini et al.,
-Empirical investigation of starling flocks, Animal Behaviour 76 (2008) 201-215. Which of the two
-points ahead is not settled there; here the flock is wider than long."""
-
 AnimalPhase = Literal["standing", "walking", "running", "flying", "fleeing"]
 Gait = Literal["walking", "running", "flying"]
-
-
-class Flight(BaseModel):
-    """How a bird flies."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-    dimensions: Dimensions
-    """In the air."""
-    speed_m_s: PositiveFloat
-    acceleration_m_s2: PositiveFloat
-    lateral_m_s2: PositiveFloat
-    """Greatest acceleration across, in a turn."""
-    climb_m_s: PositiveFloat
-    descent_m_s: PositiveFloat
-    height_m: PositiveFloat
-    """At which it flies from one place on the ground to another, or away from danger."""
-
-
-class AnimalKind(BaseModel):
-    """A kind of animal, or a flock of birds that moves as one."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-    category: ClassVar[Literal["wildlife"]] = "wildlife"
-
-    name: str
-    description: str
-    source: str
-    """Where the numbers come from, and which of them are estimates."""
-    count: PositiveInt = 1
-    """Of the animals that move as one."""
-    dimensions: Dimensions
-    """On the ground."""
-    walk_m_s: PositiveFloat
-    run_m_s: PositiveFloat
-    acceleration_m_s2: PositiveFloat
-    """Of getting faster and slower on the ground."""
-    lateral_m_s2: PositiveFloat
-    """Greatest acceleration across, in a turn on the ground."""
-    turn_rate_rad_s: PositiveFloat = math.pi
-    """Greatest, on the ground."""
-    wander_rad: float = Field(ge=0.0, le=1.0)
-    """Standard deviation of the direction."""
-    reaction_s: PositiveFloat
-    """Median, from the fright to the first step."""
-    flees_for_m: PositiveFloat
-    flight: Flight | None = None
-    """None if it does not fly."""
-    radar_cross_section_m2: PositiveFloat
-    """Radar cross section of all that move as one."""
-
-    def create(
-        self,
-        place: Place,
-        heading_rad: float,
-        *,
-        ground_m: float,
-        tick_s: float,
-        seed: int = 0,
-        height_m: float = 0.0,
-    ) -> AnimalBody:
-        """Return an animal of this kind; see `airhilt.world.surface.kinds.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin at no place, or in the air and does not fly.
-        """
-        return AnimalBody(
-            self,
-            place,
-            heading_rad,
-            ground_m=ground_m,
-            tick_s=tick_s,
-            seed=seed,
-            height_m=height_m,
-        )
-
-
-def flock_aloft(bird: Dimensions, count: int, spacing_m: float) -> Dimensions:
-    """Return the box around so many birds in the air, each in a cube of ``spacing_m``.
-
-    The proportions are `FLOCK_PROPORTIONS`; the box is never smaller than one bird.
-    """
-    length, span = FLOCK_PROPORTIONS
-    thickness = spacing_m * (count / (length * span)) ** (1.0 / 3.0)
-    return Dimensions(
-        length_m=max(length * thickness, bird.length_m),
-        span_m=max(span * thickness, bird.span_m),
-        height_m=max(thickness, bird.height_m),
-    )
-
-
-def flock_on_the_ground(bird: Dimensions, count: int, spacing_m: float) -> Dimensions:
-    """Return the box around so many birds on the ground, each on a square of ``spacing_m``."""
-    side = spacing_m * math.sqrt(count)
-    return Dimensions(
-        length_m=max(side, bird.length_m), span_m=max(side, bird.span_m), height_m=bird.height_m
-    )
 
 
 class AnimalBody:

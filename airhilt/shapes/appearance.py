@@ -1,0 +1,28 @@
+"""How a body looks: its meshes and its lights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from airhilt.shapes.lights import Light, no_lights
+from airhilt.shapes.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """How bodies of one kind look.
+
+    Attributes
+    ----------
+    meshes
+        All meshes that such a body may show, by their names; it shows one at a time.
+    lights
+        Yields the lights that are on at a time in seconds, with landing lights or without.
+    far
+        Coarser meshes of some of these names, for pictures in which the body is small.
+    """
+
+    meshes: Mapping[str, Mesh]
+    lights: Callable[[float, bool], Iterator[Light]] = no_lights
+    far: Mapping[str, Mesh] = field(default_factory=dict)
