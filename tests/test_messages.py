@@ -1,6 +1,9 @@
 """Every message on the bus is JSON with a schema, and says nothing that its schema does not."""
 
+from __future__ import annotations
+
 import json
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -149,32 +152,34 @@ EXAMPLES = {
 }  # fmt: skip
 
 
-def made(model, **changes):
+def made(model: type[Any], **changes: Any) -> Any:
     return model.model_validate(EXAMPLES[model.__name__] | changes)
 
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
-def test_a_message_survives_json(model):
+def test_a_message_survives_json(model: type[Any]) -> None:
     message = made(model)
     assert model.model_validate_json(message.model_dump_json()) == message
     assert model.model_validate(json.loads(message.model_dump_json())) == message
 
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
-def test_unknown_fields_are_refused(model):
+def test_unknown_fields_are_refused(model: type[Any]) -> None:
     with pytest.raises(ValidationError, match="Extra inputs are not permitted"):
         made(model, colour="red")
 
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=lambda model: model.__name__)
-def test_a_message_cannot_be_changed(model):
+def test_a_message_cannot_be_changed(model: type[Any]) -> None:
     message = made(model)
     with pytest.raises(ValidationError, match="frozen"):
         setattr(message, next(iter(model.model_fields)), 1)
 
 
 @pytest.mark.parametrize("model", BUS_MESSAGES.values(), ids=lambda model: model.__name__)
-def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(model):
+def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(
+    model: type[Any],
+) -> None:
     assert made(model, t_ns=5).t_ns == 5
     assert made(model).t_ns == 0
     with pytest.raises(ValidationError, match="greater than or equal to 0"):
@@ -187,7 +192,7 @@ def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(model
     [(AdsbReport, "latitude_deg"), (AdsbReport, "altitude_ft"), (ActorTruth, "altitude_m"),
      (Transcript, "confidence")],
 )  # fmt: skip
-def test_a_number_that_is_none_is_refused(model, field, value):
+def test_a_number_that_is_none_is_refused(model: type[Any], field: str, value: str) -> None:
     text = json.dumps(EXAMPLES[model.__name__] | {field: "HERE"}).replace('"HERE"', value)
     with pytest.raises(ValidationError):
         model.model_validate_json(text)
@@ -199,7 +204,7 @@ def test_a_number_that_is_none_is_refused(model, field, value):
     [("altitude", "altitude_ft"), ("altitude", "vertical_rate_fpm"), ("maintain", "altitude_ft"),
      ("turn", "degrees")],
 )  # fmt: skip
-def test_nobody_is_recommended_a_number_that_is_none(action, field, value):
+def test_nobody_is_recommended_a_number_that_is_none(action: str, field: str, value: str) -> None:
     parts = {
         "altitude": {"sense": "climb", "altitude_ft": 1.0, "vertical_rate_fpm": 1.0},
         "maintain": {"altitude_ft": 1.0},
@@ -210,7 +215,7 @@ def test_nobody_is_recommended_a_number_that_is_none(action, field, value):
         TypeAdapter(Recommendation).validate_json(text)
 
 
-def test_a_recommendation_is_told_by_its_action():
+def test_a_recommendation_is_told_by_its_action() -> None:
     adapter = TypeAdapter(Recommendation)
     for recommendation in (
         Climb(sense="descend", altitude_ft=33_000.0, vertical_rate_fpm=1_500.0),
@@ -222,7 +227,7 @@ def test_a_recommendation_is_told_by_its_action():
         adapter.validate_python({"action": "hover"})
 
 
-def test_severities_rise_from_info_to_warning():
+def test_severities_rise_from_info_to_warning() -> None:
     order = [Severity.INFO, Severity.ADVISORY, Severity.CAUTION, Severity.WARNING]
     assert [severity.rank for severity in order] == [0, 1, 2, 3]
     assert list(Severity) == order
@@ -247,12 +252,14 @@ def test_severities_rise_from_info_to_warning():
         (WorkerDescription, "inputs", []),
     ],
 )
-def test_what_cannot_be_is_refused(model, field, value):
+def test_what_cannot_be_is_refused(
+    model: type[Any], field: str, value: float | list[Any] | str
+) -> None:
     with pytest.raises(ValidationError):
         made(model, **{field: value})
 
 
-def test_there_is_a_schema_for_every_key():
+def test_there_is_a_schema_for_every_key() -> None:
     schemas = json_schemas()
     assert set(schemas) == set(MODELS)
     assert json.loads(json.dumps(schemas)) == schemas
@@ -262,7 +269,7 @@ def test_there_is_a_schema_for_every_key():
         assert schemas[key]["additionalProperties"] is False
 
 
-def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth():
+def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth() -> None:
     for first, model in WORKER_OUTPUTS.items():
         assert model in BUS_MESSAGES.values()
         assert first != "truth"
@@ -270,7 +277,7 @@ def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth():
 
 @settings(deadline=None)
 @given(st.text(max_size=60), st.floats(0.0, 1.0))
-def test_any_words_survive_json(text, confidence):
+def test_any_words_survive_json(text: str, confidence: float) -> None:
     message = made(Transcript, text=text, confidence=confidence)
     assert Transcript.model_validate_json(message.model_dump_json()) == message
 
@@ -278,6 +285,6 @@ def test_any_words_survive_json(text, confidence):
 @pytest.mark.parametrize(
     "box", [(5.0, 5.0, 5.0, 5.0), (30.0, 10.0, 8.0, 6.0), (1.0, 9.0, 8.0, 2.0)]
 )
-def test_a_detection_whose_box_has_no_room_is_refused(box):
+def test_a_detection_whose_box_has_no_room_is_refused(box: tuple[float, ...]) -> None:
     with pytest.raises(ValidationError, match="no width and height"):
         Detection(label="airplane", confidence=0.5, box=box)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -24,7 +25,7 @@ DURATION_S = 75.0
 QUIET = Options(latency="fixed", assistant="none", speech=False)
 
 
-def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **options: object):
+def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **options: object) -> Any:
     scenario = load(name)
     failures = (*scenario.failures, *failures)
     scenario = scenario.model_copy(update={"failures": failures, "duration_s": DURATION_S})
@@ -38,7 +39,7 @@ class Radio:
     def __init__(self, out: Path) -> None:
         log = list(read_log(out / "log.mcap"))
 
-        def all_of(prefix, model):
+        def all_of(prefix: Any, model: Any) -> Any:
             return [
                 model.model_validate_json(one.data) for one in log if one.key.startswith(prefix)
             ]

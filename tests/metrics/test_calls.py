@@ -1,12 +1,16 @@
 """The numbers of the radio of a run."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission
 from airhilt.metrics.calls import CallRecords
+from airhilt.metrics.summary import RadioStatistics
 from airhilt.units import SECOND_NS
 
 ROSTER = ("AAL123", "DAL456")
@@ -16,12 +20,21 @@ LANDING = "American one two three, runway zero one, cleared to land"
 class OnTheAir:
     """Calls, one after the other."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.calls = CallRecords()
         self.count = 0
 
-    def say(self, text, *heard, name=None, snr_db=None, blocked_by=(), samples=16_000,
-            engine="embedded", outcome=None):  # fmt: skip
+    def say(
+        self,
+        text: str,
+        *heard: str,
+        name: str | None = None,
+        snr_db: float | None = None,
+        blocked_by: tuple[Any, ...] = (),
+        samples: int | None = 16_000,
+        engine: str = "embedded",
+        outcome: str | None = None,
+    ) -> OnTheAir:
         self.count += 1
         name = name or f"call{self.count}"
         end_ns = self.count * 10 * SECOND_NS
@@ -45,25 +58,25 @@ class OnTheAir:
             self.calls.take(hearing)
         return self
 
-    def numbers(self, is_recognised=True):
+    def numbers(self, is_recognised: bool = True) -> RadioStatistics:
         return self.calls.statistics(ROSTER, is_recognised=is_recognised)
 
 
-def test_a_silent_radio_has_counts_of_none_and_measures_nothing():
+def test_a_silent_radio_has_counts_of_none_and_measures_nothing() -> None:
     numbers = OnTheAir().numbers()
     assert (numbers.transmissions, numbers.blocked, numbers.stuck_microphone) == (0, 0, 0)
     assert (numbers.say_agains, numbers.repeats, numbers.hearing) == (0, 0, {})
     assert numbers.wer is numbers.transcripts_missing is numbers.hallucinated is None
 
 
-def test_text_that_nobody_recognised_measures_no_recognition():
+def test_text_that_nobody_recognised_measures_no_recognition() -> None:
     numbers = OnTheAir().say(LANDING, LANDING, engine="text", samples=0).numbers(False)
     assert numbers.transmissions == 1
     assert numbers.calls == 0
     assert numbers.wer is numbers.slot_accuracy is numbers.transcripts_missing is None
 
 
-def test_recognised_calls_are_compared_with_what_was_said():
+def test_recognised_calls_are_compared_with_what_was_said() -> None:
     air = OnTheAir().say(LANDING, "american one two three runway zero one cleared to land")
     numbers = air.say(LANDING, "delta runway zero one cleared for takeoff").numbers()
     assert (numbers.calls, numbers.words) == (2, 20)
@@ -73,25 +86,25 @@ def test_recognised_calls_are_compared_with_what_was_said():
     assert (numbers.snr_db, numbers.by_snr, numbers.transcripts_missing) == (None, [], 0)
 
 
-def test_blocked_calls_are_counted_and_not_compared():
+def test_blocked_calls_are_counted_and_not_compared() -> None:
     air = OnTheAir().say(LANDING, "mumble", name="one", blocked_by=("two",))
     numbers = air.say(LANDING, name="two", blocked_by=("one",)).numbers()
     assert (numbers.transmissions, numbers.blocked, numbers.calls) == (2, 2, 0)
     assert numbers.transcripts_missing is None
 
 
-def test_a_call_without_a_transcript_is_missing_unless_nobody_could_have_made_one():
+def test_a_call_without_a_transcript_is_missing_unless_nobody_could_have_made_one() -> None:
     air = OnTheAir().say(LANDING, LANDING).say(LANDING).say(LANDING, samples=None)
     assert air.numbers().transcripts_missing == 1
     assert air.numbers(is_recognised=False).transcripts_missing is None
 
 
-def test_a_transcript_without_words_is_none_missing_but_leaves_out_every_word():
+def test_a_transcript_without_words_is_none_missing_but_leaves_out_every_word() -> None:
     numbers = OnTheAir().say(LANDING, "").numbers()
     assert (numbers.transcripts_missing, numbers.wer) == (0, 1.0)
 
 
-def test_words_of_a_stuck_microphone_are_hallucinated():
+def test_words_of_a_stuck_microphone_are_hallucinated() -> None:
     silent = OnTheAir().say("", "").numbers()
     assert (silent.stuck_microphone, silent.hallucinated, silent.calls) == (1, 0, 0)
     assert OnTheAir().say("", "").say("", "cleared to land").numbers().hallucinated == 1
@@ -99,7 +112,7 @@ def test_words_of_a_stuck_microphone_are_hallucinated():
     assert OnTheAir().say("", "cleared", blocked_by=("other",)).numbers().hallucinated is None
 
 
-def test_outcomes_of_hearing_say_agains_and_repeats_are_counted():
+def test_outcomes_of_hearing_say_agains_and_repeats_are_counted() -> None:
     air = OnTheAir().say(LANDING, outcome="unsure", name="landing")
     air.say("Say again for American one two three", outcome="understood")
     air.say(LANDING, outcome="understood", name="landing.repeat-1")
@@ -108,7 +121,7 @@ def test_outcomes_of_hearing_say_agains_and_repeats_are_counted():
     assert (numbers.say_agains, numbers.repeats) == (1, 1)
 
 
-def test_one_ratio_is_that_of_all_and_several_are_told_apart():
+def test_one_ratio_is_that_of_all_and_several_are_told_apart() -> None:
     wrong = "delta four five six"
     same = OnTheAir().say(LANDING, LANDING, snr_db=5.0).say(LANDING, wrong, snr_db=5.0).numbers()
     assert (same.snr_db, same.by_snr) == (5.0, [])
@@ -119,7 +132,7 @@ def test_one_ratio_is_that_of_all_and_several_are_told_apart():
     assert [one.callsign_accuracy for one in numbers.by_snr] == [0.0, 1.0, 1.0]
 
 
-def test_a_transcript_of_a_call_that_nobody_made_counts_for_nothing():
+def test_a_transcript_of_a_call_that_nobody_made_counts_for_nothing() -> None:
     air = OnTheAir()
     stray = Transcript(
         id="stray", frequency_khz=119_100, t_tx_ns=0, t_end_ns=0, text="hello", confidence=1.0,
@@ -129,6 +142,6 @@ def test_a_transcript_of_a_call_that_nobody_made_counts_for_nothing():
     assert (air.numbers().transmissions, air.numbers().calls) == (0, 0)
 
 
-def test_a_run_without_speech_does_not_load_what_compares_words():
+def test_a_run_without_speech_does_not_load_what_compares_words() -> None:
     code = "import sys, airhilt.cosim.simulation; sys.exit('jiwer' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

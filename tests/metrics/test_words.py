@@ -1,5 +1,7 @@
 """How transcripts are compared with what was said."""
 
+from __future__ import annotations
+
 from collections import Counter
 
 import pytest
@@ -25,21 +27,21 @@ ROSTER = ("AAL123", "DAL456", "N123AB")
         ("taxi via B5", "taxi via bravo five"),
     ],
 )
-def test_the_same_words_are_the_same_however_they_are_written(one, other):
+def test_the_same_words_are_the_same_however_they_are_written(one: str, other: str) -> None:
     assert in_words(one) == in_words(other)
 
 
-def test_words_that_only_sound_alike_are_other_words():
+def test_words_that_only_sound_alike_are_other_words() -> None:
     assert in_words("cleared two land") != in_words("cleared to land")
     assert score("cleared to land", "cleared two land", ROSTER).errors == 1
 
 
 @pytest.mark.parametrize("nothing", ["", "  ", "...", ", - ."])
-def test_nothing_has_no_words(nothing):
+def test_nothing_has_no_words(nothing: str) -> None:
     assert in_words(nothing) == []
 
 
-def test_texts_are_laid_side_by_side():
+def test_texts_are_laid_side_by_side() -> None:
     stretches = align("American one two three, go around", "american two three go around now")
     assert [(one.kind, one.said, one.heard) for one in stretches] == [
         ("equal", ("american",), ("american",)),
@@ -54,18 +56,20 @@ def test_texts_are_laid_side_by_side():
     ("said", "heard", "errors"),
     [("", "", 0), ("", "cleared to land", 3), ("cleared to land", "", 3), ("one", "two three", 2)],
 )
-def test_words_that_are_wrong_left_out_or_too_many_are_errors(said, heard, errors):
+def test_words_that_are_wrong_left_out_or_too_many_are_errors(
+    said: str, heard: str, errors: int
+) -> None:
     assert sum(one.errors for one in align(said, heard)) == errors
 
 
-def test_a_call_recognised_word_by_word_has_all_its_slots():
+def test_a_call_recognised_word_by_word_has_all_its_slots() -> None:
     text = "American one two three, runway zero one, cleared to land"
     right = score(text, text.lower().replace(",", ""), ROSTER)
     assert (right.words, right.errors, right.callsign_found) == (10, 0, True)
     assert (right.slots, right.slots_found, right.false_slots) == (2, 2, 0)
 
 
-def test_a_slot_with_another_value_is_missed_and_another_one_is_false():
+def test_a_slot_with_another_value_is_missed_and_another_one_is_false() -> None:
     wrong = score(
         "American one two three, runway zero one, cleared to land",
         "american one two three runway one niner cleared to land",
@@ -74,7 +78,7 @@ def test_a_slot_with_another_value_is_missed_and_another_one_is_false():
     assert (wrong.slots, wrong.slots_found, wrong.false_slots) == (2, 1, 1)
 
 
-def test_a_callsign_is_found_as_the_roster_knows_it():
+def test_a_callsign_is_found_as_the_roster_knows_it() -> None:
     said = "American one two three, turn left heading two seven zero"
     assert score(said, "american won two three turn left", ROSTER).has_callsign
     other = score(said, "delta four five six turn left heading two seven zero", ROSTER)
@@ -83,7 +87,7 @@ def test_a_callsign_is_found_as_the_roster_knows_it():
     assert (stranger.has_callsign, stranger.callsign_found) == (False, False)
 
 
-def test_the_slots_of_a_call_are_those_of_all_its_instructions():
+def test_the_slots_of_a_call_are_those_of_all_its_instructions() -> None:
     call = parse_call(
         "American one two three, climb and maintain eight thousand, turn right heading zero niner "
         "zero, contact departure one one eight decimal niner five",
@@ -95,7 +99,7 @@ def test_the_slots_of_a_call_are_those_of_all_its_instructions():
     )  # fmt: skip
 
 
-def test_shares_of_nothing_are_not_known():
+def test_shares_of_nothing_are_not_known() -> None:
     nothing = recognition([], None)
     assert (nothing.calls, nothing.words) == (0, 0)
     assert nothing.wer is nothing.callsign_accuracy is nothing.slot_accuracy is None
@@ -105,7 +109,7 @@ def test_shares_of_nothing_are_not_known():
     assert empty.snr_db == 10.0
 
 
-def test_rates_are_over_all_words_and_not_the_mean_of_calls():
+def test_rates_are_over_all_words_and_not_the_mean_of_calls() -> None:
     long = score("one two three four five six seven", "one two three four five six seven", ROSTER)
     short = score("one", "two", ROSTER)
     assert recognition([long, short], None).wer == pytest.approx(1 / 8)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -36,8 +38,8 @@ AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLO
     ],
 )
 def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
-    text, callsign, addressed_first
-):
+    text: str, callsign: str | None, addressed_first: bool
+) -> None:
     call = parse_call(text, KNOWN)
     assert (call.callsign, call.addressed_first) == (callsign, addressed_first)
 
@@ -59,7 +61,9 @@ def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
         ("American one three two", "AAL132"),
     ],
 )
-def test_vehicles_and_registrations_are_heard_as_they_are_spoken(spoken, callsign):
+def test_vehicles_and_registrations_are_heard_as_they_are_spoken(
+    spoken: str, callsign: str
+) -> None:
     call = parse_call(f"{spoken}, hold position", AIRPORT)
     assert (call.callsign, call.addressed_first) == (callsign, True)
     call = parse_call(f"holding position, {spoken}", AIRPORT)
@@ -77,12 +81,14 @@ def test_vehicles_and_registrations_are_heard_as_they_are_spoken(spoken, callsig
         ("Speedbird eight", None),
     ],
 )
-def test_registrations_are_abbreviated_to_their_first_sign_and_last_ones(spoken, callsign):
+def test_registrations_are_abbreviated_to_their_first_sign_and_last_ones(
+    spoken: str, callsign: str | None
+) -> None:
     known = ("N172SP", "G-ABCD", "BAW38")
     assert parse_call(f"{spoken}, hold position", known).callsign == callsign
 
 
-def test_an_abbreviation_that_two_could_have_is_ambiguous():
+def test_an_abbreviation_that_two_could_have_is_ambiguous() -> None:
     call = parse_call("November two sierra papa, hold position", ("N172SP", "N552SP"))
     assert call.callsign is None
     assert call.match.ambiguous
@@ -105,24 +111,24 @@ def test_an_abbreviation_that_two_could_have_is_ambiguous():
         ("united one two three", None),
     ],
 )
-def test_misspelt_airlines_are_known_by_their_number(spoken, callsign):
+def test_misspelt_airlines_are_known_by_their_number(spoken: str, callsign: str | None) -> None:
     known = ("AAL123", "BAW38", "DLH4AB", "FDX1602", "SWA5")
     call = parse_call(f"{spoken}, hold position", known)
     assert call.callsign == callsign
     assert 0.8 <= call.match.score <= 1.0 or callsign is None
 
 
-def test_a_number_without_a_name_is_a_candidate_and_no_more():
+def test_a_number_without_a_name_is_a_candidate_and_no_more() -> None:
     match = parse_call("one two three, hold position", KNOWN).match
     assert (match.callsign, match.candidates[0].callsign, match.score) == (None, "AAL123", 0.5)
 
 
-def test_who_ends_a_call_is_its_speaker_whoever_else_is_named():
+def test_who_ends_a_call_is_its_speaker_whoever_else_is_named() -> None:
     call = parse_call("Behind American 123, line up runway 01, Delta 456", AIRPORT)
     assert (call.callsign, call.addressed_first) == ("DAL456", False)
 
 
-def test_the_digits_of_the_callsign_are_not_those_of_the_level():
+def test_the_digits_of_the_callsign_are_not_those_of_the_level() -> None:
     call = parse_call("Descend flight level two niner zero American one two three", KNOWN)
     assert (call.callsign, call.altitude_ft) == ("AAL123", 29_000)
 
@@ -135,13 +141,13 @@ def test_the_digits_of_the_callsign_are_not_those_of_the_level():
         "American 123, hold position, Delta 456, cross runway 01",
     ],
 )
-def test_what_is_told_to_somebody_else_in_the_same_call_is_not_for_the_first(text):
+def test_what_is_told_to_somebody_else_in_the_same_call_is_not_for_the_first(text: str) -> None:
     call = parse_call(text, AIRPORT)
     assert call.callsign == "AAL123"
     assert [each.action for each in call.instructions] == ["hold_position"]
 
 
-def test_there_are_the_airlines_that_a_user_meets():
+def test_there_are_the_airlines_that_a_user_meets() -> None:
     assert len(AIRLINES) >= 150
     assert all(TELEPHONY[each] == airline.telephony for each, airline in AIRLINES.items())
     assert all(tokens(name) for name in TELEPHONY.values())
@@ -149,7 +155,9 @@ def test_there_are_the_airlines_that_a_user_meets():
 
 @settings(deadline=None)
 @given(st.sampled_from(sorted(TELEPHONY)), st.integers(1, 9999))
-def test_a_flight_is_heard_by_its_designator_and_by_its_airlines_telephony(airline, number):
+def test_a_flight_is_heard_by_its_designator_and_by_its_airlines_telephony(
+    airline: str, number: int
+) -> None:
     callsign = f"{airline}{number}"
     for form in (callsign, f"{TELEPHONY[airline]} {' '.join(str(number))}"):
         call = parse_call(f"{form}, climb FL330", [callsign])
@@ -164,7 +172,9 @@ def test_a_flight_is_heard_by_its_designator_and_by_its_airlines_telephony(airli
                               "november", "sierra", "papa", "hold", "position", "ops"]),
              max_size=10),
 )  # fmt: skip
-def test_nobody_is_named_who_is_not_on_the_frequency(callsigns, words):
+def test_nobody_is_named_who_is_not_on_the_frequency(
+    callsigns: list[Any], words: list[Any]
+) -> None:
     call = parse_call(" ".join(words), callsigns)
     assert call.callsign is None or call.callsign in callsigns
     assert {each.callsign for each in call.match.candidates} <= set(callsigns)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -16,11 +17,11 @@ ACTED_ON = 0.8
 """The least confidence with which listeners do as they heard."""
 
 
-def clearances(text, callsigns=KNOWN):
+def clearances(text: str, callsigns: tuple[str, ...] = KNOWN) -> list[Any]:
     return [each for each in parse_call(text, callsigns).instructions if each.action in CLEARANCES]
 
 
-def acted_on(text):
+def acted_on(text: str) -> set[Any]:
     """Return what somebody is cleared for at once, if the call is sure enough to act on it."""
     call = parse_call(text, KNOWN)
     if call.callsign is None or call.confidence < ACTED_ON:
@@ -86,7 +87,7 @@ def acted_on(text):
         "you crossed runway 01 without clearance",
     ],
 )
-def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(text):
+def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(text: str) -> None:
     for call in (f"American 123, {text}", f"{text}, American 123", f"Tower, American 123, {text}"):
         assert clearances(call) == [], call
 
@@ -106,7 +107,7 @@ def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(text):
         "disregard my last, cross runway 01",
     ],
 )
-def test_but_clearances_among_such_words_are(text):
+def test_but_clearances_among_such_words_are(text: str) -> None:
     assert [each.runway for each in clearances(f"American 123, {text}")] == ["01"]
 
 
@@ -123,7 +124,7 @@ VOCABULARY = sorted({*OFTEN_SAID.split(), *LETTERS, *NAMES})
 
 @settings(deadline=None, max_examples=300)
 @given(st.lists(st.sampled_from(VOCABULARY), max_size=14))
-def test_a_clearance_has_its_words_in_the_call(words):
+def test_a_clearance_has_its_words_in_the_call(words: list[Any]) -> None:
     """Whatever the recogniser gives, there is no clearance without the words of one."""
     needed = {"land", "takeoff", "line", "cross", "crossing", "taxi", "approach"}
     if needed.isdisjoint(words):
@@ -132,7 +133,7 @@ def test_a_clearance_has_its_words_in_the_call(words):
 
 @settings(deadline=None, max_examples=200)
 @given(st.text(max_size=80))
-def test_any_text_is_taken_apart(text):
+def test_any_text_is_taken_apart(text: str) -> None:
     for each in parse_call(text, KNOWN).instructions:
         assert each.runway is None or 1 <= int(each.runway[:2]) <= 36
 
@@ -160,7 +161,7 @@ NOT_CLEARED = [
 
 
 @pytest.mark.parametrize("text", CLEARED)
-def test_words_that_are_lost_never_make_another_clearance(text):
+def test_words_that_are_lost_never_make_another_clearance(text: str) -> None:
     """A runway that has lost a digit is asked for again: "one niner" may be all that is left."""
     words = text.split()
     whole = {(action, runway) for _, action, runway in acted_on(text)}
@@ -170,14 +171,14 @@ def test_words_that_are_lost_never_make_another_clearance(text):
         assert made <= whole, rest
 
 
-def test_a_condition_outlives_any_word_that_is_lost():
+def test_a_condition_outlives_any_word_that_is_lost() -> None:
     words = CONDITIONED.split()
     for at in range(len(words)):
         assert acted_on(" ".join([*words[:at], *words[at + 1 :]])) == set()
 
 
 @pytest.mark.parametrize("text", NOT_CLEARED)
-def test_words_that_are_lost_never_make_a_clearance(text):
+def test_words_that_are_lost_never_make_a_clearance(text: str) -> None:
     words = text.split()
     for lost in [*combinations(range(len(words)), 1), *combinations(range(len(words)), 2)]:
         rest = " ".join(word for at, word in enumerate(words) if at not in lost)
@@ -191,7 +192,7 @@ def test_words_that_are_lost_never_make_a_clearance(text):
     st.sampled_from([word for word in VOCABULARY if word not in ("land", "cross", "crossing")]),
     st.booleans(),
 )
-def test_a_wrong_word_never_makes_a_clearance(text, at, word, instead):
+def test_a_wrong_word_never_makes_a_clearance(text: str, at: int, word: str, instead: bool) -> None:
     words = text.split()
     at = at % len(words)
     changed = [*words[:at], word, *words[at + instead :]]
@@ -204,7 +205,9 @@ def test_a_wrong_word_never_makes_a_clearance(text, at, word, instead):
     st.integers(0, 30),
     st.sampled_from([word for word in VOCABULARY if tokens(word) == [word] and word not in SOUNDS]),
 )
-def test_a_wrong_word_for_a_digit_of_a_runway_never_makes_another_runway(text, at, word):
+def test_a_wrong_word_for_a_digit_of_a_runway_never_makes_another_runway(
+    text: str, at: int, word: str
+) -> None:
     words = text.split()
     digits = [i for i, each in enumerate(words) if "runway" in words[max(i - 2, 0) : i]]
     changed = list(words)

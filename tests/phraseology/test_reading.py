@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.phraseology import DIGITS, Instruction, Wind, parse_call, tokens
+from airhilt.phraseology.call import Call
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 
 
-def call_to(text, callsigns=KNOWN):
+def call_to(text: str, callsigns: tuple[str, ...] = KNOWN) -> Call:
     return parse_call(f"American one two three, {text}", callsigns)
 
 
-def only(text):
+def only(text: str) -> Instruction:
     (instruction,) = call_to(text).instructions
     return instruction
 
@@ -34,13 +37,13 @@ def only(text):
         ("", ""),
     ],
 )
-def test_spoken_digits_are_joined_to_numbers_and_a_comma_ends_one(text, words):
+def test_spoken_digits_are_joined_to_numbers_and_a_comma_ends_one(text: str, words: str) -> None:
     assert tokens(text) == words.split()
 
 
 @settings(deadline=None)
 @given(st.text(max_size=80))
-def test_any_text_is_taken_apart(text):
+def test_any_text_is_taken_apart(text: str) -> None:
     assert all(word and word == word.lower() for word in tokens(text))
     parse_call(text, KNOWN)
 
@@ -69,7 +72,7 @@ def test_any_text_is_taken_apart(text):
         ("", None),
     ],
 )
-def test_a_level_is_read_only_where_the_words_say_one(text, feet):
+def test_a_level_is_read_only_where_the_words_say_one(text: str, feet: int | None) -> None:
     assert call_to(text).altitude_ft == feet
 
 
@@ -84,13 +87,13 @@ def test_a_level_is_read_only_where_the_words_say_one(text, feet):
         max_size=15,
     )
 )  # fmt: skip
-def test_words_without_digits_never_give_a_level(words):
+def test_words_without_digits_never_give_a_level(words: list[Any]) -> None:
     assert parse_call(" ".join(words), KNOWN).altitude_ft is None
 
 
 @settings(deadline=None)
 @given(st.integers(100, 600))
-def test_any_flight_level_is_read_digit_by_digit(level):
+def test_any_flight_level_is_read_digit_by_digit(level: int) -> None:
     names = {"0": "zero", "1": "one", "2": "two", "3": "tree", "4": "fower", "5": "fife",
              "6": "six", "7": "seven", "8": "eight", "9": "niner"}  # fmt: skip
     spoken = " ".join(names[digit] for digit in str(level))
@@ -109,16 +112,16 @@ def test_any_flight_level_is_read_digit_by_digit(level):
         ("American one two three, turn right heading zero niner zero", None),
     ],
 )
-def test_the_sense_is_that_of_the_first_word_that_has_one(text, sense):
+def test_the_sense_is_that_of_the_first_word_that_has_one(text: str, sense: str | None) -> None:
     assert parse_call(text, KNOWN).sense == sense
 
 
-def test_a_level_without_a_sense_is_no_instruction():
+def test_a_level_without_a_sense_is_no_instruction() -> None:
     call = parse_call("American one two three, traffic at flight level three five zero", KNOWN)
     assert (call.callsign, call.sense, call.altitude_ft) == ("AAL123", None, None)
 
 
-def test_the_digits_of_the_callsign_are_not_those_of_the_level():
+def test_the_digits_of_the_callsign_are_not_those_of_the_level() -> None:
     call = parse_call("Descend flight level two niner zero American one two three", KNOWN)
     assert call.altitude_ft == 29_000
     assert call.callsign == "AAL123"
@@ -129,7 +132,7 @@ def test_the_digits_of_the_callsign_are_not_those_of_the_level():
 AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "OPS2", "TUG2", "FIRE3", "PLOW4")
 
 
-def said(text):
+def said(text: str) -> list[Any]:
     return [(each.action, each.runway) for each in parse_call(text, AIRPORT).instructions]
 
 
@@ -169,7 +172,7 @@ def said(text):
         ("runway four zero, cleared to land", [("cleared_to_land", None)]),
     ],
 )  # fmt: skip
-def test_a_call_says_what_about_which_runway(text, meaning):
+def test_a_call_says_what_about_which_runway(text: str, meaning: list[Any]) -> None:
     assert said(text) == meaning
 
 
@@ -182,14 +185,14 @@ def test_a_call_says_what_about_which_runway(text, meaning):
         "Delta 456, behind the landing American 123, line up runway 01",
     ],
 )
-def test_traffic_is_somebody_else(text):
+def test_traffic_is_somebody_else(text: str) -> None:
     assert said(text) == [("line_up", "01")]
     assert parse_call(text, AIRPORT).callsign == "DAL456"
 
 
 @settings(deadline=None)
 @given(st.integers(1, 36), st.sampled_from(["", " left", " right", " centre"]))
-def test_any_runway_is_read_digit_by_digit(number, side):
+def test_any_runway_is_read_digit_by_digit(number: int, side: str) -> None:
     names = ("zero", "one", "two", "tree", "fower", "fife", "six", "seven", "eight", "niner")
     spoken = " ".join(names[int(digit)] for digit in f"{number:02d}") + side
     ident = f"{number:02d}{side[1:2].upper()}"
@@ -238,7 +241,7 @@ def test_any_runway_is_read_digit_by_digit(number, side):
          Instruction("altitude", sense="climb", altitude_ft=33_000.0, immediate=True)),
     ],
 )  # fmt: skip
-def test_an_instruction_has_what_is_said_about_it(text, meant):
+def test_an_instruction_has_what_is_said_about_it(text: str, meant: Instruction) -> None:
     assert only(text) == meant
 
 
@@ -260,7 +263,7 @@ def test_an_instruction_has_what_is_said_about_it(text, meant):
         ("contact tower one nineteen point one", "contact tower 119.1"),
     ],
 )
-def test_what_recognisers_write_means_what_was_said(text, as_written):
+def test_what_recognisers_write_means_what_was_said(text: str, as_written: str) -> None:
     assert call_to(text).instructions == call_to(as_written).instructions != ()
 
 
@@ -287,7 +290,7 @@ def test_what_recognisers_write_means_what_was_said(text, as_written):
         ("", "unknown"),
     ],
 )
-def test_calls_are_of_kinds(text, kind):
+def test_calls_are_of_kinds(text: str, kind: str) -> None:
     assert parse_call(text, KNOWN).kind == kind
 
 
@@ -316,11 +319,11 @@ def test_calls_are_of_kinds(text, kind):
          [Instruction("cleared_for_takeoff", "19")]),
     ],
 )  # fmt: skip
-def test_the_last_word_counts(text, meant):
+def test_the_last_word_counts(text: str, meant: list[Any]) -> None:
     assert list(call_to(text).instructions) == meant
 
 
-def test_a_call_tells_more_than_instructions():
+def test_a_call_tells_more_than_instructions() -> None:
     call = call_to("wind 350 at 8 gusts 15, altimeter 2992, runway 01, cleared to land")
     assert call.wind == Wind(350.0, 8.0, 15.0)
     assert call.pressure_hpa == pytest.approx(1013.2, abs=0.1)
@@ -360,11 +363,11 @@ def test_a_call_tells_more_than_instructions():
         ("mumble mumble", 0.0),
     ],
 )
-def test_confidence_is_that_of_the_least_sure_part(text, confidence):
+def test_confidence_is_that_of_the_least_sure_part(text: str, confidence: float) -> None:
     assert call_to(text).confidence == pytest.approx(confidence)
 
 
-def test_words_that_the_recogniser_is_not_sure_of_count_where_they_matter():
+def test_words_that_the_recogniser_is_not_sure_of_count_where_they_matter() -> None:
     words = "american one two three good day climb flight level three three zero"
     sure = [1.0] * len(words.split())
     unsure = {name: list(sure) for name in ("callsign", "level", "greeting")}
@@ -375,7 +378,7 @@ def test_words_that_the_recogniser_is_not_sure_of_count_where_they_matter():
     assert confidence == {"callsign": 0.4, "level": 0.5, "greeting": 1.0}
 
 
-def test_confidences_of_other_words_are_an_error():
+def test_confidences_of_other_words_are_an_error() -> None:
     with pytest.raises(ValueError, match="2 word confidences for 3 words"):
         parse_call("one two three", KNOWN, [1.0, 1.0])
 
@@ -387,6 +390,8 @@ def test_confidences_of_other_words_are_an_error():
              max_size=12),
     st.floats(0.0, 1.0),
 )  # fmt: skip
-def test_confidence_is_within_zero_and_one_and_no_more_than_that_of_the_words(words, sure):
+def test_confidence_is_within_zero_and_one_and_no_more_than_that_of_the_words(
+    words: list[Any], sure: float
+) -> None:
     call = parse_call(" ".join(words), KNOWN, [sure] * len(words))
     assert 0.0 <= call.confidence <= sure or not words

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import get_args
+from collections.abc import Callable
+from typing import Any, get_args
 
 import pytest
 from hypothesis import given, settings
@@ -45,13 +46,13 @@ ON_FREQUENCY = ("AAL123", "BAW38", "DLH4AB", "UAL1200", "N172SP", "G-ABCD", "OPS
     ],
 )
 def test_flights_are_called_in_group_form_by_the_faa_and_digit_by_digit_by_icao(
-    callsign, faa, icao
-):
+    callsign: str, faa: str, icao: str
+) -> None:
     assert speak_callsign(callsign, "faa") == faa
     assert speak_callsign(callsign, "icao") == icao
 
 
-def test_only_registrations_are_abbreviated():
+def test_only_registrations_are_abbreviated() -> None:
     assert speak_abbreviated("N172SP", "faa") == "November two sierra papa"
     assert speak_abbreviated("N172SP", "icao") == "November sierra papa"
     assert speak_abbreviated("G-ABCD", "icao") == "Golf charlie delta"
@@ -89,12 +90,14 @@ def test_only_registrations_are_abbreviated():
         (speak_pressure, 1013.25, "altimeter two niner niner two", "Q N H one zero one tree"),
     ],
 )  # fmt: skip
-def test_values_are_spoken_as_the_manuals_have_it(speak, value, faa, icao):
+def test_values_are_spoken_as_the_manuals_have_it(
+    speak: Callable[..., Any], value: Wind | float | str, faa: str, icao: str
+) -> None:
     assert speak(value, "faa") == faa
     assert speak(value, "icao") == icao
 
 
-def test_calls_begin_with_the_callsign_and_readbacks_end_with_it():
+def test_calls_begin_with_the_callsign_and_readbacks_end_with_it() -> None:
     told = [Instruction("cross", "15"), Instruction("hold_short", "01")]
     assert speak_instruction("OPS2", told, "icao") == (
         "Ops two, cross runway one fife, hold short of runway zero one."
@@ -175,7 +178,9 @@ SPEAKABLE |= {each: made(each) for each in get_args(Action) if each not in SPEAK
 @settings(deadline=None, max_examples=8)
 @given(data=st.data(), style=st.sampled_from(STYLES), callsign=st.sampled_from(ON_FREQUENCY))
 @pytest.mark.parametrize("action", get_args(Action))
-def test_what_is_spoken_is_read_as_what_was_meant(action, data, style, callsign):
+def test_what_is_spoken_is_read_as_what_was_meant(
+    action: str, data: st.DataObject, style: str, callsign: str
+) -> None:
     meant = data.draw(SPEAKABLE[action])
     call = parse_call(speak_instruction(callsign, meant, style), ON_FREQUENCY)
     assert (call.callsign, call.instructions) == (callsign, (meant,))
@@ -201,7 +206,7 @@ def test_what_is_spoken_is_read_as_what_was_meant(action, data, style, callsign)
         Instruction("vacate", position="E"),
     ]), unique_by=lambda each: each.action, max_size=4),
 )  # fmt: skip
-def test_several_instructions_of_one_call_are_all_read(style, meant):
+def test_several_instructions_of_one_call_are_all_read(style: str, meant: list[Any]) -> None:
     call = parse_call(speak_instruction("AAL123", meant, style), ON_FREQUENCY)
     assert call.instructions == tuple(meant)
     readback = parse_call(speak_readback("AAL123", meant, style), ON_FREQUENCY)
@@ -215,7 +220,9 @@ def test_several_instructions_of_one_call_are_all_read(style, meant):
     st.integers(3, 40),
     st.none() | st.integers(41, 60),
 )
-def test_a_wind_is_read_as_it_is_spoken(style, direction, speed, gust):
+def test_a_wind_is_read_as_it_is_spoken(
+    style: str, direction: float, speed: int, gust: int | None
+) -> None:
     wind = Wind(direction, float(speed), gust and float(gust))
     text = f"American one two three, {speak_wind(wind, style)}, runway one niner, cleared to land."
     call = parse_call(text, ON_FREQUENCY)
@@ -225,7 +232,7 @@ def test_a_wind_is_read_as_it_is_spoken(style, direction, speed, gust):
 
 @settings(deadline=None)
 @given(st.sampled_from(STYLES), st.integers(950, 1050))
-def test_a_pressure_is_read_as_it_is_spoken(style, hpa):
+def test_a_pressure_is_read_as_it_is_spoken(style: str, hpa: int) -> None:
     call = parse_call(f"American one two three, {speak_pressure(hpa, style)}", ON_FREQUENCY)
     assert call.pressure_hpa == pytest.approx(hpa, abs=0.2)
 
@@ -238,7 +245,7 @@ def test_a_pressure_is_read_as_it_is_spoken(style, hpa):
     | st.from_regex(r"\A(?:G|F|I)-[A-Z]{4}\Z")
     | st.builds("{}{}".format, st.sampled_from(["OPS", "TUG", "FIRE", "PLOW"]), st.integers(1, 30)),
 )
-def test_any_callsign_is_read_as_it_is_spoken(style, callsign):
+def test_any_callsign_is_read_as_it_is_spoken(style: str, callsign: str) -> None:
     for spoken in (speak_callsign(callsign, style), speak_abbreviated(callsign, style)):
         call = parse_call(f"{spoken}, climb and maintain flight level three three zero", [callsign])
         assert (call.callsign, call.addressed_first) == (callsign, True)
@@ -247,7 +254,7 @@ def test_any_callsign_is_read_as_it_is_spoken(style, callsign):
         assert (call.callsign, call.addressed_first) == (callsign, False)
 
 
-def test_styles_differ_in_the_words_and_not_in_what_is_read():
+def test_styles_differ_in_the_words_and_not_in_what_is_read() -> None:
     told = Instruction("contact", position="tower", frequency_khz=134_325)
     said = [tokens(speak_instruction("AAL123", told, style)) for style in STYLES]
     assert said[0] != said[1]

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import copy
 import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,7 +17,7 @@ from airhilt.world.loading import load_text
 BASE = load("s01b_nominal").model_dump(mode="json") | {"perturbations": []}
 
 
-def complaint(change) -> str:
+def complaint(change: Callable[..., Any]) -> str:
     document = copy.deepcopy(BASE)
     change(document)
     with pytest.raises(ScenarioError) as caught:
@@ -22,15 +25,15 @@ def complaint(change) -> str:
     return "\n".join(caught.value.problems)
 
 
-def taxi(document):
+def taxi(document: dict[str, Any]) -> dict[str, Any]:
     return document["radio"]["lines"][2]["commands"][0]["command"]
 
 
-def put(*path):
+def put(*path: dict[str, dict[str, float | str] | str] | int | str) -> Callable[..., Any]:
     """Return a change that puts the last of its arguments at the others."""
     *keys, last, value = path
 
-    def change(document):
+    def change(document: dict[str, Any]) -> None:
         for key in keys:
             document = document[key]
         document[last] = value
@@ -39,7 +42,7 @@ def put(*path):
 
 
 @pytest.mark.parametrize("name", library.names("scenarios"))
-def test_every_scenario_that_ships_is_valid(name):
+def test_every_scenario_that_ships_is_valid(name: str) -> None:
     load(name)
 
 
@@ -76,14 +79,16 @@ def test_every_scenario_that_ships_is_valid(name):
         ),
     ],
 )  # fmt: skip
-def test_it_is_named_with_its_place_and_with_what_there_is(change, where, what):
+def test_it_is_named_with_its_place_and_with_what_there_is(
+    change: Callable[..., Any], where: str, what: str
+) -> None:
     message = complaint(change)
     assert where in message
     assert what in message
 
 
 @pytest.mark.parametrize(("distance_nm", "what"), [(1.5, "nearest taxiway"), (20.0, "37.0 km")])
-def test_an_aircraft_placed_off_the_airport_is_refused(distance_nm, what):
+def test_an_aircraft_placed_off_the_airport_is_refused(distance_nm: float, what: str) -> None:
     place = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": distance_nm}
     standing = {"type": "standing", "position": place}
     message = complaint(put("actors", 0, "initial", standing))
@@ -91,7 +96,7 @@ def test_an_aircraft_placed_off_the_airport_is_refused(distance_nm, what):
     assert what in message
 
 
-def test_a_runway_en_route_is_refused():
+def test_a_runway_en_route_is_refused() -> None:
     document = load("s02a_headon").model_dump(mode="json")
     document["actors"][0]["initial"] = {"type": "lined_up", "runway": "01"}
     document["perturbations"] = []
@@ -141,13 +146,15 @@ AT_ONCE = {"type": "time", "at_s": 5.0}
         ),
     ],
 )  # fmt: skip
-def test_what_would_only_show_in_the_middle_of_a_run_is_named_before(change, where, what):
+def test_what_would_only_show_in_the_middle_of_a_run_is_named_before(
+    change: Callable[..., Any], where: str, what: str
+) -> None:
     message = complaint(change)
     assert f"{where}: " in message
     assert what in message
 
 
-def test_a_storm_is_refused_once_for_all_that_land():
+def test_a_storm_is_refused_once_for_all_that_land() -> None:
     document = copy.deepcopy(load("s01a_bad_readback").model_dump(mode="json"))
     document["weather"]["wind"] = {"from_deg": 0, "speed_kt": 90}
     with pytest.raises(ScenarioError) as caught:
@@ -166,7 +173,7 @@ def test_a_storm_is_refused_once_for_all_that_land():
     ],
     ids=lambda command: command["action"],
 )
-def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command):
+def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command: dict[Any, Any]) -> None:
     document = load("s02a_headon").model_dump(mode="json")
     document["actors"][0]["commands"] = [command]
     with pytest.raises(ScenarioError, match="the scene is en route") as caught:
@@ -174,7 +181,7 @@ def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command):
     assert "actors/0/commands/0" in str(caught.value)
 
 
-def invalid_file(tmp_path, change):
+def invalid_file(tmp_path: Path, change: Callable[..., Any]) -> Path:
     document = copy.deepcopy(BASE)
     change(document)
     path = tmp_path / "mine.json"
@@ -206,8 +213,8 @@ def invalid_file(tmp_path, change):
     ids=["no way", "no airport", "nothing to continue", "no hold", "flying deer"],
 )  # fmt: skip
 def test_on_the_command_line_it_is_told_in_words_with_exit_code_2(
-    airhilt_command, tmp_path, change, what
-):
+    airhilt_command: Callable[..., Any], tmp_path: Path, change: Callable[..., Any], what: str
+) -> None:
     told = airhilt_command("validate", invalid_file(tmp_path, change))
     assert told.returncode == 2
     assert what in told.stderr

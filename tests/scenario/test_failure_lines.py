@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from pydantic import TypeAdapter
 
@@ -14,7 +16,7 @@ FAILURES = TypeAdapter(tuple[Failure, ...])
 HOLD = next(line for line in SCENARIO.radio.lines if line.id == "hold")
 
 
-def effective(*failures, line="hold"):
+def effective(*failures: Any, line: str = "hold") -> Any:
     scenario = SCENARIO.model_copy(update={"failures": FAILURES.validate_python(failures)})
     lines = {each.declared.id: each for each in apply_failures(scenario)}
     others = [each for name, each in lines.items() if name != line]
@@ -22,21 +24,21 @@ def effective(*failures, line="hold"):
     return lines[line]
 
 
-def test_without_failures_all_happens_as_it_is_written():
+def test_without_failures_all_happens_as_it_is_written() -> None:
     hold = effective()
     assert hold.line is hold.declared
     assert (hold.late_s, hold.failures, hold.misled) == (0.0, (), frozenset())
 
 
 @pytest.mark.parametrize("kind", ["not_received", "ignored"])
-def test_who_does_not_hear_or_heed_a_line_does_nothing(kind):
+def test_who_does_not_hear_or_heed_a_line_does_nothing(kind: str) -> None:
     hold = effective({"type": kind, "line": "hold", "actor": "OPS1"})
     assert hold.line.commands == ()
     assert hold.line.text == HOLD.text
     assert hold.misled == {"OPS1"}
 
 
-def test_a_line_taken_by_another_makes_the_other_act():
+def test_a_line_taken_by_another_makes_the_other_act() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
     )
@@ -46,7 +48,7 @@ def test_a_line_taken_by_another_makes_the_other_act():
     assert hold.line.text == HOLD.text
 
 
-def test_the_wrong_callsign_may_be_said():
+def test_the_wrong_callsign_may_be_said() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
          "text": "Ops two, stop."}
@@ -54,7 +56,7 @@ def test_the_wrong_callsign_may_be_said():
     assert hold.line.text == "Ops two, stop."
 
 
-def test_a_late_line_is_late_by_the_sum_of_its_delays():
+def test_a_late_line_is_late_by_the_sum_of_its_delays() -> None:
     hold = effective(
         {"type": "delayed", "line": "hold", "by_s": 5.0},
         {"type": "delayed", "line": "hold", "by_s": 2.5},
@@ -64,13 +66,13 @@ def test_a_late_line_is_late_by_the_sum_of_its_delays():
     assert len(hold.failures) == 2
 
 
-def test_a_dropped_line_is_never_said():
+def test_a_dropped_line_is_never_said() -> None:
     hold = effective({"type": "dropped", "line": "hold"})
     assert hold.line is None
     assert hold.misled == {"OPS1"}
 
 
-def test_a_wrong_readback_has_other_words_and_other_deeds():
+def test_a_wrong_readback_has_other_words_and_other_deeds() -> None:
     wrong = effective(
         {"type": "readback_wrong", "line": "hold_readback", "text": "Proceeding, Ops one.",
          "commands": [{"actor": "OPS1", "command": {"action": "continue"}}]},
@@ -81,7 +83,7 @@ def test_a_wrong_readback_has_other_words_and_other_deeds():
     assert wrong.misled == {"OPS1"}
 
 
-def test_an_engine_failure_is_no_matter_of_lines():
+def test_an_engine_failure_is_no_matter_of_lines() -> None:
     failure = {
         "type": "engine_failure", "actor": "AAL123", "engine": 0,
         "when": {"type": "time", "at_s": 5.0},
@@ -89,7 +91,7 @@ def test_an_engine_failure_is_no_matter_of_lines():
     assert effective(failure).failures == ()
 
 
-def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left():
+def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"},
         {"type": "not_received", "line": "hold", "actor": "OPS2"},
@@ -102,7 +104,7 @@ def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left():
 
 
 @pytest.mark.parametrize("kind", ["not_received", "ignored"])
-def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind):
+def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind: str) -> None:
     both = tuple(HOLD.commands[0].model_copy(update={"actor": actor}) for actor in ("OPS1", "OPS2"))
     line = HOLD.model_copy(update={"commands": both})
     radio = SCENARIO.radio.model_copy(update={"lines": (line,)})
@@ -113,7 +115,7 @@ def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind):
     assert hold.misled == {"OPS1"}
 
 
-def test_a_confusion_leaves_when_and_after_how_long_a_line_acts():
+def test_a_confusion_leaves_when_and_after_how_long_a_line_acts() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
     )

@@ -1,9 +1,13 @@
 """A scenario file loads, or the message says where it is wrong, what was found and expected."""
 
+from __future__ import annotations
+
 import copy
 import json
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,7 +21,7 @@ VERTICAL = load("s02a_vertical").model_dump(mode="json")
 FIRST, SECOND = (actor["callsign"] for actor in HEAD_ON["actors"][:2])
 
 
-def changed(document, path, value):
+def changed(document: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
     """Return a copy of a document with the value at a path set; ``...`` removes it."""
     document = copy.deepcopy(document)
     *parents, last = path.split("/")
@@ -32,18 +36,18 @@ def changed(document, path, value):
     return document
 
 
-def complaint(document):
+def complaint(document: dict[str, Any]) -> str:
     with pytest.raises(ScenarioError) as caught:
         load_text(json.dumps(document), "test.json")
     return str(caught.value)
 
 
 @pytest.mark.parametrize("name", library.names("scenarios"))
-def test_each_shipped_scenario_loads_and_is_called_what_its_file_is(name):
+def test_each_shipped_scenario_loads_and_is_called_what_its_file_is(name: str) -> None:
     assert load(name).name == name
 
 
-def test_there_are_shipped_scenarios_of_the_family_s02a():
+def test_there_are_shipped_scenarios_of_the_family_s02a() -> None:
     assert {load(name).family for name in library.names("scenarios")} >= {"S02A"}
 
 
@@ -66,7 +70,9 @@ def test_there_are_shipped_scenarios_of_the_family_s02a():
         ("separation/level_tolerance_ft", 500, "separation/level_tolerance_ft", "found 500"),
     ],
 )
-def test_what_is_wrong_with_a_field_is_told_with_its_path(path, value, where, what):
+def test_what_is_wrong_with_a_field_is_told_with_its_path(
+    path: str, value: Any, where: str, what: str
+) -> None:
     message = complaint(changed(HEAD_ON, path, value))
     assert f"test.json: {where}: " in message
     assert what in message
@@ -85,13 +91,15 @@ def test_what_is_wrong_with_a_field_is_told_with_its_path(path, value, where, wh
         ("conflict/opens_when/type", ..., "conflict/opens_when", "'type' is missing"),
     ],
 )
-def test_a_wrong_discriminator_is_told_with_what_there_is(path, value, where, what):
+def test_a_wrong_discriminator_is_told_with_what_there_is(
+    path: str, value: Any, where: str, what: str
+) -> None:
     message = complaint(changed(HEAD_ON, path, value))
     assert f"test.json: {where}: " in message
     assert what in message
 
 
-def test_a_wrong_action_of_a_command_is_told():
+def test_a_wrong_action_of_a_command_is_told() -> None:
     path = "radio/lines/1/commands/0/command/action"
     message = complaint(changed(VERTICAL, path, "altitud"))
     assert f"test.json: {path}: found 'altitud'" in message
@@ -99,18 +107,18 @@ def test_a_wrong_action_of_a_command_is_told():
 
 
 @pytest.mark.parametrize("field", ["callsign", "icao24"])
-def test_two_actors_share_neither_callsign_nor_address(field):
+def test_two_actors_share_neither_callsign_nor_address(field: str) -> None:
     message = complaint(changed(HEAD_ON, f"actors/1/{field}", HEAD_ON["actors"][0][field]))
     assert f"actors/1/{field}: found {HEAD_ON['actors'][0][field]!r}" in message
     assert "which actors/0 has already" in message
 
 
-def test_two_radio_lines_do_not_share_an_id():
+def test_two_radio_lines_do_not_share_an_id() -> None:
     message = complaint(changed(VERTICAL, "radio/lines/1/id", VERTICAL["radio"]["lines"][0]["id"]))
     assert "radio/lines/1/id: found 'clearance', which radio/lines/0 has already" in message
 
 
-def test_an_unknown_aircraft_is_told_with_the_nearest():
+def test_an_unknown_aircraft_is_told_with_the_nearest() -> None:
     message = complaint(changed(HEAD_ON, "actors/0/aircraft", "B748"))
     assert "actors/0/aircraft: " in message
     assert "'B748'" in message
@@ -118,7 +126,7 @@ def test_an_unknown_aircraft_is_told_with_the_nearest():
 
 
 @pytest.mark.parametrize("altitude_ft", [-500, 0, 1_000])
-def test_an_aircraft_begins_above_the_ground(altitude_ft):
+def test_an_aircraft_begins_above_the_ground(altitude_ft: int) -> None:
     document = changed(HEAD_ON, "scene/terrain_elevation_ft", 1_000)
     message = complaint(changed(document, "actors/0/initial/altitude_ft", altitude_ft))
     assert f"actors/0/initial/altitude_ft: found {altitude_ft}, which is not above" in message
@@ -126,17 +134,17 @@ def test_an_aircraft_begins_above_the_ground(altitude_ft):
 
 
 @pytest.mark.parametrize("cas_kt", [100, 400])
-def test_an_aircraft_begins_at_a_speed_that_it_can_fly(cas_kt):
+def test_an_aircraft_begins_at_a_speed_that_it_can_fly(cas_kt: int) -> None:
     message = complaint(changed(HEAD_ON, "actors/0/initial/cas_kt", cas_kt))
     assert f"actors/0/initial/cas_kt: found {cas_kt}; expected 200 to 340" in message
 
 
-def test_an_aircraft_begins_below_its_ceiling():
+def test_an_aircraft_begins_below_its_ceiling() -> None:
     message = complaint(changed(HEAD_ON, "actors/0/initial/altitude_ft", 45_000))
     assert "actors/0/initial/altitude_ft: found 45000; expected at most" in message
 
 
-def test_without_a_route_an_aircraft_needs_a_track():
+def test_without_a_route_an_aircraft_needs_a_track() -> None:
     document = changed(HEAD_ON, "actors/0/route", [])
     document = changed(document, "actors/0/initial/track_deg", None)
     assert "actors/0/initial/track_deg: missing" in complaint(document)
@@ -161,20 +169,22 @@ MISSPELT = FIRST[:-1] + "9"
         ("cameras", [{"name": "nose", "mount": {"type": "actor", "actor": MISSPELT}}]),
     ],
 )  # fmt: skip
-def test_an_unknown_actor_is_told_with_the_nearest(path, value):
+def test_an_unknown_actor_is_told_with_the_nearest(
+    path: str, value: dict[Any, Any] | list[Any] | str
+) -> None:
     message = complaint(changed(HEAD_ON, path, value))
     assert f"no actor {MISSPELT!r}; did you mean {FIRST!r}?" in message
     assert f"test.json: {path.split('/')[0]}/" in message
 
 
-def test_an_unknown_actor_deep_in_a_condition_is_told_with_its_whole_path():
+def test_an_unknown_actor_deep_in_a_condition_is_told_with_its_whole_path() -> None:
     inner = {"type": "bound_for_altitude", "actor": MISSPELT, "altitude_ft": 1000}
     value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
     message = complaint(changed(HEAD_ON, "conflict/opens_when", value))
     assert "test.json: conflict/opens_when/conditions/1/actor: no actor" in message
 
 
-def test_an_unknown_field_deep_in_a_condition_is_told_with_its_whole_path():
+def test_an_unknown_field_deep_in_a_condition_is_told_with_its_whole_path() -> None:
     inner = {"type": "time", "at_s": 1, "ats": 1}
     value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
     message = complaint(changed(HEAD_ON, "conflict/opens_when", value))
@@ -182,13 +192,13 @@ def test_an_unknown_field_deep_in_a_condition_is_told_with_its_whole_path():
     assert "did you mean 'at_s'?" in message
 
 
-def test_an_unknown_radio_line_is_told_with_the_nearest():
+def test_an_unknown_radio_line_is_told_with_the_nearest() -> None:
     value = {"type": "line_ended", "line": "readbak"}
     message = complaint(changed(VERTICAL, "conflict/opens_when", value))
     assert "conflict/opens_when/line: no radio line 'readbak'; did you mean 'readback'?" in message
 
 
-def test_a_pair_is_of_two():
+def test_a_pair_is_of_two() -> None:
     message = complaint(changed(HEAD_ON, "conflict/actors", [FIRST, FIRST]))
     assert "conflict/actors: found one actor twice" in message
     message = complaint(changed(HEAD_ON, "end_when/0/actors", [FIRST, FIRST]))
@@ -212,7 +222,7 @@ UNIFORM = {"type": "uniform", "limit": 1.0}
         (f"actors/{FIRST}/transponder/equipped", "expected the path of a number"),
     ],
 )
-def test_a_perturbation_leads_to_a_number(path, what):
+def test_a_perturbation_leads_to_a_number(path: str, what: str) -> None:
     message = complaint(
         changed(HEAD_ON, "perturbations", [{"path": path, "distribution": UNIFORM}])
     )
@@ -220,14 +230,14 @@ def test_a_perturbation_leads_to_a_number(path, what):
     assert what in message
 
 
-def test_a_number_is_perturbed_once():
+def test_a_number_is_perturbed_once() -> None:
     twice = [{"path": "duration_s", "distribution": UNIFORM}] * 2
     assert "perturbations/1/path: found 'duration_s'" in complaint(
         changed(HEAD_ON, "perturbations", twice)
     )
 
 
-def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept():
+def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept() -> None:
     actors = [dict(HEAD_ON["actors"][0], colour="red") for _ in range(12)]
     with pytest.raises(ScenarioError) as caught:
         load_text(json.dumps(changed(HEAD_ON, "actors", HEAD_ON["actors"] + actors)), "test.json")
@@ -242,82 +252,82 @@ def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept():
     ("text", "where"),
     [("{", "1:2"), ('{\n  "name": "a",\n  "x" 5\n}', "3:7"), ("", "1:1"), ("\ufeff{}", "1:1")],
 )
-def test_what_is_not_json_is_told_with_line_and_column(text, where):
+def test_what_is_not_json_is_told_with_line_and_column(text: str, where: str) -> None:
     with pytest.raises(ScenarioError, match=rf"^test\.json:{where}: not valid JSON"):
         load_text(text, "test.json")
 
 
 @pytest.mark.parametrize("text", ["[" * 100_000, "5", "null", '"text"', "[]"])
-def test_json_that_is_no_scenario_is_refused(text):
+def test_json_that_is_no_scenario_is_refused(text: str) -> None:
     with pytest.raises(ScenarioError, match=r"^test\.json: "):
         load_text(text, "test.json")
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999"])
-def test_numbers_are_finite(number):
+def test_numbers_are_finite(number: str) -> None:
     text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', number)
     with pytest.raises(ScenarioError, match=r"test\.json: duration_s: found"):
         load_text(text, "test.json")
 
 
-def test_a_number_of_five_thousand_digits_is_refused():
+def test_a_number_of_five_thousand_digits_is_refused() -> None:
     text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', "1" * 5_000)
     with pytest.raises(ScenarioError, match=r"test\.json"):
         load_text(text, "test.json")
 
 
-def test_a_file_that_is_not_utf_8_is_told(tmp_path):
+def test_a_file_that_is_not_utf_8_is_told(tmp_path: Path) -> None:
     path = tmp_path / "latin.json"
     path.write_bytes(b'{"name": "caf\xe9"}')
     with pytest.raises(ScenarioError, match=r"latin\.json: not UTF-8 text \(byte 13\)"):
         load(path)
 
 
-def test_a_file_loads_from_its_path(tmp_path):
+def test_a_file_loads_from_its_path(tmp_path: Path) -> None:
     path = tmp_path / "mine.json"
     path.write_text(json.dumps(HEAD_ON), encoding="utf-8")
     assert load(path) == load(str(path)) == load("s02a_headon")
 
 
-def test_a_file_that_is_not_there_is_told_with_the_names_that_are(tmp_path):
+def test_a_file_that_is_not_there_is_told_with_the_names_that_are(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"none\.json: no such file.*s02a_headon"):
         load(tmp_path / "none.json")
 
 
-def test_a_folder_is_no_scenario(tmp_path):
+def test_a_folder_is_no_scenario(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match="no such file"):
         load(tmp_path)
 
 
-def test_an_unknown_name_is_told_with_the_nearest():
+def test_an_unknown_name_is_told_with_the_nearest() -> None:
     with pytest.raises(ScenarioError, match=r"named 's02a_headone'; did you mean 's02a_headon'\?"):
         load("s02a_headone")
 
 
 @pytest.mark.parametrize("name", library.names("scenarios"))
-def test_a_scenario_written_as_json_reads_back_the_same(name):
+def test_a_scenario_written_as_json_reads_back_the_same(name: str) -> None:
     scenario = load(name)
     assert Scenario.model_validate_json(scenario.model_dump_json()) == scenario
     assert load_text(scenario.model_dump_json(), "again") == scenario
 
 
-def test_a_file_may_name_its_schema_and_is_the_same_scenario():
+def test_a_file_may_name_its_schema_and_is_the_same_scenario() -> None:
     document = {"$schema": "../docs/schemas/scenario.json"} | HEAD_ON
     scenario = load_text(json.dumps(document), "test.json")
     assert "$schema" not in scenario.model_dump_json()
     assert json.loads(scenario.model_dump_json()) == HEAD_ON
 
 
-def test_the_schema_lets_a_file_name_it():
+def test_the_schema_lets_a_file_name_it() -> None:
     assert "$schema" in Scenario.model_json_schema()["properties"]
 
 
-def test_a_misspelt_schema_field_is_answered_with_its_name():
+def test_a_misspelt_schema_field_is_answered_with_its_name() -> None:
     message = complaint({"$shema": "scenario.json"} | HEAD_ON)
     assert "$shema: unknown field; did you mean '$schema'?" in message
 
 
-def test_reading_a_file_does_not_load_the_world():
+def test_reading_a_file_does_not_load_the_world() -> None:
     loaded = subprocess.run(
         [sys.executable, "-c", "import sys, airhilt.scenario.loading; print(*sys.modules)"],
         capture_output=True,

@@ -1,6 +1,9 @@
 """The same scenario and seed give the same realised scenario."""
 
+from __future__ import annotations
+
 import statistics
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -23,7 +26,7 @@ distributions = st.builds(
 ) | st.builds(Uniform, type=st.just("uniform"), limit=st.floats(0.01, 5.0))
 
 
-def varied(**perturbations):
+def varied(**perturbations: Any) -> Scenario:
     """The head-on scenario with a perturbation of each path."""
     return HEAD_ON.model_copy(
         update={
@@ -41,7 +44,7 @@ BOTH = varied(**{DISTANCE: UNIFORM, SPEED: UNIFORM})
 
 @settings(deadline=None, max_examples=25)
 @given(seeds)
-def test_the_same_seed_draws_the_same_and_the_next_draws_something_else(seed):
+def test_the_same_seed_draws_the_same_and_the_next_draws_something_else(seed: int) -> None:
     assert realise(BOTH, seed) == realise(BOTH, seed)
     draws, others = (realise(BOTH, s)[1] for s in (seed, seed + 1))
     assert all(a.realised != b.realised for a, b in zip(draws, others, strict=True))
@@ -49,7 +52,7 @@ def test_the_same_seed_draws_the_same_and_the_next_draws_something_else(seed):
 
 @settings(deadline=None, max_examples=25)
 @given(seeds)
-def test_what_one_path_draws_does_not_depend_on_the_other_perturbations(seed):
+def test_what_one_path_draws_does_not_depend_on_the_other_perturbations(seed: int) -> None:
     alone = realise(varied(**{SPEED: UNIFORM}), seed)[1]
     together = realise(BOTH, seed)[1]
     backwards = realise(varied(**{SPEED: UNIFORM, DISTANCE: UNIFORM}), seed)[1]
@@ -60,7 +63,9 @@ def test_what_one_path_draws_does_not_depend_on_the_other_perturbations(seed):
 
 @settings(deadline=None, max_examples=100)
 @given(seeds, distributions)
-def test_a_draw_stays_within_its_limits_and_is_what_the_scenario_gets(seed, distribution):
+def test_a_draw_stays_within_its_limits_and_is_what_the_scenario_gets(
+    seed: int, distribution: Normal | Uniform
+) -> None:
     realised, (draw,) = realise(varied(**{SPEED: distribution}), seed)
     assert abs(draw.realised - draw.nominal) <= distribution.limit + 1e-9
     assert draw.nominal == HEAD_ON.actors[0].initial.cas_kt
@@ -68,7 +73,7 @@ def test_a_draw_stays_within_its_limits_and_is_what_the_scenario_gets(seed, dist
     assert draw.path == SPEED
 
 
-def test_a_normal_draw_has_the_spread_that_it_says():
+def test_a_normal_draw_has_the_spread_that_it_says() -> None:
     scenario = varied(**{SPEED: Normal(type="normal", sigma=2.0, limit=100.0)})
     draws = [realise(scenario, seed)[1][0] for seed in range(300)]
     assert statistics.stdev(d.realised for d in draws) == pytest.approx(2.0, rel=0.15)
@@ -76,7 +81,7 @@ def test_a_normal_draw_has_the_spread_that_it_says():
 
 
 @pytest.mark.parametrize("name", library.names("scenarios"))
-def test_a_realised_scenario_has_nothing_left_to_draw(name):
+def test_a_realised_scenario_has_nothing_left_to_draw(name: str) -> None:
     realised, draws = realise(load(name), 7)
     assert len(draws) == len(load(name).perturbations)
     assert realised.perturbations == ()
@@ -84,7 +89,7 @@ def test_a_realised_scenario_has_nothing_left_to_draw(name):
 
 
 @pytest.mark.parametrize("name", library.names("scenarios"))
-def test_nothing_but_what_is_declared_is_changed(name):
+def test_nothing_but_what_is_declared_is_changed(name: str) -> None:
     scenario = load(name)
     realised, draws = realise(scenario, 7)
     document = realised.model_dump(mode="json")
@@ -96,14 +101,14 @@ def test_nothing_but_what_is_declared_is_changed(name):
     assert Scenario.model_validate(document) == scenario
 
 
-def test_a_list_entry_is_named_by_callsign_id_or_name_or_by_its_index():
+def test_a_list_entry_is_named_by_callsign_id_or_name_or_by_its_index() -> None:
     document = {"a": [{"callsign": "X1", "v": 1}, {"id": "line", "v": 2}, {"name": "c", "v": 3}]}
     for path, value in (("a/X1/v", 1), ("a/line/v", 2), ("a/c/v", 3), ("a/1/v", 2), ("/a/0/v/", 1)):
         container, key = locate(document, path)
         assert container[key] == value
 
 
-def test_the_original_is_left_as_it_was():
+def test_the_original_is_left_as_it_was() -> None:
     before = BOTH.model_dump_json()
     realise(BOTH, 3)
     assert BOTH.model_dump_json() == before

@@ -1,9 +1,12 @@
 """Radio lines in a scenario file: frequencies, answers, and what goes wrong on the air."""
 
+from __future__ import annotations
+
 import copy
 import json
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -19,7 +22,7 @@ DOCUMENT = load("s01a_nominal").model_dump(mode="json")
 FAILURES = TypeAdapter(tuple[Failure, ...])
 
 
-def changed(**lines):
+def changed(**lines: Any) -> dict[str, Any]:
     """Return the nominal scenario with fields of some lines changed."""
     document = copy.deepcopy(DOCUMENT)
     for line in document["radio"]["lines"]:
@@ -27,20 +30,20 @@ def changed(**lines):
     return document
 
 
-def complaint(document):
+def complaint(document: dict[str, Any]) -> str:
     with pytest.raises(ScenarioError) as caught:
         load_text(json.dumps(document), "test.json")
     return str(caught.value)
 
 
 @pytest.mark.parametrize("frequency_khz", [118_020, 137_000, 117_975])
-def test_a_frequency_is_a_channel(frequency_khz):
+def test_a_frequency_is_a_channel(frequency_khz: int) -> None:
     message = complaint(changed(clearance={"frequency_khz": frequency_khz}))
     assert "radio/lines/0/frequency_khz" in message
     assert f"{frequency_khz} kHz is no channel" in message
 
 
-def test_an_833_khz_channel_is_one():
+def test_an_833_khz_channel_is_one() -> None:
     document = changed(clearance={"frequency_khz": 118_005}, readback={"frequency_khz": 118_005})
     assert load_text(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
 
@@ -53,25 +56,25 @@ def test_an_833_khz_channel_is_one():
         "clearance.Repeat-1",
     ],
 )  # fmt: skip
-def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(name):
+def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(name: str) -> None:
     message = complaint(changed(roger={"id": name}))
     assert f"radio/lines/2/id: found {name!r}" in message
     assert "calls that are not in the script" in message
 
 
-def test_what_only_contains_such_a_name_is_an_id():
+def test_what_only_contains_such_a_name_is_an_id() -> None:
     document = changed(clearance={"id": "clearance.repeat-1.again"})
     scenario = load_text(json.dumps(document), "test.json")
     assert scenario.radio.lines[0].id == "clearance.repeat-1.again"
 
 
-def test_ids_of_lines_differ_in_more_than_case():
+def test_ids_of_lines_differ_in_more_than_case() -> None:
     message = complaint(changed(readback={"id": "Clearance"}))
     assert "radio/lines/1/id" in message
     assert "found 'Clearance', which radio/lines/0 has already, as 'clearance'" in message
 
 
-def test_a_line_answers_one_before_it_on_its_frequency():
+def test_a_line_answers_one_before_it_on_its_frequency() -> None:
     assert "did you mean 'takeoff'" in complaint(changed(takeoff_readback={"answers": "takoff"}))
     assert "no line 'takeoff' before" in complaint(changed(clearance={"answers": "takeoff"}))
     other = changed(takeoff_readback={"answers": "takeoff"}, takeoff={"frequency_khz": 121_500})
@@ -85,13 +88,13 @@ def test_a_line_answers_one_before_it_on_its_frequency():
         ("words_per_minute", 5.0),
     ],
 )  # fmt: skip
-def test_settings_of_the_radio_have_limits(field, value):
+def test_settings_of_the_radio_have_limits(field: str, value: float | str) -> None:
     document = changed()
     document["radio"][field] = value
     assert f"radio/{field}" in complaint(document)
 
 
-def test_a_microphone_sticks_on_a_frequency():
+def test_a_microphone_sticks_on_a_frequency() -> None:
     document = changed()
     document["actors"].append(
         document["actors"][0] | {"callsign": "UAL7", "icao24": "abcdef", "on_roster": False}
@@ -104,7 +107,7 @@ def test_a_microphone_sticks_on_a_frequency():
     assert "failures/0/for_s" in complaint(document)
 
 
-def test_a_blocked_line_does_not_wait_for_the_frequency():
+def test_a_blocked_line_does_not_wait_for_the_frequency() -> None:
     scenario = load("s01a_nominal")
     failures = FAILURES.validate_python([{"type": "blocked", "line": "takeoff"}])
     effective = apply_failures(scenario.model_copy(update={"failures": failures}))
@@ -113,22 +116,22 @@ def test_a_blocked_line_does_not_wait_for_the_frequency():
     assert all(listens.values())
 
 
-def test_a_readback_needs_the_call_that_it_reads_back():
+def test_a_readback_needs_the_call_that_it_reads_back() -> None:
     needed = needed_lines(load("s01a_nominal"))
     assert needed["readback"] == ("clearance",)
     assert needed["takeoff_readback"] == ("takeoff",)
     assert needed["clearance"] == ()
 
 
-def test_a_call_that_comes_of_a_report_needs_the_report():
+def test_a_call_that_comes_of_a_report_needs_the_report() -> None:
     assert needed_lines(load("s01c_deer_delayed_warning"))["go_around"] == ("report",)
 
 
-def test_a_readback_by_somebody_else_names_what_it_reads_back():
+def test_a_readback_by_somebody_else_names_what_it_reads_back() -> None:
     assert needed_lines(load("s01a_misaddressed"))["go_around_readback"] == ("go_around",)
 
 
-def test_a_profile_of_the_radio_is_one_of_those_that_there_are():
+def test_a_profile_of_the_radio_is_one_of_those_that_there_are() -> None:
     document = changed()
     document["radio"]["profile"] = "vfh"
     message = complaint(document)
@@ -140,6 +143,6 @@ def test_a_profile_of_the_radio_is_one_of_those_that_there_are():
         assert load_text(json.dumps(document), "test.json").radio.profile == name
 
 
-def test_a_scenario_is_checked_without_the_libraries_behind_sound():
+def test_a_scenario_is_checked_without_the_libraries_behind_sound() -> None:
     loaded = "import sys, airhilt.world.loading; sys.exit('scipy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", loaded]).returncode == 0

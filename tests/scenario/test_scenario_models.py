@@ -1,6 +1,9 @@
 """A scenario is JSON: what goes out comes in again."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, _AnnotatedAlias
 
 import pytest
 from geographiclib.geodesic import Geodesic
@@ -83,27 +86,29 @@ conditions = st.recursive(
 )
 
 
-def there_and_back(annotation, value):
+def there_and_back(annotation: _AnnotatedAlias, value: Any) -> Any:
     adapter = TypeAdapter(annotation)
     return adapter.validate_json(adapter.dump_json(value))
 
 
 @settings(deadline=None)
 @given(positions)
-def test_a_position_survives_json(position):
+def test_a_position_survives_json(position: GeodeticPosition | RelativePosition) -> None:
     assert there_and_back(Position, position) == position
 
 
 @settings(deadline=None)
 @given(conditions)
-def test_a_condition_survives_json(document):
+def test_a_condition_survives_json(document: dict[Any, Any]) -> None:
     condition = TypeAdapter(Condition).validate_python(document)
     assert there_and_back(Condition, condition) == condition
 
 
 @settings(deadline=None)
 @given(st.lists(actors, min_size=1, max_size=4), conditions, st.floats(1.0, 86_400.0))
-def test_a_scenario_survives_json(some, condition, duration_s):
+def test_a_scenario_survives_json(
+    some: list[AircraftSpec], condition: dict[Any, Any], duration_s: float
+) -> None:
     ends = TypeAdapter(Condition).validate_python(condition)
     scenario = load("s02a_headon").model_copy(
         update={"actors": tuple(some), "end_when": (ends,), "duration_s": duration_s}
@@ -111,7 +116,7 @@ def test_a_scenario_survives_json(some, condition, duration_s):
     assert Scenario.model_validate_json(scenario.model_dump_json()) == scenario
 
 
-def test_a_scenario_cannot_be_changed():
+def test_a_scenario_cannot_be_changed() -> None:
     with pytest.raises(ValidationError, match="frozen"):
         load("s02a_headon").duration_s = 5.0
 
@@ -122,7 +127,9 @@ SETTING = geometry.ScenarioSite(CENTRE, 0.0)
 
 @settings(deadline=None)
 @given(bearings, st.floats(1.0, 200.0))
-def test_a_position_lies_where_its_bearing_and_distance_lead(bearing, distance):
+def test_a_position_lies_where_its_bearing_and_distance_lead(
+    bearing: float, distance: float
+) -> None:
     place = RelativePosition(type="from_centre", bearing_deg=bearing, distance_nm=distance)
     latitude, longitude = SETTING.place(place)
     line = Geodesic.WGS84.Inverse(38.9, -77.0, latitude / DEGREE, longitude / DEGREE)
@@ -131,7 +138,9 @@ def test_a_position_lies_where_its_bearing_and_distance_lead(bearing, distance):
 
 
 @pytest.mark.parametrize(("offset_nm", "lat_sign"), [(2.0, -1), (-2.0, 1)])
-def test_an_offset_is_to_the_right_of_the_line_from_the_centre(offset_nm, lat_sign):
+def test_an_offset_is_to_the_right_of_the_line_from_the_centre(
+    offset_nm: float, lat_sign: int
+) -> None:
     place = RelativePosition(
         type="from_centre", bearing_deg=90.0, distance_nm=10.0, offset_nm=offset_nm
     )
@@ -142,10 +151,10 @@ def test_an_offset_is_to_the_right_of_the_line_from_the_centre(offset_nm, lat_si
     assert line["s12"] == pytest.approx(2.0 * NAUTICAL_MILE, abs=0.01)
 
 
-def test_an_azimuth_is_that_at_which_the_way_begins():
+def test_an_azimuth_is_that_at_which_the_way_begins() -> None:
     assert geometry.azimuth((0.0, 0.0), (0.0, 1.0)) == pytest.approx(90.0 * DEGREE)
     assert geometry.azimuth((0.0, 0.0), (1.0, 0.0)) == pytest.approx(0.0)
 
 
-def test_a_scene_has_a_centre():
+def test_a_scene_has_a_centre() -> None:
     assert EnRouteScene(type="en_route", centre=CENTRE).terrain_elevation_ft == 0.0

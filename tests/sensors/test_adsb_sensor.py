@@ -1,16 +1,22 @@
 """ADS-B in a run: when squitters go out, and how late their reports are."""
 
+from __future__ import annotations
+
 import itertools
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import pytest
 
 from airhilt import load
+from airhilt.messages import AdsbReport
 from airhilt.scenario.models import AircraftSpec, Scenario
 from airhilt.sensors.adsb import AdsbSensor
 from airhilt.sensors.base import SensorContext
 from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.surveillance.squitters import IdentificationSquitter, SurfacePositionSquitter
+from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, SECOND_NS
 from airhilt.world.flight import AircraftState
 from airhilt.world.mover import carried_on
@@ -43,7 +49,15 @@ class Acting:
     emitter_category: str = "A3"
 
 
-def context(scenario, director, actors, reports, steps, latency="fixed:0.05", seed=1):
+def context(
+    scenario: Scenario,
+    director: Director,
+    actors: dict[str, Acting],
+    reports: list[Any],
+    steps: list[Any],
+    latency: str = "fixed:0.05",
+    seed: int = 1,
+) -> SensorContext:
     """Return what a run would give to the sensor."""
     return SensorContext(
         director=director,
@@ -59,7 +73,14 @@ def context(scenario, director, actors, reports, steps, latency="fixed:0.05", se
 
 
 class Run:
-    def __init__(self, seconds=120.0, latency="fixed:0.05", seed=1, equipped=True, **adsb):
+    def __init__(
+        self,
+        seconds: float = 120.0,
+        latency: str = "fixed:0.05",
+        seed: int = 1,
+        equipped: bool = True,
+        **adsb: Any,
+    ) -> None:
         document = load("s02a_headon").model_dump()
         document["adsb"] |= {"loss_probability": 0.0} | adsb
         for actor in document["actors"]:
@@ -76,20 +97,20 @@ class Run:
         self.end_ns = round(seconds * SECOND_NS)
         self.director.at(self.end_ns, self.director.stop, Priority.OBSERVE)
 
-    def go(self):
+    def go(self) -> Run:
         self.director.run()
         return self
 
-    def of(self, icao24):
+    def of(self, icao24: str) -> list[AdsbReport]:
         return [report for report in self.reports if report.icao24 == icao24]
 
 
 @pytest.fixture(scope="module")
-def run():
+def run() -> Run:
     return Run().go()
 
 
-def test_position_squitters_come_at_random_intervals_of_400_to_600_ms(run):
+def test_position_squitters_come_at_random_intervals_of_400_to_600_ms(run: Run) -> None:
     for icao24 in {report.icao24 for report in run.reports}:
         times = [report.t_adsb_in_ns for report in run.of(icao24)]
         intervals = [b - a for a, b in itertools.pairwise(times)]
@@ -99,12 +120,12 @@ def test_position_squitters_come_at_random_intervals_of_400_to_600_ms(run):
         assert len(set(intervals)) > 100
 
 
-def test_every_equipped_aircraft_is_reported_with_its_callsign_within_six_seconds(run):
+def test_every_equipped_aircraft_is_reported_with_its_callsign_within_six_seconds(run: Run) -> None:
     named = {r.callsign for r in run.reports if r.t_adsb_in_ns < 6 * SECOND_NS}
     assert set(run.aircraft) <= named
 
 
-def test_a_report_leaves_the_receiver_one_latency_after_the_squitter(run):
+def test_a_report_leaves_the_receiver_one_latency_after_the_squitter(run: Run) -> None:
     for report in run.reports:
         assert report.t_adsb_out_ns - report.t_adsb_in_ns == 50_000_000
         assert report.t_ns == report.t_adsb_out_ns
@@ -112,7 +133,7 @@ def test_a_report_leaves_the_receiver_one_latency_after_the_squitter(run):
     assert all(step.worker == "adsb" and step.finished for step in run.steps)
 
 
-def test_a_report_that_the_end_of_the_run_cuts_off_is_unfinished():
+def test_a_report_that_the_end_of_the_run_cuts_off_is_unfinished() -> None:
     run = Run(seconds=30.0, latency="fixed:10").go()
     cut = run.sensor.unfinished()
     assert cut
@@ -120,17 +141,17 @@ def test_a_report_that_the_end_of_the_run_cuts_off_is_unfinished():
     assert len(cut) + len(run.steps) == 1 + max(step.seq for step in cut)
 
 
-def test_the_same_seed_gives_the_same_reports_and_another_seed_others():
+def test_the_same_seed_gives_the_same_reports_and_another_seed_others() -> None:
     once, again, other = (Run(seconds=20.0, seed=seed).go().reports for seed in (1, 1, 2))
     assert once == again
     assert once != other
 
 
-def test_an_aircraft_without_a_transponder_is_not_heard():
+def test_an_aircraft_without_a_transponder_is_not_heard() -> None:
     assert Run(seconds=10.0, equipped=False).go().reports == []
 
 
-def test_an_aircraft_that_has_ended_squitters_no_more():
+def test_an_aircraft_that_has_ended_squitters_no_more() -> None:
     run = Run(seconds=20.0)
     gone = next(iter(run.aircraft.values()))
     run.director.at(
@@ -143,7 +164,7 @@ def test_an_aircraft_that_has_ended_squitters_no_more():
     assert last[1] > 19 * SECOND_NS
 
 
-def test_one_aircraft_more_does_not_change_what_the_others_squitter():
+def test_one_aircraft_more_does_not_change_what_the_others_squitter() -> None:
     document = load("s02a_headon").model_dump()
     seen = []
     for keep in (1, 2):
@@ -158,7 +179,7 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter():
     assert seen[0] == seen[1]
 
 
-def replace_actors(document, keep):
+def replace_actors(document: dict[str, Any], keep: int) -> Scenario:
     part = document | {
         "actors": document["actors"][:keep], "conflict": None, "end_when": [],
         "perturbations": [], "radio": {},
@@ -166,7 +187,7 @@ def replace_actors(document, keep):
     return Scenario.model_validate(part)
 
 
-def test_between_two_ticks_a_state_is_carried_straight_on():
+def test_between_two_ticks_a_state_is_carried_straight_on() -> None:
     moved = carried_on(STATE._replace(velocity_down_m_s=-10.0), 0.04)
     assert moved.altitude_m == pytest.approx(STATE.altitude_m + 0.4)
     east_m = (moved.longitude_rad - STATE.longitude_rad) * 6.39e6 * 0.778
@@ -174,13 +195,13 @@ def test_between_two_ticks_a_state_is_carried_straight_on():
     assert carried_on(STATE, 0.0) is STATE
 
 
-def test_a_receiver_far_away_hears_nothing():
+def test_a_receiver_far_away_hears_nothing() -> None:
     position = {"type": "geodetic", "lat_deg": -38.9, "lon_deg": 77.0}
     far = [{"name": "far", "position": position}]
     assert Run(seconds=5.0, receivers=far).go().reports == []
 
 
-def test_a_gliding_aircraft_is_reported_where_it_is(run):
+def test_a_gliding_aircraft_is_reported_where_it_is(run: Run) -> None:
     for report in run.reports:
         assert report.latitude_deg == pytest.approx(38.9, abs=2e-3)
         assert report.altitude_ft == 35_000.0
@@ -190,20 +211,20 @@ def test_a_gliding_aircraft_is_reported_where_it_is(run):
 # --- on the ground --------------------------------------------------------------------------
 
 
-def on_the_ground(speed_m_s=0.0):
+def on_the_ground(speed_m_s: float = 0.0) -> AircraftState:
     return STATE._replace(
         altitude_m=0.0, height_agl_m=0.0, velocity_north_m_s=0.0, velocity_east_m_s=speed_m_s
     )
 
 
-def grounded(seconds=120.0, state=None, **rest):
+def grounded(seconds: float = 120.0, state: None = None, **rest: Any) -> Run:
     run = Run(seconds, **rest)
     for body in run.aircraft.values():
         body.on_ground, body.state = True, state or on_the_ground()
     return run
 
 
-def driving(run, callsign, speed_m_s, from_s=0.0):
+def driving(run: Run, callsign: str, speed_m_s: float, from_s: float = 0.0) -> None:
     """Let a body drive east from a time on."""
     body = run.aircraft[callsign]
     run.director.at(
@@ -212,19 +233,19 @@ def driving(run, callsign, speed_m_s, from_s=0.0):
         Priority.PHYSICS,
     )
 
-    def tick():
+    def tick() -> None:
         body.state = carried_on(body.state, 0.05)
         run.director.at(run.director.now_ns + SECOND_NS // 20, tick, Priority.PHYSICS)
 
     run.director.at(round(from_s * SECOND_NS) + SECOND_NS // 20, tick, Priority.PHYSICS)
 
 
-def intervals_s(reports, from_s=0.0):
+def intervals_s(reports: list[AdsbReport], from_s: float = 0.0) -> list[float]:
     times = [r.t_adsb_in_ns / SECOND_NS for r in reports if r.t_adsb_in_ns >= from_s * SECOND_NS]
     return [b - a for a, b in itertools.pairwise(times)]
 
 
-def test_who_stands_for_half_a_minute_squitters_every_five_seconds():
+def test_who_stands_for_half_a_minute_squitters_every_five_seconds() -> None:
     run = grounded(seconds=200.0).go()
     for actor in {report.icao24 for report in run.reports}:
         reports = run.of(actor)
@@ -235,7 +256,7 @@ def test_who_stands_for_half_a_minute_squitters_every_five_seconds():
         assert max(slow) <= 5.2
 
 
-def test_who_drives_squitters_twice_a_second():
+def test_who_drives_squitters_twice_a_second() -> None:
     run = grounded(seconds=90.0)
     for callsign in run.aircraft:
         driving(run, callsign, 8.0)
@@ -246,7 +267,7 @@ def test_who_drives_squitters_twice_a_second():
         assert max(intervals_s(run.of(actor))) <= 0.6
 
 
-def test_who_begins_to_move_is_heard_of_within_two_seconds():
+def test_who_begins_to_move_is_heard_of_within_two_seconds() -> None:
     run = grounded(seconds=70.0)
     callsign = next(iter(run.aircraft))
     driving(run, callsign, 8.0, from_s=60.0)
@@ -256,11 +277,11 @@ def test_who_begins_to_move_is_heard_of_within_two_seconds():
     assert max(intervals_s(moving[1:])) <= 0.6
 
 
-def test_reports_from_the_ground_have_no_altitude_and_reports_from_the_air_do():
+def test_reports_from_the_ground_have_no_altitude_and_reports_from_the_air_do() -> None:
     run = Run(seconds=40.0)
     body = next(iter(run.aircraft.values()))
 
-    def lift_off():
+    def lift_off() -> None:
         body.on_ground = False
         body.state = STATE
 
@@ -276,12 +297,18 @@ def test_reports_from_the_ground_have_no_altitude_and_reports_from_the_air_do():
     assert {report.on_ground for report in named} == {True, False}
 
 
-def test_callsigns_of_those_who_stand_come_every_ten_seconds(monkeypatch):
+def test_callsigns_of_those_who_stand_come_every_ten_seconds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     run = grounded(seconds=200.0)
     sent = []
     receive = run.sensor._receive
 
-    def record(sender, squitter, state):
+    def record(
+        sender: Transponder,
+        squitter: IdentificationSquitter | SurfacePositionSquitter,
+        state: AircraftState,
+    ) -> None:
         sent.append((type(squitter).__name__, sender.icao24, run.director.now_ns / SECOND_NS))
         receive(sender, squitter, state)
 
@@ -296,7 +323,7 @@ def test_callsigns_of_those_who_stand_come_every_ten_seconds(monkeypatch):
         assert max(gaps) <= 10.2
 
 
-def test_a_standing_position_is_reported_to_within_its_accuracy():
+def test_a_standing_position_is_reported_to_within_its_accuracy() -> None:
     for report in grounded(seconds=30.0).go().reports:
         north_m = (report.latitude_deg - 38.9) * 111_000.0
         east_m = (report.longitude_deg + 77.0) * 111_000.0 * math.cos(38.9 * DEGREE)

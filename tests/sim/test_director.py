@@ -1,6 +1,9 @@
 """Events run in the order of simulation time, whatever the order in which they were scheduled."""
 
+from __future__ import annotations
+
 import threading
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -13,7 +16,7 @@ events = st.lists(st.tuples(st.integers(0, 20), st.sampled_from(Priority)), max_
 
 @settings(deadline=None)
 @given(events)
-def test_events_run_by_time_then_priority_then_order_of_scheduling(plan):
+def test_events_run_by_time_then_priority_then_order_of_scheduling(plan: list[Any]) -> None:
     director, ran = Director(Virtual()), []
     for number, (t_ns, priority) in enumerate(plan):
         director.at(t_ns, lambda n=number: ran.append((director.now_ns, n)), priority)
@@ -24,7 +27,7 @@ def test_events_run_by_time_then_priority_then_order_of_scheduling(plan):
 
 @settings(deadline=None)
 @given(st.lists(st.integers(0, 5), min_size=1, max_size=30))
-def test_time_never_runs_backwards_when_events_schedule_events(delays):
+def test_time_never_runs_backwards_when_events_schedule_events(delays: list[int]) -> None:
     director, times, left = Director(Virtual()), [], list(delays)
 
     def act() -> None:
@@ -39,7 +42,7 @@ def test_time_never_runs_backwards_when_events_schedule_events(delays):
     assert times == sorted(times)
 
 
-def test_an_event_of_this_instant_may_be_scheduled_while_the_instant_runs():
+def test_an_event_of_this_instant_may_be_scheduled_while_the_instant_runs() -> None:
     director, ran = Director(Virtual()), []
 
     def sensor() -> None:
@@ -52,7 +55,7 @@ def test_an_event_of_this_instant_may_be_scheduled_while_the_instant_runs():
     assert ran == ["sensor", "physics", "observe"]
 
 
-def test_an_event_in_the_past_is_refused_and_says_what_time_it_is():
+def test_an_event_in_the_past_is_refused_and_says_what_time_it_is() -> None:
     director = Director(Virtual())
 
     def act() -> None:
@@ -64,7 +67,7 @@ def test_an_event_in_the_past_is_refused_and_says_what_time_it_is():
     assert director.now_ns == 10
 
 
-def test_every_repeats_at_its_period_from_its_first_time():
+def test_every_repeats_at_its_period_from_its_first_time() -> None:
     director, times = Director(Virtual()), []
     director.every(30, lambda: times.append(director.now_ns), Priority.PHYSICS, first_ns=10)
     director.at(100, director.stop, Priority.OBSERVE)
@@ -73,12 +76,12 @@ def test_every_repeats_at_its_period_from_its_first_time():
 
 
 @pytest.mark.parametrize("period_ns", [0, -1])
-def test_every_needs_a_positive_period(period_ns):
+def test_every_needs_a_positive_period(period_ns: int) -> None:
     with pytest.raises(ValueError, match="must be positive"):
         Director(Virtual()).every(period_ns, lambda: None, Priority.PHYSICS)
 
 
-def test_stop_ends_the_run_after_the_event_in_hand():
+def test_stop_ends_the_run_after_the_event_in_hand() -> None:
     director, ran = Director(Virtual()), []
 
     def stop() -> None:
@@ -91,7 +94,7 @@ def test_stop_ends_the_run_after_the_event_in_hand():
     assert ran == ["first"]
 
 
-def test_what_is_posted_runs_before_the_next_event():
+def test_what_is_posted_runs_before_the_next_event() -> None:
     director, ran = Director(Virtual()), []
 
     def act() -> None:
@@ -106,7 +109,7 @@ def test_what_is_posted_runs_before_the_next_event():
     assert event == ("event", 9)
 
 
-def test_what_is_posted_never_runs_among_the_events_of_one_instant():
+def test_what_is_posted_never_runs_among_the_events_of_one_instant() -> None:
     director, ran = Director(Virtual()), []
     director.at(5, lambda: director.post(lambda: ran.append("posted")), Priority.PHYSICS)
     director.at(5, lambda: ran.append("observed"), Priority.OBSERVE)
@@ -115,7 +118,7 @@ def test_what_is_posted_never_runs_among_the_events_of_one_instant():
     assert ran == ["observed", "posted", "later"]
 
 
-def test_a_post_from_another_thread_runs_in_the_thread_of_the_director():
+def test_a_post_from_another_thread_runs_in_the_thread_of_the_director() -> None:
     director, ran = Director(Virtual()), []
 
     def post() -> None:
@@ -131,7 +134,7 @@ def test_a_post_from_another_thread_runs_in_the_thread_of_the_director():
     assert ran == [(number, threading.get_ident()) for number in range(100)]
 
 
-def test_a_post_wakes_a_director_that_waits_for_the_wall_clock():
+def test_a_post_wakes_a_director_that_waits_for_the_wall_clock() -> None:
     director = Director(RealTime())
     in_an_hour, posted_ns = 3_600_000_000_000, []
 
@@ -148,7 +151,7 @@ def test_a_post_wakes_a_director_that_waits_for_the_wall_clock():
     assert 0 <= posted_ns[0] < in_an_hour
 
 
-def test_the_pace_may_change_while_it_runs():
+def test_the_pace_may_change_while_it_runs() -> None:
     director, times = Director(RealTime()), []
     in_an_hour = 3_600_000_000_000
     director.at(0, lambda: director.change_pace(Virtual()), Priority.SCRIPT)
@@ -157,7 +160,7 @@ def test_the_pace_may_change_while_it_runs():
     assert times == [in_an_hour]
 
 
-def test_results_of_an_instant_arrive_before_workers_start_in_it():
+def test_results_of_an_instant_arrive_before_workers_start_in_it() -> None:
     director, seen = Director(Virtual()), []
     for priority in reversed(Priority):
         director.at(5, lambda name=priority.name: seen.append(name), priority)

@@ -1,6 +1,9 @@
 """Where latencies come from, and that what is drawn can be drawn again."""
 
+from __future__ import annotations
+
 import statistics
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -10,13 +13,20 @@ from airhilt.errors import AirhiltError
 from airhilt.sim import LatencySpec, parse_latency
 
 
-def drawn(text, worker="asr", seed=1, steps=5, median_s=0.4, sigma=0.25):
+def drawn(
+    text: str,
+    worker: str = "asr",
+    seed: int = 1,
+    steps: int = 5,
+    median_s: float = 0.4,
+    sigma: float = 0.25,
+) -> list[Any]:
     source = parse_latency(text).source(worker, seed, median_s, sigma)
     return [source.known_ns(seq) for seq in range(steps)]
 
 
 @pytest.mark.parametrize("text", ["measured", "fixed", "fixed:0.25", "lognormal", "replay:runs/a"])
-def test_a_latency_source_is_written_as_it_was_typed(text):
+def test_a_latency_source_is_written_as_it_was_typed(text: str) -> None:
     assert parse_latency(text).text == text
 
 
@@ -25,7 +35,7 @@ def test_a_latency_source_is_written_as_it_was_typed(text):
     ["", "slow", "fixed:", "fixed:x", "fixed:-1", "fixed:nan", "fixed:3601", "fixed:inf",
      "replay", "replay:", "lognormal:1", "measured:2", "Fixed"],
 )  # fmt: skip
-def test_any_other_is_refused_and_the_message_says_what_is_expected(text):
+def test_any_other_is_refused_and_the_message_says_what_is_expected(text: str) -> None:
     with pytest.raises(AirhiltError) as caught:
         parse_latency(text)
     message = str(caught.value)
@@ -34,11 +44,11 @@ def test_any_other_is_refused_and_the_message_says_what_is_expected(text):
         assert form in message
 
 
-def test_a_measured_latency_is_not_known_beforehand():
+def test_a_measured_latency_is_not_known_beforehand() -> None:
     assert drawn("measured", steps=2) == [None, None]
 
 
-def test_fixed_is_what_was_given_or_else_what_the_worker_declares():
+def test_fixed_is_what_was_given_or_else_what_the_worker_declares() -> None:
     assert drawn("fixed:0.25", steps=2) == [250_000_000] * 2
     assert drawn("fixed", steps=2) == [400_000_000] * 2
     assert drawn("fixed:0", steps=2) == [0, 0]
@@ -46,7 +56,7 @@ def test_fixed_is_what_was_given_or_else_what_the_worker_declares():
 
 @settings(deadline=None, max_examples=30)
 @given(seed=st.integers(0, 2**63), step=st.integers(0, 10_000))
-def test_a_lognormal_latency_depends_on_seed_worker_and_step_alone(seed, step):
+def test_a_lognormal_latency_depends_on_seed_worker_and_step_alone(seed: int, step: int) -> None:
     def latency(worker: str, run_seed: int) -> int:
         source = parse_latency("lognormal").source(worker, run_seed, 0.4, 0.25)
         return source.known_ns(step)
@@ -59,24 +69,24 @@ def test_a_lognormal_latency_depends_on_seed_worker_and_step_alone(seed, step):
     assert alone > 0
 
 
-def test_lognormal_latencies_differ_from_step_to_step_about_the_declared_median():
+def test_lognormal_latencies_differ_from_step_to_step_about_the_declared_median() -> None:
     latencies = drawn("lognormal", steps=1000)
     assert len(set(latencies)) > 990
     assert statistics.median(latencies) == pytest.approx(0.4e9, rel=0.05)
 
 
-def test_a_lognormal_without_spread_is_its_median():
+def test_a_lognormal_without_spread_is_its_median() -> None:
     assert drawn("lognormal", steps=3, sigma=0.0) == [400_000_000] * 3
 
 
-def test_a_replay_gives_what_the_earlier_run_had():
+def test_a_replay_gives_what_the_earlier_run_had() -> None:
     spec = LatencySpec("replay", replay_of="runs/a", recorded={"asr": {0: 7, 1: 9}})
     source = spec.source("asr", 1, 0.4, 0.25)
     assert [source.known_ns(0), source.known_ns(1)] == [7, 9]
 
 
 @pytest.mark.parametrize("worker", ["asr", "vision"])
-def test_a_step_that_the_earlier_run_did_not_have_is_an_error_that_names_it(worker):
+def test_a_step_that_the_earlier_run_did_not_have_is_an_error_that_names_it(worker: str) -> None:
     spec = LatencySpec("replay", replay_of="runs/a", recorded={"asr": {0: 7, 1: 9}})
     with pytest.raises(AirhiltError) as caught:
         spec.source(worker, 1, 0.4, 0.25).known_ns(2)

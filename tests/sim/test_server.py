@@ -1,6 +1,9 @@
 """A worker is a server in virtual time: it is as late as its model is slow."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -54,26 +57,26 @@ class Bench:
             lost=self.losses.append,
         )
 
-    def dispatch(self, seq, t_ns, inputs):
+    def dispatch(self, seq: int, t_ns: int, inputs: tuple[Input]) -> Answer:
         self.calls.append((seq, t_ns, tuple(item.payload for item in inputs)))
         return Answer(self.answer(seq, t_ns, inputs))
 
-    def offer_at(self, t_ns, payload, policy="fifo", key="k"):
+    def offer_at(self, t_ns: int, payload: bytes, policy: str = "fifo", key: str = "k") -> None:
         def offer() -> None:
             self.server.offer(Input(key, t_ns, payload), policy)
 
         self.director.at(t_ns, offer, Priority.SENSOR)
 
-    def run(self):
+    def run(self) -> Bench | None:
         self.director.run()
         return self
 
 
-def echo(seq, t_ns, inputs):
+def echo(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply:
     return Reply(tuple(Output("out", item.payload) for item in inputs), compute_s=0.0)
 
 
-def test_a_result_leaves_one_latency_after_the_start():
+def test_a_result_leaves_one_latency_after_the_start() -> None:
     bench = Bench(echo, Fixed(30))
     bench.offer_at(100, b"a")
     bench.run()
@@ -89,7 +92,9 @@ def test_a_result_leaves_one_latency_after_the_start():
     st.lists(st.integers(0, 500), min_size=1, max_size=20),
     st.lists(st.integers(0, 60), min_size=20, max_size=20),
 )
-def test_an_input_starts_when_it_has_come_and_the_worker_is_free(arrivals, latencies):
+def test_an_input_starts_when_it_has_come_and_the_worker_is_free(
+    arrivals: list[int], latencies: list[int]
+) -> None:
     recorded = dict(enumerate(latencies))
     spec = parse_latency("replay:a")
     source = type(spec)("replay", replay_of="a", recorded={"worker": recorded}).source(
@@ -112,7 +117,7 @@ def test_an_input_starts_when_it_has_come_and_the_worker_is_free(arrivals, laten
     assert [step.t_in_ns for step in bench.steps] == [t_in for t_in, *_ in expected]
 
 
-def test_fifo_takes_one_a_step_in_the_order_of_arrival():
+def test_fifo_takes_one_a_step_in_the_order_of_arrival() -> None:
     bench = Bench(echo, Fixed(10))
     for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c")):
         bench.offer_at(t_ns, name)
@@ -121,7 +126,7 @@ def test_fifo_takes_one_a_step_in_the_order_of_arrival():
     assert not bench.server.dropped.total()
 
 
-def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops():
+def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops() -> None:
     bench = Bench(echo, Fixed(10))
     for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (3, b"d")):
         bench.offer_at(t_ns, name, "latest", key="left")
@@ -131,7 +136,7 @@ def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops():
     assert +bench.server.dropped == {"left": 2}
 
 
-def test_of_several_keys_that_are_too_fast_each_has_its_turn():
+def test_of_several_keys_that_are_too_fast_each_has_its_turn() -> None:
     bench = Bench(echo, Fixed(10))
     for t_ns in range(0, 60, 6):
         for key in ("left", "right", "behind"):
@@ -140,7 +145,7 @@ def test_of_several_keys_that_are_too_fast_each_has_its_turn():
     assert [payload for _, payload in bench.out] == [b"left", b"right", b"behind"] * 3
 
 
-def test_latest_never_takes_back_what_the_worker_has_in_hand():
+def test_latest_never_takes_back_what_the_worker_has_in_hand() -> None:
     bench = Bench(echo, Fixed(10))
     bench.offer_at(0, b"a", "latest")
     bench.offer_at(5, b"b", "latest")
@@ -149,7 +154,7 @@ def test_latest_never_takes_back_what_the_worker_has_in_hand():
     assert not bench.server.dropped.total()
 
 
-def test_a_batch_takes_all_batched_inputs_that_wait():
+def test_a_batch_takes_all_batched_inputs_that_wait() -> None:
     bench = Bench(echo, Fixed(10))
     for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (12, b"d")):
         bench.offer_at(t_ns, name, "batch", key=name.decode())
@@ -157,7 +162,7 @@ def test_a_batch_takes_all_batched_inputs_that_wait():
     assert [inputs for _, _, inputs in bench.calls] == [(b"a",), (b"b", b"c"), (b"d",)]
 
 
-def test_inputs_of_one_instant_are_one_batch():
+def test_inputs_of_one_instant_are_one_batch() -> None:
     bench = Bench(echo, Fixed(10))
     bench.offer_at(5, b"a", "batch")
     bench.offer_at(5, b"b", "batch")
@@ -165,7 +170,7 @@ def test_inputs_of_one_instant_are_one_batch():
     assert bench.calls == [(0, 5, (b"a", b"b"))]
 
 
-def test_a_batch_leaves_the_unbatched_ones_in_the_queue():
+def test_a_batch_leaves_the_unbatched_ones_in_the_queue() -> None:
     bench = Bench(echo, Fixed(10))
     for name, policy in ((b"a", "fifo"), (b"b", "batch"), (b"c", "fifo"), (b"d", "batch")):
         bench.offer_at(0, name, policy)
@@ -173,11 +178,11 @@ def test_a_batch_leaves_the_unbatched_ones_in_the_queue():
     assert [inputs for _, _, inputs in bench.calls] == [(b"a",), (b"b", b"d"), (b"c",)]
 
 
-def test_with_a_known_latency_the_world_goes_on_while_the_worker_computes():
+def test_with_a_known_latency_the_world_goes_on_while_the_worker_computes() -> None:
     world = []
 
     class Watched(Answer):
-        def result(self):
+        def result(self) -> Reply:
             world.append("collected")
             return super().result()
 
@@ -189,7 +194,7 @@ def test_with_a_known_latency_the_world_goes_on_while_the_worker_computes():
     assert world == ["physics", "collected"]
 
 
-def test_a_measured_latency_is_the_compute_time_that_the_reply_tells():
+def test_a_measured_latency_is_the_compute_time_that_the_reply_tells() -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x"),), compute_s=40e-9), Measured())
     bench.offer_at(100, b"a")
     bench.offer_at(110, b"b")
@@ -199,11 +204,11 @@ def test_a_measured_latency_is_the_compute_time_that_the_reply_tells():
     assert [step.t_start_ns for step in bench.steps] == [100, 140]
 
 
-def test_with_a_measured_latency_all_workers_of_an_instant_are_called_before_one_is_waited_for():
+def test_measured_workers_of_an_instant_are_all_called_before_one_is_waited_for() -> None:
     order = []
 
     class Watched(Answer):
-        def result(self):
+        def result(self) -> Reply:
             order.append("waited for")
             return super().result()
 
@@ -216,7 +221,7 @@ def test_with_a_measured_latency_all_workers_of_an_instant_are_called_before_one
     assert order == ["called", "called", "waited for", "waited for"]
 
 
-def test_results_of_one_instant_come_in_the_order_in_which_their_steps_began():
+def test_results_of_one_instant_come_in_the_order_in_which_their_steps_began() -> None:
     director, published = Director(Virtual()), []
     benches = {
         name: Bench(echo, Fixed(latency_ns), name=name, director=director)
@@ -229,8 +234,8 @@ def test_results_of_one_instant_come_in_the_order_in_which_their_steps_began():
     assert published == [(90, "slow"), (90, "quick"), (90, "quicker")]
 
 
-def test_a_worker_is_woken_without_inputs_at_the_time_that_it_asked_for():
-    def answer(seq, t_ns, inputs):
+def test_a_worker_is_woken_without_inputs_at_the_time_that_it_asked_for() -> None:
+    def answer(seq: int, t_ns: int, inputs: tuple[Any, ...]) -> Reply:
         return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
 
     bench = Bench(answer, Fixed(10))
@@ -239,8 +244,8 @@ def test_a_worker_is_woken_without_inputs_at_the_time_that_it_asked_for():
     assert bench.calls == [(0, 100, (b"a",)), (1, 500, ())]
 
 
-def test_an_input_before_the_alarm_makes_the_worker_ask_anew():
-    def answer(seq, t_ns, inputs):
+def test_an_input_before_the_alarm_makes_the_worker_ask_anew() -> None:
+    def answer(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply:
         return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
 
     bench = Bench(answer, Fixed(10))
@@ -250,8 +255,8 @@ def test_an_input_before_the_alarm_makes_the_worker_ask_anew():
     assert [t_ns for _, t_ns, _ in bench.calls] == [100, 300]
 
 
-def test_an_alarm_that_has_passed_when_the_step_ends_rings_at_once():
-    def answer(seq, t_ns, inputs):
+def test_an_alarm_that_has_passed_when_the_step_ends_rings_at_once() -> None:
+    def answer(seq: int, t_ns: int, inputs: tuple[Any, ...]) -> Reply:
         return Reply((), 0.0, wake_ns=101 if seq == 0 else None)
 
     bench = Bench(answer, Fixed(10))
@@ -261,7 +266,7 @@ def test_an_alarm_that_has_passed_when_the_step_ends_rings_at_once():
 
 
 @pytest.mark.parametrize("wake_ns", [99, 100])
-def test_an_alarm_no_later_than_its_step_is_refused(wake_ns):
+def test_an_alarm_no_later_than_its_step_is_refused(wake_ns: int) -> None:
     bench = Bench(lambda *_: Reply((), 0.0, wake_ns=wake_ns), Fixed(10))
     bench.offer_at(100, b"a")
     with pytest.raises(WorkerError, match=rf"'worker' asked to be woken at {wake_ns} ns"):
@@ -271,14 +276,16 @@ def test_an_alarm_no_later_than_its_step_is_refused(wake_ns):
 @pytest.mark.parametrize(
     ("t_out_ns", "leaves_ns"), [(None, 110), (100, 110), (110, 110), (150, 150)]
 )
-def test_an_output_leaves_no_earlier_than_the_latency_allows(t_out_ns, leaves_ns):
+def test_an_output_leaves_no_earlier_than_the_latency_allows(
+    t_out_ns: int | None, leaves_ns: int
+) -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x", t_out_ns),), 0.0), Fixed(10))
     bench.offer_at(100, b"a")
     bench.run()
     assert bench.out == [(leaves_ns, b"x")]
 
 
-def test_an_output_from_before_its_step_is_refused():
+def test_an_output_from_before_its_step_is_refused() -> None:
     bench = Bench(lambda *_: Reply((Output("asr/1", b"x", 99),), 0.0), Fixed(10))
     bench.offer_at(100, b"a")
     with pytest.raises(WorkerError, match=r"'worker' sent 'asr/1' with t_out_ns 99.*at 100 ns"):
@@ -286,8 +293,8 @@ def test_an_output_from_before_its_step_is_refused():
 
 
 @pytest.mark.parametrize("latency", [Fixed(10), Measured()])
-def test_a_lost_worker_is_told_of_once_and_called_no_more(latency):
-    def answer(seq, t_ns, inputs):
+def test_a_lost_worker_is_told_of_once_and_called_no_more(latency: Fixed | Measured) -> None:
+    def answer(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply | WorkerLost:
         return WorkerLost("it died") if seq == 1 else echo(seq, t_ns, inputs)
 
     bench = Bench(answer, latency)
@@ -300,7 +307,7 @@ def test_a_lost_worker_is_told_of_once_and_called_no_more(latency):
     assert [payload for _, payload in bench.out] == [b"0"]
 
 
-def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_nothing():
+def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_nothing() -> None:
     bench = Bench(echo, Fixed(100))
     bench.offer_at(0, b"a")
     bench.offer_at(10, b"b")
@@ -313,7 +320,7 @@ def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_noth
     assert len(bench.calls) == 1
 
 
-def test_the_run_can_end_before_a_step_does():
+def test_the_run_can_end_before_a_step_does() -> None:
     bench = Bench(echo, Fixed(100))
     bench.offer_at(7, b"a")
     bench.director.at(50, bench.director.stop, Priority.OBSERVE)
@@ -324,7 +331,7 @@ def test_the_run_can_end_before_a_step_does():
     assert bench.steps == []
 
 
-def test_a_worker_that_is_idle_has_nothing_unfinished():
+def test_a_worker_that_is_idle_has_nothing_unfinished() -> None:
     bench = Bench(echo, Fixed(10))
     bench.offer_at(0, b"a")
     assert bench.run().server.unfinished() is None

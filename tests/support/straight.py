@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from airhilt.geodesy.relative_motion import Minima
+from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.shapes.sizes import Dimensions
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import AircraftState, AircraftType, load_aircraft_type
 from airhilt.world.mover import carried_on
 from airhilt.world.site import FixedSite
-from airhilt.world.truth.conflicts import ConflictMonitor
+from airhilt.world.truth.conflicts import ConflictMonitor, PairTruth
 
 MINIMA = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 EARTH_RADIUS_M = 6_378_137.0
@@ -58,7 +59,7 @@ class Straight:
         )
 
     @property
-    def dimensions(self):
+    def dimensions(self) -> AircraftDimensions:
         return self.kind.dimensions
 
     @property
@@ -110,7 +111,9 @@ class Watch:
             self._became_true,
         )
 
-    def _became_true(self, phase: str, pair: tuple[str, str], horizontal: float, vertical: float):
+    def _became_true(
+        self, phase: str, pair: tuple[str, str], horizontal: float, vertical: float
+    ) -> None:
         assert phase not in self.told or pair != ("A", "B")
         self.told[phase] = self.now_ns / SECOND_NS
         self.distances[phase] = (horizontal, vertical)
@@ -132,7 +135,7 @@ class Watch:
         return self
 
     @property
-    def truth(self):
+    def truth(self) -> PairTruth:
         return self.monitor.pairs[("A", "B")]
 
 

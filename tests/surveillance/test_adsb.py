@@ -1,9 +1,13 @@
 """ADS-B as DO-260B has it: what transponders say, and what receivers make of it."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -27,11 +31,13 @@ class Flying(FixedSite):
 HERE = Flying(47.0 * DEGREE, 8.0 * DEGREE, 10_000.0, 150.0, -200.0, velocity_down_m_s=-5.0)
 
 
-def transponder(nacp=9, nacv=2, seed=1):
+def transponder(nacp: int = 9, nacv: int = 2, seed: int = 1) -> Transponder:
     return Transponder("a1b2c3", "AAL123", nacp, nacv, np.random.default_rng(seed), "A3")
 
 
-def receiver(name="site", range_m=EVERYWHERE, height_m=1_000.0):
+def receiver(
+    name: str = "site", range_m: float = EVERYWHERE, height_m: float = 1_000.0
+) -> Receiver:
     return Receiver(name, FixedSite(47.0 * DEGREE, 8.0 * DEGREE, height_m), range_m)
 
 
@@ -43,8 +49,8 @@ def receiver(name="site", range_m=EVERYWHERE, height_m=1_000.0):
     st.floats(-30.0, 30.0),
 )
 def test_altitude_comes_in_steps_of_25_ft_and_velocity_in_knots_and_64_fpm(
-    altitude_m, north, east, down
-):
+    altitude_m: float, north: float, east: float, down: float
+) -> None:
     state = Flying(47.0 * DEGREE, 8.0 * DEGREE, altitude_m, north, east, down)
     sender = transponder(nacv=4)
     altitude_ft = sender.position(state, 0).altitude_ft
@@ -60,17 +66,17 @@ def test_altitude_comes_in_steps_of_25_ft_and_velocity_in_knots_and_64_fpm(
 
 @settings(deadline=None)
 @given(st.floats(-1e6, 1e6), st.sampled_from([1.0, 25.0, 64.0]))
-def test_quantised_is_the_nearest_multiple(value, step):
+def test_quantised_is_the_nearest_multiple(value: float, step: float) -> None:
     assert quantise(value, step) % step == 0.0
     assert abs(quantise(value, step) - value) <= step / 2.0
 
 
-def test_even_and_odd_positions_take_turns():
+def test_even_and_odd_positions_take_turns() -> None:
     sender = transponder()
     assert [sender.position(HERE, n).position.odd for n in range(4)] == [False, True, False, True]
 
 
-def position_errors_m(nacp, flights=400):
+def position_errors_m(nacp: int, flights: int = 400) -> npt.NDArray[np.floating[Any]]:
     """How far the first decoded position of some flights is off."""
     errors = []
     for seed in range(flights):
@@ -87,26 +93,26 @@ def position_errors_m(nacp, flights=400):
 
 
 @pytest.mark.parametrize("nacp", [6, 7, 8, 9])
-def test_95_percent_of_positions_lie_within_what_the_accuracy_category_says(nacp):
+def test_95_percent_of_positions_lie_within_what_the_accuracy_category_says(nacp: int) -> None:
     errors = position_errors_m(nacp)
     share = np.mean(errors <= NACP_95_PERCENT_M[nacp])
     assert 0.90 <= share <= 0.99
     assert np.median(errors) > 0.2 * NACP_95_PERCENT_M[nacp]
 
 
-def test_a_better_accuracy_category_has_a_smaller_error():
+def test_a_better_accuracy_category_has_a_smaller_error() -> None:
     medians = [np.median(position_errors_m(nacp, 100)) for nacp in (5, 7, 9, 11)]
     assert medians == sorted(medians, reverse=True)
 
 
-def test_the_position_error_drifts_and_does_not_jump():
+def test_the_position_error_drifts_and_does_not_jump() -> None:
     sender = transponder(nacp=8)
     errors = [sender._position_error(n * SECOND_NS // 2)[0] for n in range(4000)]
     steps = np.diff(errors)
     assert np.std(steps) < 0.25 * np.std(errors)
 
 
-def test_velocities_spread_as_the_accuracy_category_says():
+def test_velocities_spread_as_the_accuracy_category_says() -> None:
     sender = transponder(nacv=1)
     velocities = [sender.velocity(HERE) for _ in range(2000)]
     off = [
@@ -122,7 +128,7 @@ def test_velocities_spread_as_the_accuracy_category_says():
 # --- reception ------------------------------------------------------------------------------
 
 
-def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity():
+def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity() -> None:
     sender, station = transponder(), receiver()
     assert station.decode(sender, sender.position(HERE, 0), 0) is None
     assert station.decode(sender, sender.position(HERE, 1), 1) is None
@@ -135,7 +141,7 @@ def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity():
     assert report.longitude_deg == pytest.approx(8.0, abs=1e-3)
 
 
-def test_a_velocity_and_positions_of_one_format_are_not_enough():
+def test_a_velocity_and_positions_of_one_format_are_not_enough() -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.velocity(HERE), 0)
     for n in range(6):
@@ -144,7 +150,7 @@ def test_a_velocity_and_positions_of_one_format_are_not_enough():
             assert station.decode(sender, squitter, n) is None
 
 
-def test_positions_more_than_ten_seconds_apart_are_not_decoded_together():
+def test_positions_more_than_ten_seconds_apart_are_not_decoded_together() -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.velocity(HERE), 0)
     station.decode(sender, sender.position(HERE, 0), 0)
@@ -153,7 +159,7 @@ def test_positions_more_than_ten_seconds_apart_are_not_decoded_together():
     assert station.decode(sender, sender.position(HERE, late + 1), late + 1) is not None
 
 
-def test_callsign_and_category_are_known_once_an_identification_came_through():
+def test_callsign_and_category_are_known_once_an_identification_came_through() -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.identification(), 0)
     station.decode(sender, sender.velocity(HERE), 0)
@@ -162,7 +168,7 @@ def test_callsign_and_category_are_known_once_an_identification_came_through():
     assert (report.callsign, report.emitter_category) == ("AAL123", "A3")
 
 
-def test_a_receiver_hears_within_its_range_and_not_beyond():
+def test_a_receiver_hears_within_its_range_and_not_beyond() -> None:
     station = receiver(range_m=100_000.0)
     north = 47.0 * DEGREE + np.array([99_000.0, 101_000.0]) / 6.37e6
     near, far = (replace(HERE, latitude_rad=float(lat)) for lat in north)
@@ -171,7 +177,9 @@ def test_a_receiver_hears_within_its_range_and_not_beyond():
 
 
 @pytest.mark.parametrize(("altitude_ft", "horizon_nm"), [(1_000, 39), (10_000, 123), (35_000, 230)])
-def test_a_receiver_hears_what_is_above_the_radio_horizon(altitude_ft, horizon_nm):
+def test_a_receiver_hears_what_is_above_the_radio_horizon(
+    altitude_ft: int, horizon_nm: int
+) -> None:
     """1.23 times the root of the height in feet, in NM: the rule of thumb."""
     station = receiver(height_m=0.0)
     for nautical_miles, heard in ((0.97 * horizon_nm, True), (1.03 * horizon_nm, False)):
@@ -185,7 +193,7 @@ def test_a_receiver_hears_what_is_above_the_radio_horizon(altitude_ft, horizon_n
 STANDING = Flying(47.0 * DEGREE, 8.0 * DEGREE, 400.0, heading_rad=1.0)
 
 
-def taxiing(speed_m_s, heading_rad=1.0):
+def taxiing(speed_m_s: float, heading_rad: float = 1.0) -> Flying:
     north, east = speed_m_s * math.cos(heading_rad), speed_m_s * math.sin(heading_rad)
     return replace(
         STANDING, velocity_north_m_s=north, velocity_east_m_s=east, heading_rad=heading_rad
@@ -194,7 +202,7 @@ def taxiing(speed_m_s, heading_rad=1.0):
 
 @settings(deadline=None)
 @given(st.floats(0.0, 175.0))
-def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt):
+def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt: float) -> None:
     steps_kt = {0.125: 0.125, 1: 0.146, 2: 0.25, 15: 0.5, 70: 1, 100: 2, 175: 5}
     step_kt = next(step for top, step in steps_kt.items() if speed_kt <= top)
     assert abs(movement_kt(speed_kt) - speed_kt) <= step_kt / 2 + 1e-9
@@ -221,13 +229,15 @@ def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt):
         (200.0, 175.0),
     ],
 )
-def test_movements_are_those_of_the_table_in_do_260b(speed_kt, movement):
+def test_movements_are_those_of_the_table_in_do_260b(speed_kt: float, movement: float) -> None:
     assert movement_kt(speed_kt) == pytest.approx(movement)
 
 
 @settings(deadline=None)
 @given(st.floats(0.0, 2 * math.pi))
-def test_on_the_surface_the_heading_comes_in_steps_of_a_128th_of_a_circle(heading_rad):
+def test_on_the_surface_the_heading_comes_in_steps_of_a_128th_of_a_circle(
+    heading_rad: float,
+) -> None:
     track = transponder().surface_position(taxiing(5.0, heading_rad), 0).movement.track_deg
     assert 0.0 <= track < 360.0
     assert track % (360.0 / 128.0) == 0.0
@@ -235,7 +245,7 @@ def test_on_the_surface_the_heading_comes_in_steps_of_a_128th_of_a_circle(headin
     assert abs(off) <= 360.0 / 256.0 + 1e-9
 
 
-def test_a_speed_on_the_surface_is_as_uncertain_as_the_accuracy_category_says():
+def test_a_speed_on_the_surface_is_as_uncertain_as_the_accuracy_category_says() -> None:
     sender = transponder(nacv=1)
     speeds = [
         sender.surface_position(taxiing(30.0), 0).movement.ground_speed_kt * KNOT
@@ -245,13 +255,13 @@ def test_a_speed_on_the_surface_is_as_uncertain_as_the_accuracy_category_says():
     assert np.std(speeds) == pytest.approx(10.0 / 2.4477, rel=0.1)
 
 
-def test_who_stands_says_so_and_keeps_its_heading():
+def test_who_stands_says_so_and_keeps_its_heading() -> None:
     squitter = transponder(nacv=0).surface_position(STANDING, 0)
     assert squitter.movement.ground_speed_kt == 0.0
     assert squitter.movement.track_deg == pytest.approx(1.0 / DEGREE, abs=1.41)
 
 
-def test_a_surface_report_needs_no_velocity_squitter_and_has_no_altitude():
+def test_a_surface_report_needs_no_velocity_squitter_and_has_no_altitude() -> None:
     sender, station = transponder(nacp=11), receiver()
     assert station.decode(sender, sender.surface_position(taxiing(8.0), 0), 0) is None
     report = station.decode(sender, sender.surface_position(taxiing(8.0), 1), 1).report(2)
@@ -262,7 +272,7 @@ def test_a_surface_report_needs_no_velocity_squitter_and_has_no_altitude():
 
 
 @pytest.mark.parametrize("seconds", [20, 30])
-def test_surface_positions_are_decoded_together_up_to_25_s_apart(seconds):
+def test_surface_positions_are_decoded_together_up_to_25_s_apart(seconds: int) -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.surface_position(STANDING, 0), 0)
     t_ns = seconds * SECOND_NS
@@ -270,7 +280,7 @@ def test_surface_positions_are_decoded_together_up_to_25_s_apart(seconds):
     assert (decoded is not None) == (seconds <= 25)
 
 
-def test_an_airborne_and_a_surface_position_are_not_decoded_together():
+def test_an_airborne_and_a_surface_position_are_not_decoded_together() -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.velocity(HERE), 0)
     station.decode(sender, sender.position(HERE, 0), 0)
@@ -278,7 +288,7 @@ def test_an_airborne_and_a_surface_position_are_not_decoded_together():
     assert station.decode(sender, sender.surface_position(STANDING, 2), 2) is not None
 
 
-def test_a_landing_goes_on_from_the_last_airborne_position():
+def test_a_landing_goes_on_from_the_last_airborne_position() -> None:
     sender, station = transponder(nacp=11), receiver()
     station.decode(sender, sender.velocity(HERE), 0)
     for n in range(2):
@@ -293,19 +303,19 @@ def test_a_landing_goes_on_from_the_last_airborne_position():
 
 @pytest.mark.parametrize(("kilometres", "heard"), [(3, True), (15, True), (30, False)])
 def test_an_antenna_of_15_m_hears_who_stands_on_the_airport_but_not_behind_the_horizon(
-    kilometres, heard
-):
+    kilometres: int, heard: bool
+) -> None:
     station = Receiver("field", FixedSite(47.0 * DEGREE, 8.0 * DEGREE, 415.0), EVERYWHERE, 400.0)
     there = replace(STANDING, latitude_rad=STANDING.latitude_rad + kilometres * 1e3 / 6.37e6)
     assert station.in_view(there) == heard
 
 
-def stationary(rate, north_m, t_s):
+def stationary(rate: SurfaceRate, north_m: float, t_s: float) -> bool:
     state = replace(STANDING, latitude_rad=STANDING.latitude_rad + north_m / 6.37e6)
     return rate.is_stationary(state, round(t_s * SECOND_NS))
 
 
-def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m():
+def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m() -> None:
     rate, after_s = SurfaceRate(), STATIONARY_AFTER_NS / SECOND_NS
     assert not any(stationary(rate, 0.1 * t, t) for t in np.arange(0.0, after_s, 0.5))
     assert stationary(rate, 3.0, after_s)
@@ -315,7 +325,7 @@ def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m():
     assert stationary(rate, 11.0, 2 * after_s + 6.0)
 
 
-def test_who_creeps_on_is_not_stationary():
+def test_who_creeps_on_is_not_stationary() -> None:
     rate = SurfaceRate()
     assert not any(stationary(rate, 0.4 * t, t) for t in np.arange(0.0, 200.0, 0.5))
 
@@ -323,7 +333,7 @@ def test_who_creeps_on_is_not_stationary():
 # --- losses and outages ---------------------------------------------------------------------
 
 
-def heard_of(reception, squitters, t_ns=0):
+def heard_of(reception: Reception, squitters: int, t_ns: int = 0) -> list[Any]:
     sender = transponder()
     return [
         reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
@@ -335,7 +345,9 @@ def heard_of(reception, squitters, t_ns=0):
 @pytest.mark.parametrize(
     ("probability", "least", "most"), [(0.0, 1, 1), (0.3, 0.63, 0.77), (1.0, 0, 0)]
 )
-def test_squitters_are_lost_with_the_given_probability(probability, least, most):
+def test_squitters_are_lost_with_the_given_probability(
+    probability: float, least: float, most: float
+) -> None:
     sender = transponder()
     reception = Reception([receiver()], probability, [])
     for _ in range(20):
@@ -349,7 +361,7 @@ def test_squitters_are_lost_with_the_given_probability(probability, least, most)
     assert least <= np.mean(heard) <= most
 
 
-def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_been():
+def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_been() -> None:
     begin, end = 10 * SECOND_NS, 12 * SECOND_NS
     without, with_outage = (
         (transponder(), Reception([receiver()], 0.2, outages)) for outages in ([], [(begin, end)])
@@ -369,12 +381,12 @@ def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_b
     assert heard["with"][:20] == heard["without"][:20]
 
 
-def test_the_first_receiver_that_is_in_view_gives_the_report():
+def test_the_first_receiver_that_is_in_view_gives_the_report() -> None:
     deaf, near = receiver("deaf", range_m=0.001, height_m=0.0), receiver("near")
     deaf.site = FixedSite(10.0 * DEGREE, 8.0 * DEGREE)
     decoded = [d for d in heard_of(Reception([deaf, near], 0.0, []), 3) if d is not None]
     assert {d.receiver for d in decoded} == {"near"}
 
 
-def test_where_no_receiver_hears_there_is_no_report():
+def test_where_no_receiver_hears_there_is_no_report() -> None:
     assert heard_of(Reception([], 0.0, []), 3) == [None] * 3

@@ -1,5 +1,7 @@
 """Compact position reporting: encoded and decoded, a position is where it was."""
 
+from __future__ import annotations
+
 import math
 
 import pytest
@@ -16,11 +18,11 @@ longitudes = st.floats(-180.0, 180.0) | st.floats(179.9, 180.0) | st.floats(-180
 bearings = st.floats(0.0, 360.0)
 
 
-def off_m(one, other):
+def off_m(one: tuple[float, float], other: tuple[float, float]) -> float:
     return Geodesic.WGS84.Inverse(*one, *other)["s12"]
 
 
-def resolution_m(latitude_deg):
+def resolution_m(latitude_deg: float) -> float:
     """Longitude zones are as much as 360 degrees wide next to a pole, so 17 bits are coarser."""
     return 6.0 if abs(latitude_deg) < 84.0 else 11.0
 
@@ -32,7 +34,9 @@ def resolution_m(latitude_deg):
 @example(0.0, 180.0, True)
 @example(0.0, -180.0, False)
 @example(87.0, 179.99999, True)
-def test_a_position_decoded_near_itself_is_where_it_was(latitude, longitude, odd):
+def test_a_position_decoded_near_itself_is_where_it_was(
+    latitude: float, longitude: float, odd: bool
+) -> None:
     encoded = cpr.encode(latitude, longitude, odd)
     assert 0 <= encoded.latitude < 2**17
     assert 0 <= encoded.longitude < 2**17
@@ -42,7 +46,7 @@ def test_a_position_decoded_near_itself_is_where_it_was(latitude, longitude, odd
 
 
 @pytest.mark.parametrize("odd", [False, True])
-def test_on_the_edge_of_a_zone_rounding_does_not_move_a_position_to_the_next(odd):
+def test_on_the_edge_of_a_zone_rounding_does_not_move_a_position_to_the_next(odd: bool) -> None:
     zone_deg = 360.0 / (60 - int(odd))
     for index in range(-14, 15):
         edge = index * zone_deg
@@ -55,7 +59,9 @@ def test_on_the_edge_of_a_zone_rounding_does_not_move_a_position_to_the_next(odd
 
 @thoroughly
 @given(st.floats(-70.0, 70.0), longitudes, st.booleans(), bearings, st.floats(0.0, 270_000.0))
-def test_a_reference_within_145_nm_is_near_enough(latitude, longitude, odd, bearing, distance_m):
+def test_a_reference_within_145_nm_is_near_enough(
+    latitude: float, longitude: float, odd: bool, bearing: float, distance_m: float
+) -> None:
     away = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
     encoded = cpr.encode(latitude, longitude, odd)
     decoded = cpr.decode_local(encoded, (away["lat2"], away["lon2"]))
@@ -67,7 +73,9 @@ def test_a_reference_within_145_nm_is_near_enough(latitude, longitude, odd, bear
 @example(0.0, 180.0, True)
 @example(0.0, -180.0, False)
 @example(89.9, 179.99999, True)
-def test_an_even_and_an_odd_position_need_no_reference(latitude, longitude, newest_is_odd):
+def test_an_even_and_an_odd_position_need_no_reference(
+    latitude: float, longitude: float, newest_is_odd: bool
+) -> None:
     even, odd = (cpr.encode(latitude, longitude, odd) for odd in (False, True))
     decoded = cpr.decode_global(even, odd, newest_is_odd)
     if decoded is None:
@@ -80,8 +88,8 @@ def test_an_even_and_an_odd_position_need_no_reference(latitude, longitude, newe
 @thoroughly
 @given(st.floats(-80.0, 80.0), longitudes, bearings, st.floats(0.0, 3_000.0), st.booleans())
 def test_a_pair_that_was_sent_on_the_move_gives_the_newest_position(
-    latitude, longitude, bearing, distance_m, newest_is_odd
-):
+    latitude: float, longitude: float, bearing: float, distance_m: float, newest_is_odd: bool
+) -> None:
     moved = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
     newest = (moved["lat2"], moved["lon2"])
     first = cpr.encode(latitude, longitude, not newest_is_odd)
@@ -111,7 +119,9 @@ def test_a_pair_that_was_sent_on_the_move_gives_the_newest_position(
         (87.0, 2),
     ],
 )
-def test_longitude_zones_are_those_of_the_table_in_do_260b(boundary_deg, zones_below):
+def test_longitude_zones_are_those_of_the_table_in_do_260b(
+    boundary_deg: float, zones_below: int | None
+) -> None:
     step = 1e-6
     below, above = (cpr.longitude_zones(boundary_deg + s) for s in (-step, step))
     if zones_below is None:
@@ -120,25 +130,25 @@ def test_longitude_zones_are_those_of_the_table_in_do_260b(boundary_deg, zones_b
         assert (below, above) == (zones_below, zones_below - 1)
 
 
-def test_there_are_59_zones_at_the_equator_and_one_at_the_poles():
+def test_there_are_59_zones_at_the_equator_and_one_at_the_poles() -> None:
     assert [cpr.longitude_zones(lat) for lat in (0.0, 90.0, -90.0)] == [59, 1, 1]
 
 
 @thoroughly
 @given(latitudes)
-def test_longitude_zones_are_the_same_north_and_south(latitude):
+def test_longitude_zones_are_the_same_north_and_south(latitude: float) -> None:
     assert cpr.longitude_zones(latitude) == cpr.longitude_zones(-latitude)
     assert 1 <= cpr.longitude_zones(latitude) <= 59
 
 
-def test_two_latitudes_either_side_of_a_change_of_zones_are_not_decoded_together():
+def test_two_latitudes_either_side_of_a_change_of_zones_are_not_decoded_together() -> None:
     boundary = 10.4704713
     even = cpr.encode(boundary - 1e-3, 8.0, odd=False)
     odd = cpr.encode(boundary + 1e-3, 8.0, odd=True)
     assert cpr.decode_global(even, odd, newest_is_odd=True) is None
 
 
-def test_the_published_example_decodes_to_where_it_is_published_to_be():
+def test_the_published_example_decodes_to_where_it_is_published_to_be() -> None:
     """The 1090 Megahertz Riddle (J. Sun, 2021), chapter 5: 8D40621D58C382D690C8AC2863A7."""
     even = cpr.CprPosition(93000, 51372, odd=False)
     odd = cpr.CprPosition(74158, 50194, odd=True)
@@ -158,7 +168,9 @@ def test_the_published_example_decodes_to_where_it_is_published_to_be():
 @example(0.0, 180.0, True)
 @example(0.0, -180.0, False)
 @example(87.0, 179.99999, True)
-def test_a_surface_position_decoded_near_itself_is_four_times_as_exact(latitude, longitude, odd):
+def test_a_surface_position_decoded_near_itself_is_four_times_as_exact(
+    latitude: float, longitude: float, odd: bool
+) -> None:
     encoded = cpr.encode(latitude, longitude, odd, surface=True)
     assert 0 <= encoded.latitude < 2**17
     assert 0 <= encoded.longitude < 2**17
@@ -169,8 +181,8 @@ def test_a_surface_position_decoded_near_itself_is_four_times_as_exact(latitude,
 @thoroughly
 @given(st.floats(-70.0, 70.0), longitudes, st.booleans(), bearings, st.floats(0.0, 60_000.0))
 def test_on_the_surface_a_reference_within_32_nm_is_near_enough(
-    latitude, longitude, odd, bearing, distance_m
-):
+    latitude: float, longitude: float, odd: bool, bearing: float, distance_m: float
+) -> None:
     away = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
     encoded = cpr.encode(latitude, longitude, odd, surface=True)
     decoded = cpr.decode_local(encoded, (away["lat2"], away["lon2"]))
@@ -183,8 +195,8 @@ def test_on_the_surface_a_reference_within_32_nm_is_near_enough(
 @example(-45.0, -180.0, 270.0, 1_000.0, False)
 @example(0.001, 8.0, 180.0, 50_000.0, False)
 def test_a_surface_pair_is_where_it_was_if_the_receiver_is_near(
-    latitude, longitude, bearing, distance_m, newest_is_odd
-):
+    latitude: float, longitude: float, bearing: float, distance_m: float, newest_is_odd: bool
+) -> None:
     even, odd = (cpr.encode(latitude, longitude, odd, surface=True) for odd in (False, True))
     site = Geodesic.WGS84.Direct(latitude, longitude, bearing, distance_m)
     decoded = cpr.decode_global(even, odd, newest_is_odd, (site["lat2"], site["lon2"]))
@@ -196,7 +208,7 @@ def test_a_surface_pair_is_where_it_was_if_the_receiver_is_near(
     assert -180.0 <= decoded[1] <= 180.0
 
 
-def test_a_surface_pair_alone_leaves_90_degrees_open():
+def test_a_surface_pair_alone_leaves_90_degrees_open() -> None:
     even, odd = (cpr.encode(38.85, -77.04, odd, surface=True) for odd in (False, True))
     there = cpr.decode_global(even, odd, True, (38.0, -78.0))
     elsewhere = cpr.decode_global(even, odd, True, (38.0, 12.0))
@@ -204,7 +216,7 @@ def test_a_surface_pair_alone_leaves_90_degrees_open():
     assert elsewhere == pytest.approx((38.85, 12.96), abs=1e-4)
 
 
-def test_published_surface_messages_decode_to_where_they_are_published_to_be():
+def test_published_surface_messages_decode_to_where_they_are_published_to_be() -> None:
     """Of pyModeS's test data: 8C4841753AAB238733C8CD4020B1 and 8C4841753A8A35323FAEBDAC702D."""
     even = cpr.CprPosition(115609, 116941, odd=False, surface=True)
     odd = cpr.CprPosition(39199, 110269, odd=True, surface=True)

@@ -1,6 +1,12 @@
 """TCAS II speaks at the published thresholds (FAA, Introduction to TCAS II 7.1, table 2)."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import pytest
+from _pytest.approx import ApproxSequenceLike
 
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
@@ -29,11 +35,15 @@ ALOFT = tcas.Own(HIGH, HIGH, HIGH)
     ],
 )
 def test_sensitivity_levels_are_those_of_the_table(
-    altitude_ft, height_ft, level, traffic, resolution
-):
+    altitude_ft: int,
+    height_ft: int,
+    level: int,
+    traffic: tuple[int, float, int],
+    resolution: tuple[int, float, int] | None,
+) -> None:
     row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
 
-    def published(thresholds):
+    def published(thresholds: tuple[int, float, int] | None) -> ApproxSequenceLike | None:
         return thresholds and pytest.approx(
             (thresholds[0], thresholds[1] * NAUTICAL_MILE, thresholds[2] * FOOT)
         )
@@ -43,7 +53,7 @@ def test_sensitivity_levels_are_those_of_the_table(
     assert row.resolution == published(resolution)
 
 
-def head_on(seconds, closing_m_s=500.0):
+def head_on(seconds: float, closing_m_s: float = 500.0) -> Relative:
     """Two that meet in some seconds."""
     return Relative(closing_m_s * seconds, 0.0, -closing_m_s, 0.0)
 
@@ -53,19 +63,21 @@ def head_on(seconds, closing_m_s=500.0):
     [(60.0, None), (49.0, None), (47.9, "tcas_ta"), (36.0, "tcas_ta"), (34.9, "tcas_ra")],
 )
 def test_head_on_at_fl350_the_traffic_advisory_comes_48_s_before_and_the_resolution_35_s(
-    seconds, said
-):
+    seconds: float, said: str | None
+) -> None:
     assert tcas.alert(head_on(seconds), 0.0, 0.0, ALOFT) == said
 
 
-def test_two_that_close_slowly_are_told_earlier_because_of_the_modified_tau():
+def test_two_that_close_slowly_are_told_earlier_because_of_the_modified_tau() -> None:
     """With DMOD of 1.30 NM, 55 s at 100 m/s are a modified tau of 44.5 s, at 500 m/s of 54.6 s."""
     assert tcas.alert(head_on(55.0, closing_m_s=100.0), 0.0, 0.0, ALOFT) == "tcas_ta"
     assert tcas.alert(head_on(55.0, closing_m_s=500.0), 0.0, 0.0, ALOFT) is None
 
 
 @pytest.mark.parametrize(("range_nm", "said"), [(1.31, None), (1.29, "tcas_ta"), (1.09, "tcas_ra")])
-def test_within_dmod_it_speaks_even_if_the_two_draw_apart(range_nm, said):
+def test_within_dmod_it_speaks_even_if_the_two_draw_apart(
+    range_nm: float, said: str | None
+) -> None:
     apart = Relative(range_nm * NAUTICAL_MILE, 0.0, 10.0, 0.0)
     assert tcas.alert(apart, 0.0, 0.0, ALOFT) == said
 
@@ -74,12 +86,12 @@ def test_within_dmod_it_speaks_even_if_the_two_draw_apart(range_nm, said):
     ("gap_ft", "said"),
     [(0, "tcas_ra"), (700, "tcas_ra"), (701, "tcas_ta"), (850, "tcas_ta"), (851, None)],
 )
-def test_level_traffic_counts_within_the_altitude_threshold(gap_ft, said):
+def test_level_traffic_counts_within_the_altitude_threshold(gap_ft: int, said: str | None) -> None:
     for gap in (gap_ft, -gap_ft):
         assert tcas.alert(head_on(30.0), gap * FOOT, 0.0, ALOFT) == said
 
 
-def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_does_not():
+def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_does_not() -> None:
     gap = 2_000 * FOOT
     assert tcas.alert(head_on(30.0), gap, -gap / 34.0, ALOFT) == "tcas_ra"
     assert tcas.alert(head_on(30.0), gap, -gap / 40.0, ALOFT) == "tcas_ta"
@@ -92,7 +104,7 @@ def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_d
     ("height_ft", "said"),
     [(499, None), (501, "tcas_ta"), (999, "tcas_ta"), (1_001, "tcas_ra")],
 )
-def test_near_the_ground_advisories_are_inhibited(height_ft, said):
+def test_near_the_ground_advisories_are_inhibited(height_ft: int, said: str | None) -> None:
     height = height_ft * FOOT
     own = tcas.Own(height, height, intruder_height_m=height)
     assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
@@ -102,31 +114,31 @@ def test_near_the_ground_advisories_are_inhibited(height_ft, said):
     ("own_ft", "intruder_ft", "said"),
     [(1_600, 300, None), (1_600, 400, "tcas_ra"), (1_800, 300, "tcas_ra")],
 )
-def test_an_intruder_on_the_ground_is_none(own_ft, intruder_ft, said):
+def test_an_intruder_on_the_ground_is_none(own_ft: int, intruder_ft: int, said: str | None) -> None:
     own = tcas.Own(own_ft * FOOT, own_ft * FOOT, intruder_ft * FOOT)
     assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
 
 
-def level(altitude_m):
+def level(altitude_m: float) -> Callable[..., Any]:
     return lambda _: altitude_m
 
 
-def test_a_projection_tells_when_it_would_speak_if_nobody_did_anything():
+def test_a_projection_tells_when_it_would_speak_if_nobody_did_anything() -> None:
     projection = tcas.project(head_on(100.0), level(HIGH), level(HIGH), ground_m=0.0)
     assert projection.traffic_s == pytest.approx(52.0, abs=1.0)
     assert projection.resolution_s == pytest.approx(65.0, abs=1.0)
 
 
-def test_a_projection_of_two_that_stay_apart_is_silent():
+def test_a_projection_of_two_that_stay_apart_is_silent() -> None:
     above = HIGH + 1_000 * FOOT
     assert tcas.project(head_on(100.0), level(HIGH), level(above), 0.0) == (None, None)
 
 
-def test_a_resolution_without_a_traffic_advisory_before_counts_as_both():
+def test_a_resolution_without_a_traffic_advisory_before_counts_as_both() -> None:
     projection = tcas.project(head_on(20.0), level(HIGH), level(HIGH), ground_m=0.0)
     assert projection == (0.0, 0.0)
 
 
-def test_of_two_aircraft_the_one_that_speaks_first_counts():
+def test_of_two_aircraft_the_one_that_speaks_first_counts() -> None:
     early, late = tcas.Projection(10.0, None), tcas.Projection(12.0, 20.0)
     assert tcas.earliest(early, late) == tcas.earliest(late, early) == (10.0, 20.0)

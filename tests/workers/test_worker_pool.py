@@ -1,8 +1,11 @@
 """Workers get what they asked for and may publish only what is theirs."""
 
+from __future__ import annotations
+
 import hashlib
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 import pytest
 
@@ -50,11 +53,11 @@ class Listener:
     inputs: list = field(default_factory=list)
 
     @property
-    def description(self):
+    def description(self) -> WorkerDescription:
         inputs = (InputSpec(key=self.key, policy=self.policy),)
         return WorkerDescription(name=self.name, modality="decision", inputs=inputs)
 
-    def step(self, t_ns, inputs):
+    def step(self, t_ns: int, inputs: tuple[Input]) -> Step | None:
         if self.failure is not None:
             raise self.failure
         self.heard += [(t_ns, item.key) for item in inputs]
@@ -67,7 +70,7 @@ class Run:
     workers: list
     latency: str = "fixed:1"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.director = Director(Virtual())
         self.published, self.raw, self.steps, self.losses = [], [], [], []
         self.pool = WorkerPool(
@@ -80,15 +83,21 @@ class Run:
             lost=lambda description, cause: self.losses.append((description.name, cause)),
         )
 
-    def publish(self, key, message, publisher, raw=None):
+    def publish(
+        self,
+        key: str,
+        message: AdvisoryAudio | Transcript,
+        publisher: str,
+        raw: bytes | None = None,
+    ) -> None:
         self.published.append((key, message, publisher))
         self.raw.append(raw)
 
-    def say(self, key, t_ns=0):
+    def say(self, key: str, t_ns: int = 0) -> None:
         message = SAID.model_copy(update={"t_ns": t_ns})
         self.offer(key, message, message.model_dump_json().encode())
 
-    def offer(self, key, message, data):
+    def offer(self, key: str, message: Transcript | Transmission, data: bytes) -> None:
         give = partial(self.pool.offer, key, message, data)
         self.director.at(message.t_ns, give, Priority.SENSOR)
 
@@ -105,11 +114,11 @@ class Run:
         ("adsb", "adsb/*", False),
     ],
 )
-def test_a_star_stands_for_one_chunk(key, pattern, wanted):
+def test_a_star_stands_for_one_chunk(key: str, pattern: str, wanted: bool) -> None:
     assert (policy_of(key, {pattern: "batch"}) is not None) == wanted
 
 
-def test_a_message_reaches_those_who_want_it_and_nobody_else():
+def test_a_message_reaches_those_who_want_it_and_nobody_else() -> None:
     one, two = Listener("asr/*", "one"), Listener("adsb/*", "two")
     run = Run([one, two])
     run.say("asr/134325", 7)
@@ -118,7 +127,7 @@ def test_a_message_reaches_those_who_want_it_and_nobody_else():
     assert two.heard == []
 
 
-def test_what_a_worker_says_is_stamped_when_its_latency_has_passed():
+def test_what_a_worker_says_is_stamped_when_its_latency_has_passed() -> None:
     data = SAID.model_copy(update={"t_ns": 3}).model_dump_json().encode()
     run = Run([Listener("asr/1", output=Output("asr/134325", data))])
     run.say("asr/1", 500)
@@ -129,24 +138,24 @@ def test_what_a_worker_says_is_stamped_when_its_latency_has_passed():
 
 
 @pytest.mark.parametrize("key", ["truth/state/AAL123", "**", "*", "*/state/AAL123"])
-def test_nobody_may_ask_for_truth(key):
+def test_nobody_may_ask_for_truth(key: str) -> None:
     with pytest.raises(WorkerError, match="truth never reaches a worker"):
         Run([Listener(key)])
 
 
 @pytest.mark.parametrize("key", ["truth/state/AAL123", "adsb/a1b2c3", "clock", "worker/x/step"])
-def test_a_worker_may_not_publish_truth_or_what_sensors_give(key):
+def test_a_worker_may_not_publish_truth_or_what_sensors_give(key: str) -> None:
     with pytest.raises(WorkerError, match="expected a key under advisory, asr"):
         parse_output("w", key, b"{}", 0)
 
 
 @pytest.mark.parametrize("payload", [b"", b"\xff", b"[]", b"{}", b'{"id": 5}'])
-def test_a_worker_that_publishes_nonsense_is_told_what_is_wrong(payload):
+def test_a_worker_that_publishes_nonsense_is_told_what_is_wrong(payload: bytes) -> None:
     with pytest.raises(WorkerError, match=r"no Transcript.*airhilt schema"):
         parse_output("w", "asr/134325", payload, 0)
 
 
-def test_a_worker_that_raises_is_lost_and_the_others_go_on():
+def test_a_worker_that_raises_is_lost_and_the_others_go_on() -> None:
     bad = Listener("asr/*", "bad", failure=ZeroDivisionError("by zero"))
     good = Listener("asr/*", "good")
     run = Run([bad, good])
@@ -157,7 +166,7 @@ def test_a_worker_that_raises_is_lost_and_the_others_go_on():
     assert len(good.heard) == 2
 
 
-def test_dropped_inputs_are_counted_by_worker_and_key():
+def test_dropped_inputs_are_counted_by_worker_and_key() -> None:
     run = Run([Listener("asr/*", "one", policy="latest")])
     for t_ns in range(4):
         run.say("asr/1", t_ns)
@@ -165,7 +174,7 @@ def test_dropped_inputs_are_counted_by_worker_and_key():
     assert run.pool.inputs_dropped() == {"one: asr/1": 2}
 
 
-def test_a_step_that_the_end_of_the_run_cuts_off_is_told():
+def test_a_step_that_the_end_of_the_run_cuts_off_is_told() -> None:
     run = Run([Listener("asr/*", "one")])
     run.say("asr/1", 5)
     run.director.at(6, run.director.stop, Priority.OBSERVE)
@@ -174,7 +183,7 @@ def test_a_step_that_the_end_of_the_run_cuts_off_is_told():
     assert (step.worker, step.t_start_ns, step.finished) == ("one", 5, False)
 
 
-def test_an_input_carries_the_time_at_which_it_came():
+def test_an_input_carries_the_time_at_which_it_came() -> None:
     listener = Listener("asr/*", "one")
     run = Run([listener])
     run.say("asr/1", 5)
@@ -186,7 +195,7 @@ def test_an_input_carries_the_time_at_which_it_came():
     assert item.attachment is None
 
 
-def test_audio_comes_as_raw_bytes_with_its_header_beside_it():
+def test_audio_comes_as_raw_bytes_with_its_header_beside_it() -> None:
     listener = Listener("radio/*/tx")
     run = Run([listener])
     run.offer("radio/134325/tx", RECEIVED, PCM)
@@ -196,7 +205,7 @@ def test_audio_comes_as_raw_bytes_with_its_header_beside_it():
     assert Transmission.model_validate(item.attachment) == RECEIVED
 
 
-def test_a_voice_is_published_as_raw_bytes_with_its_header():
+def test_a_voice_is_published_as_raw_bytes_with_its_header() -> None:
     voice = Output("tts/decision-1", PCM, attachment=VOICE.model_dump(mode="json"))
     run = Run([Listener("asr/*", "tts", output=voice)])
     run.say("asr/1", 500)
@@ -206,7 +215,7 @@ def test_a_voice_is_published_as_raw_bytes_with_its_header():
     assert run.raw == [PCM]
 
 
-def test_what_is_no_audio_is_published_without_raw_bytes():
+def test_what_is_no_audio_is_published_without_raw_bytes() -> None:
     run = Run([Listener("asr/1", output=Output("asr/134325", SAID.model_dump_json().encode()))])
     run.say("asr/1")
     run.director.run()
@@ -224,23 +233,27 @@ def test_what_is_no_audio_is_published_without_raw_bytes():
     ],
     ids=["another key", "too short", "half a sample", "nothing", "other samples"],
 )
-def test_a_voice_that_is_not_what_its_header_says_is_refused(key, pcm, said):
+def test_a_voice_that_is_not_what_its_header_says_is_refused(
+    key: str, pcm: bytes, said: str
+) -> None:
     with pytest.raises(WorkerError, match=f"worker 'w' published on '{key}' .*{said}"):
         parse_output("w", key, pcm, 10, VOICE.model_dump(mode="json"))
 
 
 @pytest.mark.parametrize("header", [None, {}, [], "header", {"id": "decision-1"}])
-def test_a_voice_without_a_header_is_refused(header):
+def test_a_voice_without_a_header_is_refused(
+    header: dict[Any, Any] | list[Any] | str | None,
+) -> None:
     with pytest.raises(WorkerError, match=r"worker 'w' .* no AdvisoryAudio.*airhilt schema"):
         parse_output("w", "tts/decision-1", PCM, 10, header)
 
 
-def test_a_voice_at_another_rate_is_refused():
+def test_a_voice_at_another_rate_is_refused() -> None:
     header = VOICE.model_dump(mode="json") | {"sample_rate_hz": 22_050}
     with pytest.raises(WorkerError, match="at 22050 Hz; expected 16000 Hz"):
         parse_output("w", "tts/decision-1", PCM, 10, header)
 
 
-def test_a_worker_may_not_speak_on_the_radio():
+def test_a_worker_may_not_speak_on_the_radio() -> None:
     with pytest.raises(WorkerError, match="expected a key under advisory, asr, tts"):
         parse_output("w", "radio/134325/tx", PCM, 10, RECEIVED.model_dump(mode="json"))

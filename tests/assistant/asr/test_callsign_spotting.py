@@ -1,10 +1,15 @@
 """A callsign of the roster that is half heard is found, and no other is made up."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from airhilt.assistant.asr.engines.embedded import Emission, best_path, with_callsign
-from airhilt.assistant.asr.spotting import Spotter, spoken_forms
+from airhilt.assistant.asr.spotting import Spotted, Spotter, spoken_forms
 
 WORDS = [
     "american", "climb", "delta", "eight", "five", "four", "golf", "niner", "november", "one",
@@ -13,7 +18,7 @@ WORDS = [
 UNIT = {word: unit for unit, word in enumerate(WORDS, start=1)}
 
 
-def posteriors(*steps):
+def posteriors(*steps: dict[Any, Any]) -> npt.NDArray[np.floating[Any]]:
     """Return posteriors: for each step the share of some words, the rest being the blank's."""
     made = np.full((2 * len(steps), len(WORDS) + 1), 1e-6, np.float32)
     made[:, 0] = 1.0
@@ -25,25 +30,25 @@ def posteriors(*steps):
     return made / made.sum(axis=1, keepdims=True)
 
 
-def clear(*words):
+def clear(*words: str) -> list[dict[str, float]]:
     return [{word: 0.99} for word in words]
 
 
-def spotted(heard, *callsigns):
+def spotted(heard: npt.NDArray[np.floating[Any]], *callsigns: str) -> Spotted | None:
     return Spotter(WORDS, callsigns).spot(heard)
 
 
-def text(path):
+def text(path: list[Emission]) -> str:
     return " ".join(WORDS[each.unit - 1] for each in path)
 
 
-def test_a_callsign_that_is_clearly_said_costs_nothing():
+def test_a_callsign_that_is_clearly_said_costs_nothing() -> None:
     found = spotted(posteriors(*clear("american", "one", "two", "climb")), "AAL12", "DAL12")
     assert found.callsign == "AAL12"
     assert found.loss == pytest.approx(0.0, abs=1e-3)
 
 
-def test_a_word_that_is_nearly_lost_is_found_again():
+def test_a_word_that_is_nearly_lost_is_found_again() -> None:
     heard = posteriors({"american": 0.1}, *clear("one", "two", "six", "climb"))
     path = best_path(heard)
     assert text(path) == "one two six climb"
@@ -51,7 +56,7 @@ def test_a_word_that_is_nearly_lost_is_found_again():
     assert text(with_callsign(path, found)) == "american one two six climb"
 
 
-def test_words_of_a_callsign_are_less_sure_where_it_fits_less():
+def test_words_of_a_callsign_are_less_sure_where_it_fits_less() -> None:
     heard = posteriors({"american": 0.1}, *clear("one", "two"))
     sure = with_callsign(best_path(heard), spotted(heard, "AAL12"))
     assert all(each.posterior < 0.9 for each in sure)
@@ -60,31 +65,31 @@ def test_words_of_a_callsign_are_less_sure_where_it_fits_less():
 
 
 @pytest.mark.parametrize("said", ["four", "eight"])
-def test_another_number_that_is_clearly_said_is_not_overheard(said):
+def test_another_number_that_is_clearly_said_is_not_overheard(said: str) -> None:
     heard = posteriors(*({word: 0.9999} for word in ("american", "one", said)))
     assert spotted(heard, "AAL12") is None
 
 
-def test_of_two_that_fit_alike_none_is_taken():
+def test_of_two_that_fit_alike_none_is_taken() -> None:
     heard = posteriors({"american": 0.1}, *clear("one"), {"two": 0.3, "three": 0.3}, *clear("six"))
     assert spotted(heard, "AAL126", "AAL136") is None
     assert spotted(heard, "AAL126", "UAL136").callsign == "AAL126"
 
 
-def test_noise_is_nobody():
+def test_noise_is_nobody() -> None:
     assert spotted(posteriors(*[{}] * 30), "AAL12", "N54") is None
 
 
-def test_nothing_is_found_without_a_roster_or_without_audio():
+def test_nothing_is_found_without_a_roster_or_without_audio() -> None:
     assert spotted(posteriors(*clear("american", "one"))) is None
     assert spotted(np.zeros((0, len(WORDS) + 1), np.float32), "AAL1") is None
 
 
-def test_a_callsign_with_a_word_that_the_recogniser_does_not_know_is_left_out():
+def test_a_callsign_with_a_word_that_the_recogniser_does_not_know_is_left_out() -> None:
     assert spotted(posteriors(*clear("golf", "one", "two")), "GTI12") is None
 
 
-def test_the_same_digit_twice_needs_a_gap_between():
+def test_the_same_digit_twice_needs_a_gap_between() -> None:
     said = posteriors(*clear("american", "one", "one"))
     assert spotted(said, "AAL11").loss == pytest.approx(0.0, abs=1e-3)
     once = best_path(posteriors(*clear("american", "one")))
@@ -100,11 +105,11 @@ def test_the_same_digit_twice_needs_a_gap_between():
         ("OPS1", set()),
     ],
 )
-def test_callsigns_are_looked_for_as_they_may_be_said(callsign, forms):
+def test_callsigns_are_looked_for_as_they_may_be_said(callsign: str, forms: set[Any]) -> None:
     assert {" ".join(form) for form in spoken_forms(callsign)} == forms
 
 
-def test_any_word_for_a_digit_will_do():
+def test_any_word_for_a_digit_will_do() -> None:
     words = [*WORDS, "nine"]
     heard = np.full((4, len(words) + 1), 1e-6, np.float32)
     heard[0, UNIT["delta"]] = heard[2, len(words)] = 1.0
@@ -113,7 +118,7 @@ def test_any_word_for_a_digit_will_do():
     assert found.loss == pytest.approx(0.0, abs=1e-3)
 
 
-def test_what_is_clearly_said_is_left_as_it_is():
+def test_what_is_clearly_said_is_left_as_it_is() -> None:
     heard = posteriors(*clear("climb", "american", "one"))
     path = best_path(heard)
     assert with_callsign(path, spotted(heard, "AAL1")) == path

@@ -1,13 +1,17 @@
 """The reference engine warns of what will happen, once, and of nothing else."""
 
+from __future__ import annotations
+
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.tracks import Track
-from airhilt.messages import AdsbReport, Briefing, Climb, MaintainLevel, Severity, Turn
+from airhilt.messages import AdsbReport, Advisory, Briefing, Climb, MaintainLevel, Severity, Turn
 from airhilt.sim import Input
+from airhilt.surveillance.receivers import Receiver
 from decisions import reference
 from encounters import Encounter, Flight, head_on
 
@@ -15,18 +19,18 @@ CREWS = ("AAL123", "DAL456")
 
 
 @pytest.fixture(scope="module")
-def ignored():
+def ignored() -> Encounter:
     """Two fly at each other, and nobody does anything about it."""
     return head_on(300.0).fly()
 
 
-def test_head_on_the_advisory_rises_to_caution_and_warning_once_each(ignored):
+def test_head_on_the_advisory_rises_to_caution_and_warning_once_each(ignored: Encounter) -> None:
     assert ignored.severities("ATC") == ["ADVISORY", "CAUTION", "WARNING"]
     for crew in CREWS:
         assert ignored.severities(crew) == ["CAUTION", "WARNING"]
 
 
-def test_each_severity_comes_when_that_much_time_is_left(ignored):
+def test_each_severity_comes_when_that_much_time_is_left(ignored: Encounter) -> None:
     """5 NM apart at 960 kt of closure is 18.75 s before the two meet at 230.25 s."""
     loss_s = 230.25 - 18.75
     times = {str(a.severity): t for t, a in ignored.told if a.active and a.recipient == "ATC"}
@@ -34,7 +38,7 @@ def test_each_severity_comes_when_that_much_time_is_left(ignored):
         assert times[severity] == pytest.approx(loss_s - left_s, abs=6.0)
 
 
-def test_one_conflict_is_one_advisory_with_rising_revisions(ignored):
+def test_one_conflict_is_one_advisory_with_rising_revisions(ignored: Encounter) -> None:
     assert len({advisory.id for _, advisory in ignored.told}) == 1
     assert [advisory.revision for advisory in ignored.to("ATC")] == [0, 1, 2, 3]
     for advisory in ignored.to("ATC"):
@@ -42,7 +46,7 @@ def test_one_conflict_is_one_advisory_with_rising_revisions(ignored):
         assert advisory.kind == "loss_of_separation"
 
 
-def test_it_ends_with_an_inactive_info_once_the_two_are_past(ignored):
+def test_it_ends_with_an_inactive_info_once_the_two_are_past(ignored: Encounter) -> None:
     for recipient in ("ATC", *CREWS):
         *before, last = ignored.to(recipient)
         assert all(advisory.active for advisory in before)
@@ -52,20 +56,20 @@ def test_it_ends_with_an_inactive_info_once_the_two_are_past(ignored):
     assert len(ignored.told) == 4 + 3 + 3
 
 
-def test_a_conflict_of_which_nothing_more_is_heard_is_carried_on_to_its_end():
+def test_a_conflict_of_which_nothing_more_is_heard_is_carried_on_to_its_end() -> None:
     encounter = replace(head_on(300.0), silent_after_s=160.0).fly()
     assert encounter.severities("ATC") == ["ADVISORY", "CAUTION", "WARNING"]
     assert not encounter.to("ATC")[-1].active
     assert encounter.told[-1][0] == pytest.approx(230.0 + 18.75 + 8.0, abs=5.0)
 
 
-def test_a_mere_advisory_is_for_the_controller_alone(ignored):
+def test_a_mere_advisory_is_for_the_controller_alone(ignored: Encounter) -> None:
     first = ignored.told[0][1]
     assert (first.recipient, first.recipients, first.severity) == ("ATC", ("ATC",), "ADVISORY")
     assert first.recommendation is None
 
 
-def senses(advisories):
+def senses(advisories: list[Advisory]) -> dict[str, str]:
     return {
         advisory.recipient: advisory.recommendation.sense
         for advisory in advisories
@@ -73,18 +77,18 @@ def senses(advisories):
     }
 
 
-def test_of_two_at_one_level_one_climbs_and_the_other_descends(ignored):
+def test_of_two_at_one_level_one_climbs_and_the_other_descends(ignored: Encounter) -> None:
     for severity in (Severity.CAUTION, Severity.WARNING):
         told = [a for _, a in ignored.told if a.active and a.severity is severity]
         assert sorted(senses(told).values()) == ["climb", "descend"]
 
 
-def test_the_sense_does_not_turn_round_when_the_severity_rises(ignored):
+def test_the_sense_does_not_turn_round_when_the_severity_rises(ignored: Encounter) -> None:
     for crew in CREWS:
         assert len({a.recommendation.sense for a in ignored.to(crew) if a.active}) == 1
 
 
-def test_an_advisory_says_why(ignored):
+def test_an_advisory_says_why(ignored: Encounter) -> None:
     for t_s, advisory in ignored.told:
         if advisory.active:
             left_s = 211.5 - t_s
@@ -95,7 +99,7 @@ def test_an_advisory_says_why(ignored):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_crews_that_follow_keep_their_separation_and_are_told_once(seed):
+def test_crews_that_follow_keep_their_separation_and_are_told_once(seed: int) -> None:
     encounter = head_on(330.0, seed)
     encounter.obey = lambda advisory: advisory.severity.rank >= Severity.CAUTION.rank
     encounter.fly()
@@ -119,18 +123,22 @@ def test_crews_that_follow_keep_their_separation_and_are_told_once(seed):
     ],
     ids=lambda second: ", ".join(f"{key} {value:g}" for key, value in second.items()),
 )
-def test_nobody_is_warned_of_traffic_1000_ft_or_8_nm_away(second, seed):
+def test_nobody_is_warned_of_traffic_1000_ft_or_8_nm_away(
+    second: dict[str, float], seed: int
+) -> None:
     encounter = head_on(300.0, seed, **second).fly()
     assert min(encounter.least.values()) > 0.95
     assert encounter.told == []
 
 
 @pytest.mark.parametrize(("reports", "told"), [(1, False), (8, True)])
-def test_one_report_that_is_out_of_line_is_not_a_conflict_and_some_in_a_row_are(reports, told):
+def test_one_report_that_is_out_of_line_is_not_a_conflict_and_some_in_a_row_are(
+    reports: int, told: bool
+) -> None:
     encounter = head_on(80.0, altitude_ft=36_000.0)
     hear = encounter._reports
 
-    def corrupted(station, t_ns, step):
+    def corrupted(station: Receiver, t_ns: int, step: int) -> list[Any]:
         inputs = hear(station, t_ns, step)
         if 120 <= step < 120 + reports:
             report = AdsbReport.model_validate_json(inputs[-1].payload)
@@ -142,7 +150,7 @@ def test_one_report_that_is_out_of_line_is_not_a_conflict_and_some_in_a_row_are(
     assert bool(encounter.fly().told) == told
 
 
-def test_without_traffic_there_is_nothing_to_say():
+def test_without_traffic_there_is_nothing_to_say() -> None:
     encounter = Encounter([Flight("AAL123", "a1b2c3", 90.0, 30.0, 35_000)], 30.0)
     assert encounter.fly().told == []
 
@@ -151,7 +159,9 @@ CLEARED = "American one two three, climb and maintain flight level three three z
 READ_BACK = "Climb and maintain flight level {}, American one two three."
 
 
-def climbing(level_ft, read_back, seconds=300.0, traffic=True, seed=1):
+def climbing(
+    level_ft: int, read_back: str, seconds: float = 300.0, traffic: bool = True, seed: int = 1
+) -> Encounter:
     """AAL123 is cleared from FL310 to FL330, and traffic comes the other way above at FL340."""
     flights = [Flight("AAL123", "a1b2c3", 90.0, 30.7, 31_000, rate_fpm=1500.0, seed=seed)]
     if traffic:
@@ -161,7 +171,7 @@ def climbing(level_ft, read_back, seconds=300.0, traffic=True, seed=1):
     encounter.climb_at_s = 140.0
     plan = flights[0].advance
 
-    def advance(step_s, clock=[0.0]):  # noqa: B006
+    def advance(step_s: float, clock: list[float] = [0.0]) -> None:  # noqa: B006
         clock[0] += step_s
         if clock[0] == encounter.climb_at_s:
             flights[0].climb(level_ft, 1500.0)
@@ -172,19 +182,19 @@ def climbing(level_ft, read_back, seconds=300.0, traffic=True, seed=1):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_climb_to_a_cleared_level_1000_ft_below_traffic_is_quiet(seed):
+def test_a_climb_to_a_cleared_level_1000_ft_below_traffic_is_quiet(seed: int) -> None:
     encounter = climbing(33_000, "three three zero", seed=seed).fly()
     assert encounter.least[CREWS] == pytest.approx(1.0, abs=0.1)
     assert encounter.told == []
 
 
-def test_the_same_climb_without_a_word_on_the_radio_is_not():
+def test_the_same_climb_without_a_word_on_the_radio_is_not() -> None:
     encounter = climbing(33_000, "three three zero")
     encounter.calls = []
     assert "CAUTION" in encounter.fly().severities("ATC")
 
 
-def test_a_readback_mismatch_with_traffic_there_is_a_caution_to_crew_and_controller():
+def test_a_readback_mismatch_with_traffic_there_is_a_caution_to_crew_and_controller() -> None:
     encounter = climbing(31_000, "three four zero", seconds=40.0).fly()
     told = [advisory for t_s, advisory in encounter.told if t_s == 31.0]
     assert {advisory.recipient for advisory in told} == {"AAL123", "ATC"}
@@ -200,27 +210,27 @@ def test_a_readback_mismatch_with_traffic_there_is_a_caution_to_crew_and_control
     assert len(encounter.told) == 2
 
 
-def test_a_readback_mismatch_without_traffic_is_nothing():
+def test_a_readback_mismatch_without_traffic_is_nothing() -> None:
     assert climbing(31_000, "three four zero", seconds=60.0, traffic=False).fly().told == []
 
 
-def test_a_readback_mismatch_with_traffic_at_another_level_is_nothing():
+def test_a_readback_mismatch_with_traffic_at_another_level_is_nothing() -> None:
     encounter = climbing(31_000, "three four zero", seconds=60.0)
     encounter.flights[1].altitude_ft = 38_000.0
     assert encounter.fly().told == []
 
 
-def test_a_readback_that_is_right_is_nothing():
+def test_a_readback_that_is_right_is_nothing() -> None:
     assert climbing(31_000, "three three zero", seconds=60.0).fly().told == []
 
 
-def test_a_readback_long_after_its_clearance_belongs_to_something_else():
+def test_a_readback_long_after_its_clearance_belongs_to_something_else() -> None:
     encounter = climbing(31_000, "three four zero", seconds=70.0)
     encounter.calls[1] = (56.0, 61.0, READ_BACK.format("three four zero"))
     assert encounter.fly().told == []
 
 
-def with_third(altitude_ft):
+def with_third(altitude_ft: int) -> Encounter:
     """Two head-on, and a third abreast of the first at another level."""
     encounter = head_on(330.0)
     encounter.flights.append(Flight("UAL7", "a00007", 90.0, 30.7, altitude_ft, offset_nm=1.0))
@@ -229,7 +239,7 @@ def with_third(altitude_ft):
 
 
 @pytest.mark.parametrize("altitude_ft", [36_000, 34_000])
-def test_nobody_is_sent_into_a_third_aircraft(altitude_ft):
+def test_nobody_is_sent_into_a_third_aircraft(altitude_ft: int) -> None:
     encounter = with_third(altitude_ft)
     assert min(encounter.least.values()) > 0.85
     assert {advisory.id for _, advisory in encounter.told} == {"decision-separation-1"}
@@ -239,19 +249,19 @@ def test_nobody_is_sent_into_a_third_aircraft(altitude_ft):
     assert moves or any(isinstance(a.recommendation, Turn) for a in first)
 
 
-def test_what_is_told_depends_on_nothing_but_what_was_heard():
+def test_what_is_told_depends_on_nothing_but_what_was_heard() -> None:
     once, again = (head_on(150.0).fly().told for _ in range(2))
     assert once == again
 
 
-def test_the_engine_declares_what_it_listens_to_and_never_truth():
+def test_the_engine_declares_what_it_listens_to_and_never_truth() -> None:
     description = reference().description
     heard = {wanted.key for wanted in description.inputs}
     assert heard == {"briefing", "adsb/*", "asr/*", "vision/*"}
     assert description.modality == "decision"
 
 
-def test_a_spike_is_told_at_the_level_that_has_held(monkeypatch):
+def test_a_spike_is_told_at_the_level_that_has_held(monkeypatch: pytest.MonkeyPatch) -> None:
     """A glimpse of a WARNING in the second in which an ADVISORY becomes certain is not one yet."""
     encounter = head_on(300.0)
     levels = iter([Severity.ADVISORY, Severity.ADVISORY, Severity.WARNING, Severity.WARNING])
@@ -262,8 +272,8 @@ def test_a_spike_is_told_at_the_level_that_has_held(monkeypatch):
     assert encounter.severities("ATC") == ["ADVISORY"]
 
 
-def test_the_minima_are_those_of_the_briefing():
-    def least_distance_told(horizontal_nm):
+def test_the_minima_are_those_of_the_briefing() -> None:
+    def least_distance_told(horizontal_nm: float) -> list[Any]:
         encounter = head_on(230.0, offset_nm=4.0)
         briefing = Briefing(
             controller="Centre", horizontal_separation_nm=horizontal_nm, vertical_separation_ft=1000
@@ -276,7 +286,7 @@ def test_the_minima_are_those_of_the_briefing():
     assert not least_distance_told(3.0)
 
 
-def test_a_report_that_is_older_than_the_track_changes_nothing():
+def test_a_report_that_is_older_than_the_track_changes_nothing() -> None:
     report = AdsbReport(
         icao24="a1b2c3", callsign=None, latitude_deg=38.0, longitude_deg=-77.0, altitude_ft=35000,
         ground_speed_kt=450, track_deg=90, vertical_rate_fpm=0, nacp=9, nacv=2, receiver="r",

@@ -1,7 +1,10 @@
 """Aircraft without a transponder: seen, they are told of in time; what is known is not told."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +16,8 @@ from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.messages import Climb, Severity, Turn
+from airhilt.messages import Climb, Detections, Severity, Turn
+from airhilt.scenario.models import Scenario
 from airhilt.units import DEGREE, SECOND_NS
 from encounters import Encounter, Flight
 from projected import AIRLINER, CESSNA, FLOCK, Camera, still
@@ -24,9 +28,19 @@ KT = 233.0
 
 
 def meeting(
-    seed=1, track=270.0, kt=106.0, altitude_ft=4000.0, offset_nm=0.0, size=CESSNA, label="airplane",
-    equipped=False, own_equipped=True, own_ft=4000.0, meet_s=MEET_S, **how,
-):  # fmt: skip
+    seed: int = 1,
+    track: float = 270.0,
+    kt: float = 106.0,
+    altitude_ft: float = 4000.0,
+    offset_nm: float = 0.0,
+    size: tuple[float, float, float] = CESSNA,
+    label: str = "airplane",
+    equipped: bool = False,
+    own_equipped: bool = True,
+    own_ft: float = 4000.0,
+    meet_s: float = MEET_S,
+    **how: Any,
+) -> Encounter:
     """Return an airliner with a camera on its nose, and somebody whom it meets after a while."""
     own = Flight(
         "AAL123", "a1b2c3", 90.0, KT * meet_s / 3600.0, own_ft, KT, seed=seed,
@@ -41,20 +55,22 @@ def meeting(
     return encounter
 
 
-def unnumbered(found):
+def unnumbered(found: Detections) -> Detections:
     """Return detections as a detector gives them that follows nothing."""
     plain = tuple(each.model_copy(update={"track_id": None}) for each in found.detections)
     return found.model_copy(update={"detections": plain})
 
 
-def first(encounter, severity):
+def first(encounter: Scenario, severity: str) -> float:
     """Return how long before the encounter that severity was told first."""
     return next(MEET_S - t for t, a in encounter.told if a.severity == severity and a.active)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("error_px", [0.4, 1.0])
-def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(seed, error_px):
+def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(
+    seed: int, error_px: float
+) -> None:
     encounter = meeting(seed, error_px=error_px).fly()
     assert 12.0 < first(encounter, "WARNING") < 22.0
     warning = encounter.to("AAL123")[-2]
@@ -68,7 +84,7 @@ def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(seed
     assert left_s == pytest.approx(first(encounter, "WARNING"), rel=0.5)
 
 
-def test_it_is_one_alert_that_only_rises_and_ends_once_the_two_are_past():
+def test_it_is_one_alert_that_only_rises_and_ends_once_the_two_are_past() -> None:
     encounter = meeting().fly()
     assert len({advisory.id for _, advisory in encounter.told}) == 1
     ranks = [advisory.severity.rank for advisory in encounter.to("ATC")[:-1]]
@@ -78,12 +94,12 @@ def test_it_is_one_alert_that_only_rises_and_ends_once_the_two_are_past():
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_who_is_overtaken_is_seen_longer_before(seed):
+def test_who_is_overtaken_is_seen_longer_before(seed: int) -> None:
     assert first(meeting(seed, track=90.0).fly(), "WARNING") > 15.0
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed):
+def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed: int) -> None:
     wide = {"fov_deg": 54.0, "width_px": 1920, "height_px": 1080}
     assert meeting(seed, track=180.0).fly().told == []
     encounter = meeting(seed, track=180.0, **wide).fly()
@@ -96,14 +112,14 @@ def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed):
     [{"altitude_ft": 3000.0}, {"altitude_ft": 5000.0}, {"offset_nm": 0.5}, {"offset_nm": -0.5}],
     ids=["1000 ft below", "1000 ft above", "half a mile to one side", "and to the other"],
 )
-def test_who_passes_by_is_no_warning(how):
+def test_who_passes_by_is_no_warning(how: dict[str, float]) -> None:
     for seed in SEEDS:
         encounter = meeting(seed, **how).fly()
         assert "WARNING" not in encounter.severities("ATC")
 
 
 @pytest.mark.parametrize(("altitude_ft", "sense"), [(3800.0, "climb"), (4200.0, "descend")])
-def test_the_way_out_is_away_from_it(altitude_ft, sense):
+def test_the_way_out_is_away_from_it(altitude_ft: float, sense: str) -> None:
     for seed in SEEDS:
         encounter = meeting(seed, altitude_ft=altitude_ft).fly()
         told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
@@ -111,7 +127,7 @@ def test_the_way_out_is_away_from_it(altitude_ft, sense):
         assert {each.sense for each in told} == {sense}
 
 
-def test_nobody_is_sent_down_near_the_ground():
+def test_nobody_is_sent_down_near_the_ground() -> None:
     encounter = meeting(altitude_ft=2000.0, own_ft=1900.0).fly()
     told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
     assert told
@@ -119,13 +135,13 @@ def test_nobody_is_sent_down_near_the_ground():
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_who_squitters_is_the_matter_of_the_watch_for_separation(seed):
+def test_who_squitters_is_the_matter_of_the_watch_for_separation(seed: int) -> None:
     """It is on a collision course, and seen all the way."""
     encounter = meeting(seed, equipped=True, size=AIRLINER, meet_s=60.0).fly()
     assert {advisory.evidence.sources for _, advisory in encounter.told} == {("adsb",)}
 
 
-def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intruder():
+def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intruder() -> None:
     encounter = meeting(equipped=True, own_equipped=False, size=AIRLINER).fly()
     warning = encounter.to("AAL123")[-2]
     assert warning.severity is Severity.WARNING
@@ -133,12 +149,12 @@ def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intrude
     assert warning.message.startswith("AAL123 traffic N172SP ahead, closing, turn right")
 
 
-def test_a_new_track_of_the_same_aircraft_is_the_same_alert():
+def test_a_new_track_of_the_same_aircraft_is_the_same_alert() -> None:
     encounter = meeting()
     (nose,) = encounter.cameras
     detect = nose.detections
 
-    def renumbered(t_ns):
+    def renumbered(t_ns: int) -> Detections:
         found = detect(t_ns)
         later = t_ns > 24 * SECOND_NS
         return found.model_copy(
@@ -154,7 +170,7 @@ def test_a_new_track_of_the_same_aircraft_is_the_same_alert():
     assert len({advisory.id for _, advisory in encounter.fly().told}) == 1
 
 
-def test_a_detector_that_follows_nothing_will_do():
+def test_a_detector_that_follows_nothing_will_do() -> None:
     encounter = meeting()
     (nose,) = encounter.cameras
     detect = nose.detections
@@ -163,8 +179,8 @@ def test_a_detector_that_follows_nothing_will_do():
     assert first(encounter.fly(), "WARNING") > 12.0
 
 
-def test_what_flickers_here_and_there_is_nobody():
-    def somewhere(t_s):
+def test_what_flickers_here_and_there_is_nobody() -> None:
+    def somewhere(t_s: float) -> tuple[tuple[float, float, float], float]:
         east, north, up = np.random.default_rng(round(100 * t_s)).uniform(-400.0, 400.0, 3)
         (own_east, own_north, height), _ = own.place(t_s)
         return (own_east + 2500.0 + east, own_north + north, height + 0.4 * up), 0.0
@@ -179,17 +195,17 @@ def test_what_flickers_here_and_there_is_nobody():
     assert encounter.fly().told == []
 
 
-def test_a_flock_ahead_is_birds_and_the_way_out_is_up():
+def test_a_flock_ahead_is_birds_and_the_way_out_is_up() -> None:
     encounter = meeting(kt=20.0, label="bird", size=FLOCK).fly()
     warning = encounter.to("AAL123")[-2]
     assert warning.message.startswith("AAL123 birds ahead, closing, climb")
 
 
-def test_what_may_stand_on_the_ground_is_not_in_the_air():
+def test_what_may_stand_on_the_ground_is_not_in_the_air() -> None:
     """A parked aircraft right before one that descends towards it."""
     own = Flight("AAL123", "a1b2c3", 90.0, 2.2, 0.0, 140.0, waver_ft=0.0)
 
-    def descends(t_s):
+    def descends(t_s: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         (east, north, _), track = own.place(t_s)
         return (east, north, 220.0 - 3.7 * t_s), (track, -2.0 * DEGREE, 0.0)
 
@@ -199,7 +215,7 @@ def test_what_may_stand_on_the_ground_is_not_in_the_air():
     assert encounter.fly().told == []
 
 
-def test_time_goes_on_after_the_last_picture():
+def test_time_goes_on_after_the_last_picture() -> None:
     """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
     visual_tracks = VisualTracks()
     watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None)
@@ -219,14 +235,21 @@ FRAME = LocalFrame((38.9 * DEGREE, -77.0 * DEGREE))
 
 
 def closing_camera(
-    closing_m_s, miss_m, left_s, seconds, error_px=0.0, roll=0.0, seed=1, sizes=(3.0, 11.0, 3.0)
-):
+    closing_m_s: float,
+    miss_m: float,
+    left_s: float,
+    seconds: float,
+    error_px: float = 0.0,
+    roll: float = 0.0,
+    seed: int = 1,
+    sizes: tuple[float, float, float] = (3.0, 11.0, 3.0),
+) -> Camera:
     """Return a camera, and something that passes it so long after some seconds."""
 
-    def at(t_s):
+    def at(t_s: float) -> tuple[tuple[float, float, float], float]:
         return (miss_m, closing_m_s * (left_s + seconds - t_s), 1000.0), 0.0
 
-    def look(t_s):
+    def look(t_s: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         return (0.0, 0.0, 1000.0), (0.0, 0.02 * math.sin(t_s), roll * math.sin(t_s))
 
     other = replace(still("airplane", (0.0, 0.0, 0.0), sizes), at=at)
@@ -236,7 +259,9 @@ def closing_camera(
     )  # fmt: skip
 
 
-def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
+def glimpses_of(
+    closing_m_s: float, miss_m: float, left_s: float, seconds: float, *how: float, **more: Any
+) -> list[Observation]:
     """Return what such a camera sees."""
     camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)
     found = [camera.detections(round(k * SECOND_NS / 8)) for k in range(round(8 * seconds) + 1)]
@@ -252,8 +277,8 @@ def glimpses_of(closing_m_s, miss_m, left_s, seconds, *how, **more):
     miss=st.floats(-20.0, 20.0),
 )  # fmt: skip
 def test_without_errors_the_time_to_contact_is_right_however_the_camera_rolls(
-    closing, left_s, roll, miss
-):
+    closing: float, left_s: float, roll: float, miss: float
+) -> None:
     approach = approach_of(glimpses_of(closing, miss, left_s, 3.0, 0.0, roll))
     # A wing that is rolled is as high as it is wide: its diagonal is not quite the same.
     assert approach.time_s == pytest.approx(left_s, rel=0.25 if roll else 0.05)
@@ -261,7 +286,7 @@ def test_without_errors_the_time_to_contact_is_right_however_the_camera_rolls(
 
 
 @pytest.mark.parametrize("error_px", [0.5, 1.0, 2.0])
-def test_the_error_that_it_tells_is_about_the_one_that_it_makes(error_px):
+def test_the_error_that_it_tells_is_about_the_one_that_it_makes(error_px: float) -> None:
     shifts = []
     for seed in range(30):
         approach = approach_of(glimpses_of(170.0, 0.0, 12.0, 3.0, error_px, 0.0, seed))
@@ -270,12 +295,12 @@ def test_the_error_that_it_tells_is_about_the_one_that_it_makes(error_px):
     assert 0.3 < rms < 2.0
 
 
-def test_a_passage_to_the_side_is_told_in_sizes():
+def test_a_passage_to_the_side_is_told_in_sizes() -> None:
     approach = approach_of(glimpses_of(170.0, 300.0, 10.0, 4.0, 0.0, 0.0))
     assert approach.least_miss() == pytest.approx(300.0 / 11.0, rel=0.4)
 
 
-def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
+def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing() -> None:
     seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.0, 0.0)
     assert approach_of(seen[:4]) is None
     cut = [Observation.of(each.t_ns, each.geometry, (0.0, *each.box[1:]), 0.9) for each in seen]
@@ -283,7 +308,7 @@ def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing():
 
 
 @pytest.mark.parametrize("phase", range(5))
-def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
+def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase: int) -> None:
     """They are thinner than a pixel: now only the fuselage shows, now all of it."""
     seen = glimpses_of(130.0, 0.0, 12.0, 5.0, 0.0, 0.0)
     narrow = [
@@ -296,7 +321,7 @@ def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase):
     assert approach.time_s == pytest.approx(12.0, rel=0.35)
 
 
-def test_banking_does_not_hide_that_something_nears():
+def test_banking_does_not_hide_that_something_nears() -> None:
     """A wing that is as wide in the first picture as in the last has grown: it lies slantwise."""
     seen = glimpses_of(130.0, 0.0, 5.0, 1.5, roll=45.0 * DEGREE, sizes=(3.0, 11.0, 0.5))
     assert seen[-1].size_rad[0] < 1.1 * seen[0].size_rad[0]
@@ -306,7 +331,7 @@ def test_banking_does_not_hide_that_something_nears():
 
 
 @pytest.mark.parametrize("wild", [(0, 2), (2, 3), (12, 20), (22, 24)])
-def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild):
+def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild: tuple[int, int]) -> None:
     """They are of something beside it, that the detector takes for it."""
     seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.4, 0.0)
     for number in wild:

@@ -1,6 +1,9 @@
 """From pixels to directions and places, and back."""
 
+from __future__ import annotations
+
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +17,7 @@ from airhilt.assistant.decision.line_of_sight import (
     LineOfSight,
     PictureGeometry,
     Ray,
+    Sightline,
     meeting,
 )
 from airhilt.geodesy.local_frame import LocalFrame
@@ -25,13 +29,15 @@ CUBE = (2.0, 2.0, 2.0)
 angles = st.floats(-180.0, 180.0)
 
 
-def line_to(camera, box, at):
+def line_to(camera: Camera, box: tuple[float, ...], at: str) -> Sightline:
     geometry = PictureGeometry(camera.view(0.0))
     (east, north, up), _ = camera.look(0.0)
     return LineOfSight(Vector(east, north), up, getattr(geometry, at)(box), geometry.error_rad)
 
 
-def camera_at(place, heading_deg, pitch_deg, body, **how):
+def camera_at(
+    place: tuple[float, float, float], heading_deg: float, pitch_deg: float, body: Body, **how: Any
+) -> Camera:
     return Camera("c", FRAME, standing(place, heading_deg, pitch_deg), [body], error_px=0.0, **how)
 
 
@@ -39,13 +45,15 @@ def camera_at(place, heading_deg, pitch_deg, body, **how):
     heading=angles, pitch=st.floats(-30.0, 10.0), roll=st.floats(-60.0, 60.0),
     fov=st.floats(10.0, 90.0), x=st.floats(0.0, 640.0), y=st.floats(0.0, 360.0),
 )  # fmt: skip
-def test_a_direction_goes_back_to_the_pixel_that_it_came_from(heading, pitch, roll, fov, x, y):
+def test_a_direction_goes_back_to_the_pixel_that_it_came_from(
+    heading: float, pitch: float, roll: float, fov: float, x: float, y: float
+) -> None:
     look = ((0.0, 0.0, 10.0), (heading * DEGREE, pitch * DEGREE, roll * DEGREE))
     geometry = PictureGeometry(Camera("c", FRAME, lambda _: look, [], fov_deg=fov).view(0.0))
     assert geometry.pixel(geometry.ray(x, y)) == pytest.approx((x, y), abs=1e-6)
 
 
-def test_a_direction_has_the_heading_the_pitch_and_the_roll_of_its_camera():
+def test_a_direction_has_the_heading_the_pitch_and_the_roll_of_its_camera() -> None:
     """By hand: sine and cosine are 0.6, 0.8 of heading, 0.28, 0.96 of pitch, 0.8, 0.6 of roll.
 
     Ahead is (0.576, 0.768, 0.28); right and up before the roll are (0.8, -0.6, 0) and (-0.168,
@@ -65,8 +73,8 @@ def test_a_direction_has_the_heading_the_pitch_and_the_roll_of_its_camera():
     height=st.floats(3.0, 80.0), off_px=st.floats(-BOX_ERROR_PX, BOX_ERROR_PX),
 )  # fmt: skip
 def test_the_foot_of_a_box_leads_to_where_it_stands_within_the_error(
-    heading, bearing, distance, height, off_px
-):
+    heading: float, bearing: float, distance: float, height: float, off_px: float
+) -> None:
     azimuth = (heading + bearing) * DEGREE
     place = (distance * math.sin(azimuth), distance * math.cos(azimuth), 0.0)
     # A thin post: the foot of its box is where it stands.
@@ -82,8 +90,8 @@ def test_the_foot_of_a_box_leads_to_where_it_stands_within_the_error(
     assert not fix.is_same(far, sigmas=1.0)
 
 
-def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across():
-    def errors(distance):
+def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across() -> None:
+    def errors(distance: float) -> tuple[float, float]:
         ray = Ray.towards(0.0, distance, -10.0)
         fix = LineOfSight(Vector(0.0, 0.0), 10.0, ray, 1e-3).on_ground()
         return math.sqrt(fix.north_m2), math.sqrt(fix.east_m2)
@@ -95,14 +103,16 @@ def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across
 
 
 @pytest.mark.parametrize("up", [0.0, 0.1, -0.001])
-def test_a_line_of_sight_to_the_horizon_or_above_meets_no_ground(up):
+def test_a_line_of_sight_to_the_horizon_or_above_meets_no_ground(up: float) -> None:
     assert LineOfSight(Vector(0.0, 0.0), 10.0, Ray.towards(0.0, 1.0, up), 1e-3).on_ground() is None
 
 
 @given(
     heading=st.floats(-12.0, 12.0), pitch=st.floats(-6.0, 6.0), roll=st.floats(-60.0, 60.0),
 )  # fmt: skip
-def test_turning_the_carrier_does_not_turn_what_is_seen(heading, pitch, roll):
+def test_turning_the_carrier_does_not_turn_what_is_seen(
+    heading: float, pitch: float, roll: float
+) -> None:
     other = still("airplane", (100.0, 3000.0, 1010.0), CUBE)
     level = Camera("c", FRAME, standing((0.0, 0.0, 1000.0), 0.0), [other], fov_deg=40.0)
     look = ((0.0, 0.0, 1000.0), (heading * DEGREE, pitch * DEGREE, roll * DEGREE))
@@ -114,7 +124,7 @@ def test_turning_the_carrier_does_not_turn_what_is_seen(heading, pitch, roll):
     assert PictureGeometry(turned.view(0.0)).middle(box).angle_to(straight) < 5e-5
 
 
-def test_cameras_from_two_sides_together_know_a_place_better_than_either():
+def test_cameras_from_two_sides_together_know_a_place_better_than_either() -> None:
     west = LineOfSight(Vector(-300.0, 0.0), 8.0, Ray.towards(300.0, 0.0, -8.0), 2e-3).on_ground()
     south = LineOfSight(Vector(0.0, -300.0), 8.0, Ray.towards(0.0, 300.0, -8.0), 2e-3).on_ground()
     both = west.merged(south)
@@ -123,7 +133,7 @@ def test_cameras_from_two_sides_together_know_a_place_better_than_either():
     assert both.north_m2 < west.north_m2 < south.north_m2
 
 
-def test_the_chance_of_being_inside_is_that_of_the_error():
+def test_the_chance_of_being_inside_is_that_of_the_error() -> None:
     fix = GroundFix(Vector(0.0, 0.0), 100.0, 100.0, 0.0)
     assert fix.chance(lambda points: float((points[:, 0] > 0.0).mean())) == pytest.approx(
         0.5, abs=0.1
@@ -138,8 +148,8 @@ def test_the_chance_of_being_inside_is_that_of_the_error():
 @given(
     east=st.floats(-200.0, 200.0), north=st.floats(300.0, 900.0), up=st.floats(0.0, 150.0),
 )  # fmt: skip
-def test_two_lines_of_sight_meet_where_both_lead(east, north, up):
-    def line(place):
+def test_two_lines_of_sight_meet_where_both_lead(east: float, north: float, up: float) -> None:
+    def line(place: Vector) -> Sightline:
         ray = Ray.towards(east - place.east, north - place.north, up - 3.0)
         return LineOfSight(place, 3.0, ray, 1e-3)
 
@@ -149,8 +159,8 @@ def test_two_lines_of_sight_meet_where_both_lead(east, north, up):
     assert fix.error_m < 30.0
 
 
-def test_lines_of_sight_to_different_birds_do_not_meet():
-    def line(place, east, up):
+def test_lines_of_sight_to_different_birds_do_not_meet() -> None:
+    def line(place: Vector, east: float, up: float) -> Sightline:
         return LineOfSight(place, 3.0, Ray.towards(east - place.east, 600.0, up), 1e-3)
 
     low, high = line(Vector(-120.0, 0.0), 0.0, 20.0), line(Vector(120.0, 0.0), 0.0, 90.0)
@@ -159,7 +169,7 @@ def test_lines_of_sight_to_different_birds_do_not_meet():
     assert meeting(*diverging, 10.0) is None
 
 
-def test_a_box_at_the_edge_may_go_on():
+def test_a_box_at_the_edge_may_go_on() -> None:
     camera = camera_at(
         (0.0, 0.0, 5.0), 0.0, 0.0, Body("truck", 6, 2, 2, lambda _: ((37.0, 90.0, 0.0), 0.0))
     )

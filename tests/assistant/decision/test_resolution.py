@@ -1,5 +1,10 @@
 """Recommendations are coordinated, and keep separation where that can be done."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -13,7 +18,14 @@ STANDARD = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 INFRINGED = Minima(5 * NAUTICAL_MILE, 850 * FOOT)
 
 
-def track(icao24, north_m, east_m, altitude_ft, velocity=(0.0, 0.0), rate_fpm=0.0):
+def track(
+    icao24: str,
+    north_m: float,
+    east_m: float,
+    altitude_ft: float,
+    velocity: tuple[float, float] = (0.0, 0.0),
+    rate_fpm: float = 0.0,
+) -> Track:
     return Track(
         icao24, icao24.upper(), 0, 0.8 + north_m / 6.37e6, east_m / 4.44e6, altitude_ft * FOOT,
         *velocity, rate_fpm * FOOT / 60.0,
@@ -26,7 +38,9 @@ clearly_apart = st.floats(525.0, 800.0) | st.floats(-800.0, -525.0)
 
 
 @st.composite
-def pairs_in_conflict(draw, gaps_ft=anywhere):
+def pairs_in_conflict(
+    draw: Callable[..., Any], gaps_ft: Any = anywhere
+) -> tuple[Track, Track] | None:
     first = track(
         "a00001", 0.0, 0.0, 35_000, (draw(speeds), draw(speeds)),
         draw(st.sampled_from([0.0, 0.0, 1500.0, -1500.0])),
@@ -48,13 +62,13 @@ def pairs_in_conflict(draw, gaps_ft=anywhere):
     return (first, second) if draw(st.booleans()) else (second, first)
 
 
-def sense(recommendation):
+def sense(recommendation: Climb | MaintainLevel | Turn | None) -> str | None:
     return recommendation.sense if isinstance(recommendation, Climb) else None
 
 
 @settings(deadline=None, max_examples=150)
 @given(pairs_in_conflict(), st.booleans())
-def test_two_are_never_told_the_same_sense(pair, strong):
+def test_two_are_never_told_the_same_sense(pair: tuple[Track, Track], strong: bool) -> None:
     resolution = resolve(*pair, [], STANDARD, INFRINGED, strong)
     senses = [sense(resolution.first), sense(resolution.second)]
     assert senses not in (["climb", "climb"], ["descend", "descend"])
@@ -63,7 +77,9 @@ def test_two_are_never_told_the_same_sense(pair, strong):
 
 @settings(deadline=None, max_examples=100)
 @given(pairs_in_conflict(clearly_apart), st.booleans())
-def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(pair, strong):
+def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(
+    pair: tuple[Track, Track], strong: bool
+) -> None:
     first, second = pair
     resolution = resolve(first, second, [], STANDARD, INFRINGED, strong)
     first_is_higher = first.altitude_m > second.altitude_m
@@ -75,18 +91,18 @@ def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(pair, st
 
 @settings(deadline=None, max_examples=100)
 @given(pairs_in_conflict())
-def test_it_does_not_matter_who_is_named_first(pair):
+def test_it_does_not_matter_who_is_named_first(pair: tuple[Track, Track]) -> None:
     one = resolve(*pair, [], STANDARD, INFRINGED, strong=False)
     other = resolve(*pair[::-1], [], STANDARD, INFRINGED, strong=False)
     assert (one.first, one.second) == (other.second, other.first)
 
 
-def head_on_pair(gap_ft=0.0, rate_fpm=0.0):
+def head_on_pair(gap_ft: float = 0.0, rate_fpm: float = 0.0) -> tuple[Track, Track]:
     first = track("a00001", 0.0, 0.0, 35_000, (240.0, 0.0), rate_fpm)
     return first, track("a00002", 70_000.0, 0.0, 35_000 + gap_ft, (-240.0, 0.0))
 
 
-def test_head_on_both_share_what_is_missing_and_it_is_enough():
+def test_head_on_both_share_what_is_missing_and_it_is_enough() -> None:
     resolution = resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong=False)
     assert sorted([sense(resolution.first), sense(resolution.second)]) == ["climb", "descend"]
     levels = [resolution.first.altitude_ft, resolution.second.altitude_ft]
@@ -95,13 +111,13 @@ def test_head_on_both_share_what_is_missing_and_it_is_enough():
     assert resolution.margin >= 1.0
 
 
-def test_who_climbs_towards_the_other_need_only_stop_short():
+def test_who_climbs_towards_the_other_need_only_stop_short() -> None:
     resolution = resolve(*head_on_pair(2_000, 1_500), [], STANDARD, INFRINGED, strong=False)
     assert resolution.first == MaintainLevel(altitude_ft=36_000)
     assert resolution.second is None
 
 
-def test_in_a_warning_the_rate_is_stronger():
+def test_in_a_warning_the_rate_is_stronger() -> None:
     rates = [
         resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong).first.vertical_rate_fpm
         for strong in (False, True)
@@ -109,7 +125,7 @@ def test_in_a_warning_the_rate_is_stronger():
     assert rates[1] > rates[0]
 
 
-def test_between_two_others_above_and_below_nobody_climbs_or_descends():
+def test_between_two_others_above_and_below_nobody_climbs_or_descends() -> None:
     first, second = head_on_pair()
     others = [
         track("a00003", 2_000.0, 0.0, 36_000, (240.0, 0.0)),

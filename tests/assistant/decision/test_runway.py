@@ -1,7 +1,11 @@
 """Conflicts on runways: told in time, to those concerned, and never in normal traffic."""
 
+from __future__ import annotations
+
 import itertools
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -14,6 +18,7 @@ from airfield import (
     SOUTH,
     SOUTHEAST,
     Airfield,
+    Axis,
     Mover,
     drives,
     goes_around,
@@ -29,6 +34,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.messages import Severity, Transcript
 from airhilt.phraseology import parse_call
+from airhilt.surveillance.receivers import Receiver
 from airhilt.units import SECOND_NS
 from decisions import reference
 
@@ -36,15 +42,19 @@ SEEDS = range(3)
 CALLS = ("AAL123", "DAL456", "OPS1", "ATC")
 
 
-def arrival(at_s, axis=NORTH, callsign="AAL123", seed=1, **how):
+def arrival(
+    at_s: int, axis: Axis = NORTH, callsign: str = "AAL123", seed: int = 1, **how: Any
+) -> Mover:
     return Mover(callsign, axis, lands(at_s, **how), seed=seed)
 
 
-def departure(rolls_at_s, axis=NORTH, callsign="DAL456", seed=1, **how):
+def departure(
+    rolls_at_s: int, axis: Axis = NORTH, callsign: str = "DAL456", seed: int = 1, **how: Any
+) -> Mover:
     return Mover(callsign, axis, takes_off(rolls_at_s, **how), seed=seed)
 
 
-def vehicle(spot, seed=1, **how):
+def vehicle(spot: Callable[..., Any], seed: int = 1, **how: Any) -> Mover:
     return Mover("OPS1", NORTH, spot, 90.0, "C2", seed, **how)
 
 
@@ -113,7 +123,7 @@ def vehicle(spot, seed=1, **how):
     }.values(),
     ids=itertools.count(),
 )  # fmt: skip
-def test_normal_traffic_is_quiet(seconds, movers, seed):
+def test_normal_traffic_is_quiet(seconds: int, movers: Callable[..., Any], seed: int) -> None:
     assert Airfield(movers(seed)).run(seconds).told == []
 
 
@@ -121,7 +131,9 @@ def test_normal_traffic_is_quiet(seconds, movers, seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_35_s(seed):
+def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_35_s(
+    seed: int,
+) -> None:
     field = Airfield([arrival(100, seed=seed), vehicle(stands(800), seed=seed)]).run(130)
     caution_s, _ = field.first("CAUTION")
     warning_s, warning = field.first("WARNING")
@@ -136,7 +148,7 @@ def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_3
     assert warning.evidence.sources == ("adsb",)
 
 
-def test_an_advisory_is_in_plain_words_for_each_who_gets_it():
+def test_an_advisory_is_in_plain_words_for_each_who_gets_it() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))]).run(80)
     last = {callsign: field.to(callsign)[-1].message for callsign in ("AAL123", "OPS1", "ATC")}
     assert last["AAL123"].startswith("AAL123 go around, OPS1 is on runway 01, ")
@@ -145,7 +157,7 @@ def test_an_advisory_is_in_plain_words_for_each_who_gets_it():
     assert last["ATC"].endswith("; AAL123 go around")
 
 
-def test_it_is_one_alert_whose_severity_only_rises_and_that_ends():
+def test_it_is_one_alert_whose_severity_only_rises_and_that_ends() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))]).run(150)
     for callsign in ("AAL123", "OPS1", "ATC"):
         told = field.to(callsign)
@@ -155,7 +167,7 @@ def test_it_is_one_alert_whose_severity_only_rises_and_that_ends():
         assert len({advisory.id for advisory in told}) == 1
 
 
-def test_it_ends_soon_after_the_arrival_has_gone_around():
+def test_it_ends_soon_after_the_arrival_has_gone_around() -> None:
     movers = [Mover("AAL123", NORTH, goes_around(100, 1800.0)), vehicle(stands(800))]
     field = Airfield(movers).run(130)
     over_s, over = field.told[-1]
@@ -164,7 +176,7 @@ def test_it_ends_soon_after_the_arrival_has_gone_around():
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_it_ends_soon_after_the_runway_is_left(seed):
+def test_it_ends_soon_after_the_runway_is_left(seed: int) -> None:
     movers = [arrival(120, seed=seed), vehicle(drives(65, from_m=0.0, to_m=120.0), seed=seed)]
     field = Airfield(movers).run(110)
     assert field.worst is Severity.CAUTION
@@ -175,8 +187,8 @@ def test_it_ends_soon_after_the_runway_is_left(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_vehicle_that_drives_on_to_the_runway_is_told_to_hold_and_then_the_arrival_to_go_around(
-    seed,
-):
+    seed: int,
+) -> None:
     field = Airfield([arrival(90, seed=seed), vehicle(drives(38, to_m=0.0), seed=seed)]).run(110)
     first_s, first = field.first("CAUTION")
     crosses_hold_line_s = 38 + (250 - 76) / 8
@@ -188,8 +200,8 @@ def test_a_vehicle_that_drives_on_to_the_runway_is_told_to_hold_and_then_the_arr
     assert first_s < field.first("WARNING")[0] < reaches_pavement_s + 3.0
 
 
-def test_the_better_the_position_the_earlier_an_entry_is_foreseen():
-    def told_s(nacp):
+def test_the_better_the_position_the_earlier_an_entry_is_foreseen() -> None:
+    def told_s(nacp: int) -> float:
         movers = [arrival(90), vehicle(drives(38, to_m=0.0), nacp=nacp)]
         return Airfield(movers).run(100).first("CAUTION")[0]
 
@@ -197,8 +209,8 @@ def test_the_better_the_position_the_earlier_an_entry_is_foreseen():
     assert told_s(11) < 38 + (250 - 76) / 8 + 1.0
 
 
-def test_who_was_told_to_hold_short_is_given_the_benefit_of_the_doubt_for_a_moment():
-    def told_s(*calls):
+def test_who_was_told_to_hold_short_is_given_the_benefit_of_the_doubt_for_a_moment() -> None:
+    def told_s(*calls: tuple[float, str]) -> float:
         movers = [arrival(90), vehicle(drives(38, to_m=0.0))]
         return Airfield(movers, list(calls)).run(100).first("CAUTION")[0]
 
@@ -206,8 +218,8 @@ def test_who_was_told_to_hold_short_is_given_the_benefit_of_the_doubt_for_a_mome
     assert 0.5 <= held - told_s() <= 2.0
 
 
-def test_crossing_in_time_needs_a_clearance():
-    def movers():
+def test_crossing_in_time_needs_a_clearance() -> None:
+    def movers() -> list[Mover]:
         return [arrival(100), vehicle(drives(45))]
 
     cleared = [
@@ -218,18 +230,18 @@ def test_crossing_in_time_needs_a_clearance():
     assert Airfield(movers(), cleared).run(110).told == []
 
 
-def test_who_crosses_with_a_clearance_but_stops_on_the_runway_is_in_the_way():
+def test_who_crosses_with_a_clearance_but_stops_on_the_runway_is_in_the_way() -> None:
     movers = [arrival(100), vehicle(drives(45, to_m=0.0))]
     cleared = [(40.0, "Ops one, cross runway zero one.")]
     assert Airfield(movers, cleared).run(110).worst is Severity.WARNING
 
 
-def test_a_vehicle_without_a_transponder_of_which_nobody_speaks_is_not_known():
+def test_a_vehicle_without_a_transponder_of_which_nobody_speaks_is_not_known() -> None:
     movers = [arrival(90), vehicle(stands(800), equipped=False)]
     assert Airfield(movers).run(110).told == []
 
 
-def test_a_vehicle_without_a_transponder_that_was_sent_on_to_the_runway_is_a_caution():
+def test_a_vehicle_without_a_transponder_that_was_sent_on_to_the_runway_is_a_caution() -> None:
     movers = [arrival(90), vehicle(stands(800), equipped=False)]
     calls = [(20.0, "Ops one, proceed onto runway zero one for inspection.")]
     field = Airfield(movers, calls).run(110)
@@ -240,7 +252,7 @@ def test_a_vehicle_without_a_transponder_that_was_sent_on_to_the_runway_is_a_cau
     assert field.advice("AAL123") == []
 
 
-def test_and_nothing_once_it_was_told_to_hold_short():
+def test_and_nothing_once_it_was_told_to_hold_short() -> None:
     movers = [arrival(90), vehicle(stands(800, -82), equipped=False)]
     calls = [
         (10.0, "Ops one, proceed onto runway zero one for inspection."),
@@ -249,13 +261,13 @@ def test_and_nothing_once_it_was_told_to_hold_short():
     assert Airfield(movers, calls).run(110).told == []
 
 
-def test_an_aircraft_that_has_not_gone_when_the_arrival_is_near_holds_and_the_arrival_goes_around():
+def test_who_has_not_gone_when_the_arrival_is_near_holds_and_the_arrival_goes_around() -> None:
     field = Airfield([arrival(90), departure(999)]).run(80)
     assert field.advice("DAL456") == [("cancel_takeoff", "01")] * 2
     assert field.advice("AAL123") == [("go_around", "01")]
 
 
-def test_a_landing_that_stops_on_the_runway_is_in_the_way_of_the_next():
+def test_a_landing_that_stops_on_the_runway_is_in_the_way_of_the_next() -> None:
     movers = [
         arrival(30, callsign="DAL456", stops_at_m=1500.0),
         arrival(140),
@@ -266,22 +278,22 @@ def test_a_landing_that_stops_on_the_runway_is_in_the_way_of_the_next():
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_towards_somebody_on_the_runway_is_cancelled_at_once(seed):
+def test_a_takeoff_towards_somebody_on_the_runway_is_cancelled_at_once(seed: int) -> None:
     field = Airfield([departure(40, seed=seed), vehicle(stands(1500), seed=seed)]).run(60)
     warning_s, _ = field.first("WARNING")
     assert 40 < warning_s < 48
     assert field.advice("DAL456") == [("cancel_takeoff", "01")]
 
 
-def test_who_stands_behind_a_departure_is_not_in_its_way():
+def test_who_stands_behind_a_departure_is_not_in_its_way() -> None:
     assert Airfield([departure(40, along_m=600.0), vehicle(stands(300))]).run(90).told == []
 
 
-def test_an_outage_does_not_clear_a_runway():
+def test_an_outage_does_not_clear_a_runway() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))])
     report = field._report
 
-    def silent(station, mover, t_ns, step):
+    def silent(station: Receiver, mover: Mover, t_ns: int, step: int) -> list[Any]:
         return [] if 142 <= step <= 158 else report(station, mover, t_ns, step)
 
     field._report = silent
@@ -293,7 +305,7 @@ def test_an_outage_does_not_clear_a_runway():
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_against_an_arrival_from_the_other_end_is_a_warning_to_both(seed):
+def test_a_takeoff_against_an_arrival_from_the_other_end_is_a_warning_to_both(seed: int) -> None:
     field = Airfield([arrival(110, SOUTH, seed=seed), departure(45, seed=seed)]).run(75)
     warning_s, warning = field.first("WARNING")
     assert 45 < warning_s < 52
@@ -302,14 +314,16 @@ def test_a_takeoff_against_an_arrival_from_the_other_end_is_a_warning_to_both(se
     assert field.advice("DAL456") == [("cancel_takeoff", "01")]
 
 
-def test_two_arrivals_from_opposite_ends_are_a_warning_to_both():
+def test_two_arrivals_from_opposite_ends_are_a_warning_to_both() -> None:
     field = Airfield([arrival(80, SOUTH), arrival(85, callsign="DAL456")]).run(78)
     assert field.advice("AAL123") == [("go_around", "19")]
     assert field.advice("DAL456") == [("go_around", "01")]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_that_meets_an_arrival_where_the_runways_cross_is_a_warning_to_both(seed):
+def test_a_takeoff_that_meets_an_arrival_where_the_runways_cross_is_a_warning_to_both(
+    seed: int,
+) -> None:
     movers = [arrival(100, seed=seed), departure(85, SOUTHEAST, seed=seed)]
     field = Airfield(movers).run(112)
     warning_s, _ = field.first("WARNING")
@@ -322,7 +336,7 @@ def test_a_takeoff_that_meets_an_arrival_where_the_runways_cross_is_a_warning_to
 # --- wildlife -------------------------------------------------------------------------------
 
 
-def test_wildlife_reported_on_the_runway_is_a_warning_to_go_around():
+def test_wildlife_reported_on_the_runway_is_a_warning_to_go_around() -> None:
     calls = [(60.0, "Tower, Ops one, wildlife report, deer on runway zero one near delta.")]
     field = Airfield([arrival(90)], calls).run(80)
     warning_s, warning = field.first("WARNING")
@@ -344,11 +358,11 @@ def test_wildlife_reported_on_the_runway_is_a_warning_to_go_around():
         ],
     ],
 )
-def test_wildlife_elsewhere_or_gone_or_unseen_is_nothing(calls):
+def test_wildlife_elsewhere_or_gone_or_unseen_is_nothing(calls: list[Any]) -> None:
     assert Airfield([arrival(90)], calls).run(110).told == []
 
 
-def test_an_animal_on_the_runway_is_on_that_of_who_says_so():
+def test_an_animal_on_the_runway_is_on_that_of_who_says_so() -> None:
     calls = [(60.0, "Animal on the runway, American one two three.")]
     movers = [arrival(90), arrival(90, NORTHWEST, callsign="DAL456")]
     movers[1].spot = goes_around(150, 9000.0)
@@ -363,7 +377,7 @@ WRONG = (26.0, "Cleared to land runway one niner, American one two three.")
 RIGHT = (26.0, "Cleared to land runway zero one, American one two three.")
 
 
-def test_a_wrong_readback_with_somebody_on_the_runway_is_a_caution_at_once():
+def test_a_wrong_readback_with_somebody_on_the_runway_is_a_caution_at_once() -> None:
     field = Airfield([arrival(160, SOUTH), departure(999)], [CLEARED, WRONG]).run(40)
     told_s, told = field.first("CAUTION", "readback_mismatch")
     assert told_s == 26.0
@@ -375,29 +389,29 @@ def test_a_wrong_readback_with_somebody_on_the_runway_is_a_caution_at_once():
     assert field.advice("AAL123") == []
 
 
-def test_on_short_final_it_is_a_reason_to_go_around():
+def test_on_short_final_it_is_a_reason_to_go_around() -> None:
     calls = [(CLEARED[0] + 20, CLEARED[1]), (WRONG[0] + 20, WRONG[1])]
     field = Airfield([arrival(95, SOUTH), departure(999)], calls).run(47)
     mismatch = [a for a in field.to("AAL123") if a.kind == "readback_mismatch"]
     assert [a.recommendation.action for a in mismatch] == ["go_around"]
 
 
-def test_a_right_readback_is_nothing():
+def test_a_right_readback_is_nothing() -> None:
     assert Airfield([arrival(160), departure(999)], [CLEARED, RIGHT]).run(60).told == []
 
 
-def test_a_wrong_readback_on_an_empty_field_is_nothing():
+def test_a_wrong_readback_on_an_empty_field_is_nothing() -> None:
     assert Airfield([arrival(160, SOUTH)], [CLEARED, WRONG]).run(60).told == []
 
 
-def test_it_becomes_a_caution_when_somebody_is_cleared_on_to_the_runway_later():
+def test_it_becomes_a_caution_when_somebody_is_cleared_on_to_the_runway_later() -> None:
     calls = [CLEARED, WRONG, (50.0, "Delta 456, runway zero one, line up and wait.")]
     movers = [arrival(200, SOUTH), Mover("DAL456", NORTH, stands(40, -100), 90.0)]
     field = Airfield(movers, calls).run(70)
     assert field.first("CAUTION", "readback_mismatch")[0] == 50.0
 
 
-def test_a_readback_that_is_put_right_is_nothing_any_more():
+def test_a_readback_that_is_put_right_is_nothing_any_more() -> None:
     calls = [
         CLEARED,
         WRONG,
@@ -409,7 +423,7 @@ def test_a_readback_that_is_put_right_is_nothing_any_more():
     assert Airfield(movers, calls).run(70).told == []
 
 
-def test_reading_back_a_takeoff_clearance_that_nobody_gave_is_a_caution():
+def test_reading_back_a_takeoff_clearance_that_nobody_gave_is_a_caution() -> None:
     calls = [
         (40.0, "Delta 456, runway one five, continue holding, traffic landing runway zero one."),
         (46.0, "Runway one five, cleared for takeoff, Delta 456."),
@@ -420,7 +434,7 @@ def test_reading_back_a_takeoff_clearance_that_nobody_gave_is_a_caution():
     assert field.advice("DAL456") == [("cancel_takeoff", "15")]
 
 
-def test_an_instruction_that_somebody_else_reads_back_is_a_caution_to_both():
+def test_an_instruction_that_somebody_else_reads_back_is_a_caution_to_both() -> None:
     calls = [(50.0, "American one two three, go around."), (53.0, "Going around, Delta 456.")]
     movers = [arrival(98), arrival(190, callsign="DAL456"), vehicle(stands(800))]
     field = Airfield(movers, calls).run(55)
@@ -430,7 +444,7 @@ def test_an_instruction_that_somebody_else_reads_back_is_a_caution_to_both():
     assert [a.recommendation.action for a in mismatch] == ["go_around"]
 
 
-def test_clearances_for_both_ends_of_a_runway_are_a_caution():
+def test_clearances_for_both_ends_of_a_runway_are_a_caution() -> None:
     calls = [
         (20.0, "American 123, runway one niner, cleared to land."),
         (25.0, "Cleared to land runway one niner, American 123."),
@@ -442,7 +456,7 @@ def test_clearances_for_both_ends_of_a_runway_are_a_caution():
     assert set(told.recipients) == {"AAL123", "DAL456", "ATC"}
 
 
-def test_a_clearance_that_has_been_used_conflicts_with_nothing():
+def test_a_clearance_that_has_been_used_conflicts_with_nothing() -> None:
     calls = [
         (10.0, "Delta 456, runway one niner, cleared for takeoff."),
         (80.0, "American 123, runway zero one, cleared to land."),
@@ -455,18 +469,18 @@ def test_a_clearance_that_has_been_used_conflicts_with_nothing():
 # --- beside the runways ---------------------------------------------------------------------
 
 
-def test_two_in_the_zone_of_the_tower_do_not_lose_separation():
+def test_two_in_the_zone_of_the_tower_do_not_lose_separation() -> None:
     movers = [arrival(80), arrival(110, NORTHWEST, callsign="DAL456")]
     assert Airfield(movers).run(75).told == []
 
 
-def test_who_is_on_the_ground_does_not_lose_separation():
+def test_who_is_on_the_ground_does_not_lose_separation() -> None:
     movers = [arrival(140), vehicle(stands(800, -90)), departure(40, SOUTHEAST)]
     field = Airfield(movers).run(70)
     assert not any(advisory.kind == "loss_of_separation" for _, advisory in field.told)
 
 
-def test_without_an_airport_runways_are_of_no_concern():
+def test_without_an_airport_runways_are_of_no_concern() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))])
     field._step = lambda t_ns, inputs, step=field._step: step(
         t_ns, [item for item in inputs if item.key != "briefing"]
@@ -474,27 +488,27 @@ def test_without_an_airport_runways_are_of_no_concern():
     assert field.run(110).told == []
 
 
-def test_what_is_told_depends_on_nothing_but_what_was_heard():
+def test_what_is_told_depends_on_nothing_but_what_was_heard() -> None:
     once, again = (
         Airfield([arrival(90), vehicle(drives(38, to_m=0.0))]).run(110).told for _ in range(2)
     )
     assert once == again
 
 
-def test_the_times_to_go_are_a_matter_of_configuration():
+def test_the_times_to_go_are_a_matter_of_configuration() -> None:
     config = ReferenceConfig(runways=RunwayConfig(warning_s=PAPER_TIME_TO_GO_S))
     field = Airfield([arrival(100), vehicle(stands(800))], worker=reference(config))
     assert 100 - field.run(110).first("WARNING")[0] == pytest.approx(8.0, abs=3.0)
 
 
 @given(st.integers(1, 36), st.sampled_from(["", "L", "C", "R"]))
-def test_the_other_end_of_the_other_end_is_this_end(number, side):
+def test_the_other_end_of_the_other_end_is_this_end(number: int, side: str) -> None:
     ident = f"{number:02d}{side}"
     assert opposite(opposite(ident)) == ident
     assert abs(int(opposite(ident)[:2]) - number) == 18
 
 
-def test_the_charted_runways_are_paired_and_cross_where_they_cross():
+def test_the_charted_runways_are_paired_and_cross_where_they_cross() -> None:
     aerodrome = Aerodrome(BRIEFING.airport)
     assert [strip.name for strip in aerodrome.strips] == ["01/19", "15/33"]
     first, second = aerodrome.strips
@@ -506,12 +520,12 @@ def test_the_charted_runways_are_paired_and_cross_where_they_cross():
         assert 0.0 < direction.along_m(point) < direction.length_m
 
 
-def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves():
+def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves() -> None:
     strip = Aerodrome(BRIEFING.airport).strips[0]
     direction = strip.directions[0]
     side = Vector(direction.ahead.north, -direction.ahead.east)
 
-    def beside(across_m):
+    def beside(across_m: float) -> Vector:
         middle = [t + 800.0 * a for t, a in zip(direction.threshold, direction.ahead, strict=True)]
         return Vector(*(m + across_m * s for m, s in zip(middle, side, strict=True)))
 
@@ -522,7 +536,7 @@ def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves():
     assert way_through(core, beside(-200.0), to_left) is None
 
 
-def heard(text, begun_s, end_s, clearances):
+def heard(text: str, begun_s: int, end_s: int, clearances: Clearances) -> None:
     transcript = Transcript(
         id="1", frequency_khz=119100, t_tx_ns=begun_s * SECOND_NS, t_end_ns=end_s * SECOND_NS,
         text=text, confidence=1.0, engine="text",
@@ -530,11 +544,11 @@ def heard(text, begun_s, end_s, clearances):
     clearances.take(parse_call(text, CALLS), transcript)
 
 
-def in_force(clearances, at_s):
+def in_force(clearances: Clearances, at_s: int) -> list[Any]:
     return [(each.callsign, each.action, each.runway) for each in clearances.in_force(at_s * 10**9)]
 
 
-def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdrawn():
+def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdrawn() -> None:
     clearances = Clearances()
     heard("Ops one, cross runway zero one.", 0, 3, clearances)
     heard("Cross, ops one.", 4, 6, clearances)
@@ -548,14 +562,14 @@ def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdraw
     assert list(clearances.discrepancies(24 * SECOND_NS)) == []
 
 
-def test_a_readback_long_after_its_instruction_belongs_to_something_else():
+def test_a_readback_long_after_its_instruction_belongs_to_something_else() -> None:
     clearances = Clearances()
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 50, 55, clearances)
     assert list(clearances.discrepancies(56 * SECOND_NS)) == []
 
 
-def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while():
+def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while() -> None:
     clearances = Clearances()
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 7, 10, clearances)
@@ -564,7 +578,7 @@ def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while():
 
 
 @given(st.lists(st.sampled_from([None, *Severity]), min_size=1, max_size=40))
-def test_a_severity_that_is_told_only_rises(levels):
+def test_a_severity_that_is_told_only_rises(levels: list[Any]) -> None:
     escalation, told = Escalation(), []
     for second, level in enumerate(levels):
         if level is None:

@@ -1,6 +1,10 @@
 """What cameras show on a runway, or in the air before it, is in the way like anything else."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -25,42 +29,56 @@ SEEDS = range(3)
 LANDS_S = 70.0
 
 
-def at(along_m, across_m, height_m=0.0):
+def at(along_m: float, across_m: float, height_m: float = 0.0) -> tuple[float, float, float]:
     return (*NORTH.local(along_m, across_m), height_m)
 
 
-def camera(name, place, right_deg, bodies, pitch_deg=-2.0, **how):
+def camera(
+    name: str,
+    place: tuple[float, float, float],
+    right_deg: float,
+    bodies: list[Body] | tuple[Any, ...],
+    pitch_deg: float = -2.0,
+    **how: Any,
+) -> Camera:
     """Return a camera that stands, and looks so far to the right of the runway's direction."""
     look = standing(at(*place), NORTH.course_deg + right_deg, pitch_deg)
     return Camera(name, FIELD, look, bodies, **({"rate_hz": 4.0, "smallest_px": 5.0} | how))
 
 
-def beside_threshold(*bodies, **how):
+def beside_threshold(*bodies: Body, **how: Any) -> Camera:
     """Return a camera beside the threshold that looks along the runway."""
     return camera("threshold", (0.0, 95.0, 8.0), -8.0, bodies, width_px=1280, height_px=720, **how)
 
 
-def on_tower(*bodies, **how):
+def on_tower(*bodies: Body, **how: Any) -> Camera:
     """Return a camera that looks across the runway from far away."""
     sharp = {"width_px": 1920, "height_px": 1080, "fov_deg": 70.0} | how
     return camera("tower", (900.0, -500.0, 57.0), 90.0, bodies, -6.0, **sharp)
 
 
-def arrival(**how):
+def arrival(**how: Any) -> Mover:
     return Mover("AAL123", NORTH, lands(LANDS_S), **how)
 
 
-def silent(spot, callsign="OPS1", category="C2"):
+def silent(spot: Callable[..., Any], callsign: str = "OPS1", category: str = "C2") -> Mover:
     return Mover(callsign, NORTH, spot, 90.0, category, equipped=False)
 
 
-def look_at(*movers, cameras, seconds=LANDS_S - 5.0, calls=()):
+def look_at(
+    *movers: Mover,
+    cameras: list[Camera] | tuple[Camera],
+    seconds: float = LANDS_S - 5.0,
+    calls: list[tuple[float, str]] | tuple[Any, ...] = (),
+) -> Airfield:
     return Airfield(list(movers), list(calls), cameras=list(cameras)).run(seconds)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("look", [beside_threshold, on_tower])
-def test_a_silent_truck_on_the_runway_sends_the_arrival_around(look, seed):
+def test_a_silent_truck_on_the_runway_sends_the_arrival_around(
+    look: Callable[..., Any], seed: int
+) -> None:
     truck = silent(stands(800))
     field = look_at(
         arrival(seed=seed), truck, cameras=[look(truck.body("truck", TRUCK), seed=seed)]
@@ -78,7 +96,7 @@ def test_a_silent_truck_on_the_runway_sends_the_arrival_around(look, seed):
 
 @pytest.mark.parametrize("across_m", [-130.0, -90.0, 110.0])
 @pytest.mark.parametrize("look", [beside_threshold, on_tower])
-def test_one_beside_the_runway_does_not(look, across_m):
+def test_one_beside_the_runway_does_not(look: Callable[..., Any], across_m: float) -> None:
     truck = silent(stands(500, across_m))
     field = look_at(arrival(), truck, cameras=[look(truck.body("truck", TRUCK))])
     assert field.worst.rank <= Severity.ADVISORY.rank
@@ -86,7 +104,7 @@ def test_one_beside_the_runway_does_not(look, across_m):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_what_squitters_is_no_second_obstacle_however_it_is_seen(seed):
+def test_what_squitters_is_no_second_obstacle_however_it_is_seen(seed: int) -> None:
     """An arrival lands and turns off, a vehicle holds short: both are seen, and known."""
     aircraft = Mover("DAL456", NORTH, lands(12.0), seed=seed)
     vehicle = Mover("OPS1", NORTH, stands(800, -90), 90.0, "C2", seed)
@@ -96,17 +114,17 @@ def test_what_squitters_is_no_second_obstacle_however_it_is_seen(seed):
     assert look_at(*movers, cameras=cameras, seconds=85.0).told == []
 
 
-def test_a_flicker_is_not_there():
+def test_a_flicker_is_not_there() -> None:
     truck = silent(stands(800))
     flicker = on_tower(truck.body("truck", TRUCK), confidence=0.4, recall=0.1)
     assert look_at(arrival(), truck, cameras=[flicker]).worst.rank <= Severity.ADVISORY.rank
 
 
-def test_what_one_camera_shows_with_little_confidence_must_persist():
+def test_what_one_camera_shows_with_little_confidence_must_persist() -> None:
     truck = silent(drives(25.0, from_m=-120.0, to_m=0.0))
     body = truck.body("truck", TRUCK)
 
-    def warned_s(*cameras):
+    def warned_s(*cameras: Camera) -> float:
         field = look_at(arrival(), truck, cameras=cameras)
         assert field.worst is Severity.WARNING
         return next(t_s for t_s, a in field.told if "vision" in a.evidence.sources[:1])
@@ -115,7 +133,7 @@ def test_what_one_camera_shows_with_little_confidence_must_persist():
     assert warned_s(on_tower(body, confidence=0.9)) <= faint
 
 
-def test_what_never_moves_is_as_sure_as_one_look():
+def test_what_never_moves_is_as_sure_as_one_look() -> None:
     """A sign that is taken for a truck is taken for one in every picture."""
     sign = still("truck", at(800.0, 30.0), TRUCK)
     field = look_at(arrival(), cameras=[on_tower(sign, confidence=0.5)])
@@ -126,12 +144,12 @@ def test_what_never_moves_is_as_sure_as_one_look():
     assert look_at(arrival(), truck, cameras=[moved]).worst is Severity.WARNING
 
 
-def test_two_cameras_that_agree_need_not_wait():
+def test_two_cameras_that_agree_need_not_wait() -> None:
     """It comes into view on the runway, as out of mist."""
     truck = silent(lambda t_s: (800.0, 0.0 if t_s > 0.0 else -5000.0, None))
 
-    def told_s(*cameras):
-        def appears(one):
+    def told_s(*cameras: Camera) -> float:
+        def appears(one: Camera) -> Camera:
             one.bodies = [
                 replace(body, at=lambda t_s, at=body.at: at(t_s if t_s > 40.0 else -1e5))
                 for body in one.bodies
@@ -148,7 +166,7 @@ def test_two_cameras_that_agree_need_not_wait():
     assert alone >= 41.0
 
 
-def test_the_vehicle_that_was_sent_there_is_named_and_told():
+def test_the_vehicle_that_was_sent_there_is_named_and_told() -> None:
     truck = silent(stands(800))
     calls = [(3.0, "Ops one, proceed onto runway zero one for inspection.")]
     field = look_at(arrival(), truck, cameras=[on_tower(truck.body("truck", TRUCK))], calls=calls)
@@ -160,7 +178,7 @@ def test_the_vehicle_that_was_sent_there_is_named_and_told():
     assert len({advisory.id for _, advisory in field.told}) == 1
 
 
-def test_a_silent_vehicle_that_crosses_with_a_clearance_long_before_is_harmless():
+def test_a_silent_vehicle_that_crosses_with_a_clearance_long_before_is_harmless() -> None:
     truck = silent(drives(12.0, along_m=800.0))
     calls = [(8.0, "Ops one, cross runway zero one."), (10.0, "Cross runway zero one, ops one.")]
     field = look_at(
@@ -171,7 +189,7 @@ def test_a_silent_vehicle_that_crosses_with_a_clearance_long_before_is_harmless(
     assert seen == []
 
 
-def test_a_deer_is_seen_by_a_camera_that_is_near_enough():
+def test_a_deer_is_seen_by_a_camera_that_is_near_enough() -> None:
     deer = still("deer", at(760.0, 0.0), DEER)
     look = {"width_px": 1280, "height_px": 720, "smallest_px": 8.0}
     near = camera("side", (600.0, 110.0, 8.0), -35.0, [deer], **look)
@@ -184,10 +202,10 @@ def test_a_deer_is_seen_by_a_camera_that_is_near_enough():
     assert look_at(arrival(), cameras=[far]).told == []
 
 
-def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway():
+def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway() -> None:
     own, truck = arrival(), silent(stands(800))
 
-    def look(t_s):
+    def look(t_s: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         place, heading = own.body("airplane", AIRLINER).at(t_s)
         return place, (heading, 0.0, 2.0 * DEGREE)
 
@@ -201,7 +219,7 @@ def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway():
     assert field.advice("AAL123") == [("go_around", "01")]
 
 
-def test_a_takeoff_towards_something_seen_is_cancelled():
+def test_a_takeoff_towards_something_seen_is_cancelled() -> None:
     truck = silent(stands(1500))
     departure = Mover("DAL456", NORTH, takes_off(10.0))
     field = look_at(
@@ -213,7 +231,7 @@ def test_a_takeoff_towards_something_seen_is_cancelled():
     assert field.advice("DAL456") == [("cancel_takeoff", "01")]
 
 
-def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time():
+def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time() -> None:
     truck = silent(stands(800))
     off = on_tower(truck.body("truck", TRUCK), off_after_s=40.0)
     field = look_at(arrival(), truck, cameras=[off])
@@ -221,7 +239,7 @@ def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time
     assert 48.0 < over_s < 58.0
 
 
-def test_an_aircraft_on_the_ground_has_nothing_to_avoid_in_the_air():
+def test_an_aircraft_on_the_ground_has_nothing_to_avoid_in_the_air() -> None:
     """It stands lined up, and somebody without transponder comes towards it."""
     other = Mover("N172SP", SOUTH, lands(LANDS_S), equipped=False)
     own = Mover("DAL456", NORTH, stands(40.0), 0.0)
@@ -233,7 +251,7 @@ def test_an_aircraft_on_the_ground_has_nothing_to_avoid_in_the_air():
 # --- birds in the air -----------------------------------------------------------------------
 
 
-def flock(across, height):
+def flock(across: Callable[..., Any], height: Callable[..., Any]) -> Body:
     """Return a flock 900 m before the threshold, as functions of time."""
     return Body(
         "bird",
@@ -242,7 +260,7 @@ def flock(across, height):
     )
 
 
-def approach_cameras(bird):
+def approach_cameras(bird: Body) -> list[Camera]:
     """Return two cameras beside the threshold that look at the final approach."""
     how = {"rate_hz": 8.0, "fov_deg": 40.0}
     return [
@@ -251,11 +269,11 @@ def approach_cameras(bird):
     ]
 
 
-def rises(t_s, at_s=45.0):
+def rises(t_s: float, at_s: float = 45.0) -> float:
     return min(max(t_s - at_s, 0.0) * 3.0, 70.0)
 
 
-def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around():
+def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around() -> None:
     bird = flock(lambda t_s: -280.0 + 15.0 * max(t_s - 45.0, 0.0), rises)
     field = look_at(arrival(), cameras=approach_cameras(bird))
     warning_s, warning = field.first("WARNING")
@@ -265,7 +283,7 @@ def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around():
     assert field.advice("AAL123") == [("go_around", "01")]
 
 
-def test_a_flock_that_is_taken_for_an_aircraft_is_in_the_way_all_the_same():
+def test_a_flock_that_is_taken_for_an_aircraft_is_in_the_way_all_the_same() -> None:
     bird = flock(lambda t_s: -280.0 + 15.0 * max(t_s - 45.0, 0.0), rises)
     field = look_at(arrival(), cameras=approach_cameras(replace(bird, label="airplane")))
     _, warning = field.first("WARNING")
@@ -274,7 +292,7 @@ def test_a_flock_that_is_taken_for_an_aircraft_is_in_the_way_all_the_same():
 
 
 @pytest.mark.parametrize("equipped", [True, False])
-def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped):
+def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped: bool) -> None:
     before = Mover("DAL456", NORTH, lands(LANDS_S - 20.0), equipped=equipped)
     body = before.body("airplane", AIRLINER)
     field = look_at(arrival(), before, cameras=approach_cameras(body), seconds=44.0)
@@ -290,11 +308,11 @@ def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped):
     ],
     ids=["sits beside the approach", "flies away from it", "passes high above it"],
 )
-def test_one_that_does_not_is_left_alone(bird):
+def test_one_that_does_not_is_left_alone(bird: Body) -> None:
     assert look_at(arrival(), cameras=approach_cameras(bird)).told == []
 
 
-def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway():
+def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway() -> None:
     """By the runway's elevation the arrival would be 127 m higher than it is."""
     airport = BRIEFING.airport
     lower = [each.model_copy(update={"elevation_ft": -400.0}) for each in airport.runways]
@@ -305,7 +323,7 @@ def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_run
     assert field.run(LANDS_S - 5.0).told == []
 
 
-def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_caution():
+def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_caution() -> None:
     bird = flock(lambda _: 0.0, lambda _: 55.0)
     west, _ = approach_cameras(bird)
     field = look_at(arrival(), cameras=[west])
@@ -329,11 +347,13 @@ def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_ca
         (0.9, 0.0, 0.0, None),
     ],
 )
-def test_hints_are_weighed_as_in_the_paper(vision, activity, communication, severity):
+def test_hints_are_weighed_as_in_the_paper(
+    vision: float, activity: float, communication: float, severity: Severity | None
+) -> None:
     assert fused_severity(vision, activity, communication) is severity
 
 
-def test_a_faint_sighting_is_for_the_controller_alone_until_somebody_reports_the_same():
+def test_a_faint_sighting_is_for_the_controller_alone_until_somebody_reports_the_same() -> None:
     deer = still("deer", at(760.0, 0.0), DEER)
     look = {"width_px": 1280, "height_px": 720, "confidence": 0.4}
     faint = camera("side", (600.0, 110.0, 8.0), -35.0, [deer], **look)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from airhilt.commands import AltitudeCommand
 from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
@@ -24,7 +26,7 @@ TOWER, KHZ = "Washington Centre", 134_325
 CLIMB = {"action": "altitude", "altitude_ft": 33000}
 
 
-def line(name, at_s, speaker, to, text, **more):
+def line(name: str, at_s: float, speaker: str, to: str, text: str, **more: Any) -> dict[Any, Any]:
     return {
         "id": name, "at_s": at_s, "speaker": speaker, "to": to, "frequency_khz": KHZ,
         "text": text, **more,
@@ -45,7 +47,13 @@ READBACK = line(
 class World:
     """A radio with a director, and actors that only note what they are told to do."""
 
-    def __init__(self, *lines, failures=(), heard=None, **radio):
+    def __init__(
+        self,
+        *lines: dict[Any, Any],
+        failures: list[Any] | tuple[Any, ...] = (),
+        heard: dict[tuple[str, str], Heard] | None = None,
+        **radio: Any,
+    ) -> None:
         document = load("s02a_nominal").model_dump(mode="json")
         document["radio"] |= {"lines": list(lines), **radio}
         document |= {"failures": list(failures), "end_when": [], "conflict": None}
@@ -81,43 +89,49 @@ class World:
         )
         self.conversation.start()
 
-    def publish(self, key, message, *, raw=None):
+    def publish(
+        self,
+        key: str,
+        message: HearingTruth | SpokenTruth | Transcript | Transmission,
+        *,
+        raw: bytes | None = None,
+    ) -> None:
         self.published.append(message)
         if isinstance(message, Transcript) and self.gives_transcripts:
             self.conversation.take(key, message, b"")
 
     gives_transcripts = True
 
-    def once(self, condition, action):
+    def once(self, condition: Any, action: Any) -> None:
         del condition
         self.director.at(self.director.now_ns, action, Priority.SCRIPT)
 
-    def do(self, callsign, command):
+    def do(self, callsign: str, command: AltitudeCommand) -> None:
         self.done.append((callsign, command, self.now_s))
 
     @property
-    def now_s(self):
+    def now_s(self) -> float:
         return self.director.now_ns / SECOND_NS
 
-    def run(self):
+    def run(self) -> Reading | World:
         self.director.run()
         return self
 
-    def run_until(self, end_s):
+    def run_until(self, end_s: float) -> World:
         self.director.at(seconds_to_ns(end_s), self.director.stop, Priority.OBSERVE)
         self.director.run()
         self.conversation.close()
         return self
 
-    def said(self):
+    def said(self) -> list[str]:
         return [one.id for one in self.published if isinstance(one, SpokenTruth)]
 
-    def spoken(self, name):
+    def spoken(self, name: str) -> SpokenTruth:
         return next(
             one for one in self.published if isinstance(one, SpokenTruth) and one.id == name
         )
 
-    def hearings(self, actor):
+    def hearings(self, actor: str) -> list[Any]:
         return [
             (one.id, one.outcome)
             for one in self.published
@@ -128,20 +142,20 @@ class World:
 class Scripted(HearingModel):
     """Hears each transmission as told, everything else well."""
 
-    def __init__(self, heard):
+    def __init__(self, heard: dict[tuple[str, str], Heard]) -> None:
         super().__init__(0)
         object.__setattr__(self, "_heard", heard)
 
     __slots__ = ("_heard",)
 
-    def listen(self, transmission, listener, text, snr_db):
+    def listen(self, transmission: str, listener: str, text: str, snr_db: None) -> Heard:
         return self._heard.get((transmission, listener), Heard("understood", text))
 
 
 MISSED, UNSURE = Heard("missed", ""), Heard("unsure", "...")
 
 
-def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay():
+def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay() -> None:
     world = World(CLEARANCE, READBACK).run()
     assert world.said() == ["clearance", "readback"]
     ((callsign, command, at_s),) = world.done
@@ -151,7 +165,7 @@ def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay():
     assert world.spoken("readback").in_reply_to == "clearance"
 
 
-def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that():
+def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that() -> None:
     world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): MISSED}).run()
     assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
     first, again = world.spoken("clearance"), world.spoken("clearance.repeat-1")
@@ -162,7 +176,7 @@ def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that():
     ]  # fmt: skip
 
 
-def test_one_who_is_not_sure_asks_again():
+def test_one_who_is_not_sure_asks_again() -> None:
     world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): UNSURE}).run()
     assert world.said() == [
         "clearance", "clearance.say-again-1", "clearance.repeat-1", "readback",
@@ -172,7 +186,7 @@ def test_one_who_is_not_sure_asks_again():
     assert len(world.done) == 1
 
 
-def test_a_unit_asks_the_caller_by_his_callsign():
+def test_a_unit_asks_the_caller_by_his_callsign() -> None:
     check = line("check", 2, "AAL123", TOWER, "Washington Center, American one two three.")
     world = World(check, heard={("check", TOWER): UNSURE}).run()
     assert world.said() == ["check", "check.say-again-1", "check.repeat-1"]
@@ -181,21 +195,21 @@ def test_a_unit_asks_the_caller_by_his_callsign():
     assert question.text == "American one twenty three, say again."
 
 
-def test_a_question_that_nobody_hears_does_not_end_the_matter():
+def test_a_question_that_nobody_hears_does_not_end_the_matter() -> None:
     heard = {("clearance", "AAL123"): UNSURE, ("clearance.say-again-1", TOWER): MISSED}
     assert World(CLEARANCE, READBACK, heard=heard).run().said()[-2:] == [
         "clearance.repeat-1", "readback",
     ]  # fmt: skip
 
 
-def test_a_call_that_is_never_taken_is_given_up_and_nothing_follows_from_it():
+def test_a_call_that_is_never_taken_is_given_up_and_nothing_follows_from_it() -> None:
     names = ["clearance", *(f"clearance.repeat-{n + 1}" for n in range(MOST_REPEATS))]
     world = World(CLEARANCE, READBACK, heard={(name, "AAL123"): MISSED for name in names}).run()
     assert world.said() == names
     assert world.done == []
 
 
-def test_what_a_failure_makes_deaf_nobody_notices():
+def test_what_a_failure_makes_deaf_nobody_notices() -> None:
     failure = {"type": "not_received", "line": "clearance", "actor": "AAL123"}
     world = World(CLEARANCE, READBACK, failures=[failure]).run()
     assert world.said() == ["clearance"]
@@ -203,14 +217,14 @@ def test_what_a_failure_makes_deaf_nobody_notices():
     assert world.hearings("AAL123") == [("clearance", "missed")]
 
 
-def test_a_controller_who_checks_readbacks_notices_that_none_comes():
+def test_a_controller_who_checks_readbacks_notices_that_none_comes() -> None:
     failure = {"type": "not_received", "line": "clearance", "actor": "AAL123"}
     world = World(CLEARANCE, READBACK, failures=[failure], controller_checks_readbacks=True).run()
     assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
     assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
 
 
-def test_a_wrong_readback_stands_where_nobody_checks_it():
+def test_a_wrong_readback_stands_where_nobody_checks_it() -> None:
     wrong = {
         "type": "readback_wrong", "line": "readback", "text": WRONG,
         "commands": [{"actor": "AAL123", "command": CLIMB | {"altitude_ft": 35000}}],
@@ -224,7 +238,9 @@ def test_a_wrong_readback_stands_where_nobody_checks_it():
 WRONG = "Climb and maintain flight level three five zero, American one two three."
 
 
-def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_what_it_should():
+def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_what_it_should() -> (
+    None
+):
     wrong = {
         "type": "readback_wrong", "line": "readback", "text": WRONG,
         "commands": [
@@ -242,12 +258,12 @@ def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_wha
     assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
 
 
-def test_a_right_readback_is_not_corrected():
+def test_a_right_readback_is_not_corrected() -> None:
     world = World(CLEARANCE, READBACK, controller_checks_readbacks=True).run()
     assert world.said() == ["clearance", "readback"]
 
 
-def test_a_crew_does_what_it_has_misheard_and_reads_that_back():
+def test_a_crew_does_what_it_has_misheard_and_reads_that_back() -> None:
     misheard = Heard("misheard", CLEARANCE["text"].replace("three three zero", "two three zero"))
     world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): misheard}).run()
     assert world.hearings("AAL123") == [("clearance", "misheard")]
@@ -255,7 +271,7 @@ def test_a_crew_does_what_it_has_misheard_and_reads_that_back():
     assert "two three zero" in world.spoken("readback").text.lower().replace("tree", "three")
 
 
-def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it():
+def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it() -> None:
     assert World(CLEARANCE).run().said() == ["clearance"]
     world = World(CLEARANCE, readbacks="generated").run()
     assert world.said() == ["clearance", "clearance.readback"]
@@ -265,7 +281,7 @@ def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it():
     ]  # fmt: skip
 
 
-def test_two_calls_at_once_are_understood_by_nobody_and_both_are_made_again():
+def test_two_calls_at_once_are_understood_by_nobody_and_both_are_made_again() -> None:
     other = line("request", 10.1, "DAL456", TOWER, "Washington Center, Delta four five six.")
     world = World(CLEARANCE, other).run()
     assert world.spoken("clearance").blocked_by == ("request",)
@@ -278,14 +294,14 @@ def test_two_calls_at_once_are_understood_by_nobody_and_both_are_made_again():
     assert sorted(texts) == ["clearance.repeat-1", "request.repeat-1"]
 
 
-def test_a_line_that_does_not_listen_first_blocks_another():
+def test_a_line_that_does_not_listen_first_blocks_another() -> None:
     over = line("over", 11, "DAL456", TOWER, "Washington Center, Delta four five six.")
     world = World(CLEARANCE, over, failures=[{"type": "blocked", "line": "over"}]).run()
     assert world.spoken("clearance").blocked_by == ("over",)
     assert "clearance.repeat-1" in world.said()
 
 
-def test_under_a_stuck_microphone_nothing_gets_through_and_then_it_does():
+def test_under_a_stuck_microphone_nothing_gets_through_and_then_it_does() -> None:
     check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
     stuck = {"type": "stuck_microphone", "actor": "DAL456", "at_s": 9, "for_s": 10}
     world = World(check, CLEARANCE, failures=[stuck]).run()
@@ -295,7 +311,7 @@ def test_under_a_stuck_microphone_nothing_gets_through_and_then_it_does():
     assert len(world.done) == 1
 
 
-def test_who_has_a_stuck_microphone_is_heard_and_hears_nobody():
+def test_who_has_a_stuck_microphone_is_heard_and_hears_nobody() -> None:
     check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
     climb = line(
         "climb", 12, TOWER, "DAL456",
@@ -308,7 +324,7 @@ def test_who_has_a_stuck_microphone_is_heard_and_hears_nobody():
     assert world.hearings("DAL456")[0] == ("climb", "missed")
 
 
-def test_it_is_told_when_microphones_are_stuck_and_when_none_is_any_more():
+def test_it_is_told_when_microphones_are_stuck_and_when_none_is_any_more() -> None:
     failures = [
         {"type": "stuck_microphone", "actor": actor, "at_s": at_s, "for_s": 10}
         for actor, at_s in (("AAL123", 5), ("DAL456", 9))
@@ -318,7 +334,7 @@ def test_it_is_told_when_microphones_are_stuck_and_when_none_is_any_more():
     assert world.microphones == [(5.0, "AAL123"), (9.0, "DAL456"), (19.0, None)]
 
 
-def test_what_is_on_the_air_at_the_end_has_been_said_up_to_there_and_nobody_takes_it():
+def test_what_is_on_the_air_at_the_end_has_been_said_up_to_there_and_nobody_takes_it() -> None:
     stuck = {"type": "stuck_microphone", "actor": "AAL123", "at_s": 5, "for_s": 600}
     world = World(CLEARANCE, failures=[stuck]).run_until(12.0)
     carrier, clearance = world.said()
@@ -329,13 +345,13 @@ def test_what_is_on_the_air_at_the_end_has_been_said_up_to_there_and_nobody_take
     assert world.hearings("AAL123") == []
 
 
-def test_a_call_that_the_end_cuts_off_gives_no_words():
+def test_a_call_that_the_end_cuts_off_gives_no_words() -> None:
     world = World(CLEARANCE).run_until(12.0)
     assert world.said() == ["clearance"]
     assert not any(isinstance(one, Transcript) for one in world.published)
 
 
-def test_who_is_below_the_horizon_of_the_receiver_is_not_received():
+def test_who_is_below_the_horizon_of_the_receiver_is_not_received() -> None:
     request = line("request", 30, "AAL123", TOWER, "Washington Center, American one two three.")
     world = World(request, CLEARANCE)
     world.actors["AAL123"].body.state = FixedSite(0.9, -1.34, altitude_m=3_000 * FOOT)
@@ -345,13 +361,13 @@ def test_who_is_below_the_horizon_of_the_receiver_is_not_received():
     assert received == {name for name in world.said() if name.startswith("clearance")}
 
 
-def test_below_the_squelch_nobody_hears_and_nothing_is_received():
+def test_below_the_squelch_nobody_hears_and_nothing_is_received() -> None:
     world = World(CLEARANCE, snr_db=-20.0).run()
     assert not any(isinstance(one, Transcript) for one in world.published)
     assert {outcome for _, outcome in world.hearings("AAL123")} == {"missed"}
 
 
-def test_somebody_below_the_horizon_hears_nothing():
+def test_somebody_below_the_horizon_hears_nothing() -> None:
     world = World(CLEARANCE)
     far = FixedSite(0.9, -1.34, altitude_m=3_000 * FOOT)
     world.actors["AAL123"].body.state = far
@@ -360,7 +376,7 @@ def test_somebody_below_the_horizon_hears_nothing():
     assert {outcome for _, outcome in world.hearings("AAL123")} == {"missed"}
 
 
-def test_an_aircraft_that_is_no_more_says_nothing():
+def test_an_aircraft_that_is_no_more_says_nothing() -> None:
     world = World(CLEARANCE, READBACK)
     world.actors["AAL123"].body.ended = "collision"
     assert "readback" not in world.run().said()
@@ -371,7 +387,13 @@ class Reading(World):
 
     gives_transcripts = False
 
-    def transcribe(self, text, at_s, name="clearance", confidences=None):
+    def transcribe(
+        self,
+        text: str,
+        at_s: float,
+        name: str = "clearance",
+        confidences: list[float] | None = None,
+    ) -> Reading:
         words = tuple(
             Word(text=word, confidence=one)
             for word, one in zip(text.split(), confidences or [], strict=False)
@@ -388,7 +410,7 @@ class Reading(World):
         return self
 
 
-def test_a_crew_that_reads_takes_a_call_when_its_transcript_comes():
+def test_a_crew_that_reads_takes_a_call_when_its_transcript_comes() -> None:
     world = Reading(CLEARANCE, READBACK, topology="asr_first")
     world.transcribe(
         "american one two three climb and maintain flight level three three zero", 20.0
@@ -398,14 +420,14 @@ def test_a_crew_that_reads_takes_a_call_when_its_transcript_comes():
     assert world.spoken("readback").t_tx_ns >= 20 * SECOND_NS
 
 
-def test_a_crew_that_reads_does_what_it_reads():
+def test_a_crew_that_reads_does_what_it_reads() -> None:
     world = Reading(CLEARANCE, READBACK, topology="asr_first")
     world.transcribe("american one two three climb and maintain flight level two three zero", 20.0)
     world.run()
     assert [command.altitude_ft for _, command, _ in world.done] == [23_000]
 
 
-def test_a_crew_may_take_for_its_own_what_it_reads():
+def test_a_crew_may_take_for_its_own_what_it_reads() -> None:
     check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
     world = Reading(check, CLEARANCE, topology="asr_first")
     world.transcribe("delta four five six climb and maintain flight level three three zero", 18.0)
@@ -413,7 +435,7 @@ def test_a_crew_may_take_for_its_own_what_it_reads():
     assert ("DAL456", 33_000) in [(who, command.altitude_ft) for who, command, _ in world.done]
 
 
-def test_nobody_reads_a_call_that_was_blocked():
+def test_nobody_reads_a_call_that_was_blocked() -> None:
     over = line("over", 11, "DAL456", TOWER, "Washington Center, Delta four five six.")
     blocked = {"type": "blocked", "line": "over"}
     world = Reading(CLEARANCE, over, failures=[blocked], topology="asr_first")
@@ -424,7 +446,7 @@ def test_nobody_reads_a_call_that_was_blocked():
     assert world.done == []
 
 
-def test_nobody_takes_for_his_own_what_was_blocked():
+def test_nobody_takes_for_his_own_what_was_blocked() -> None:
     check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
     over = line("over", 11, "AAL123", TOWER, "Washington Center, American one two three.")
     blocked = {"type": "blocked", "line": "over"}
@@ -433,7 +455,7 @@ def test_nobody_takes_for_his_own_what_was_blocked():
     assert world.run().done == []
 
 
-def test_a_crew_that_reads_asks_again_where_the_right_words_are_not_sure():
+def test_a_crew_that_reads_asks_again_where_the_right_words_are_not_sure() -> None:
     world = Reading(CLEARANCE, topology="asr_first")
     confidences = [0.5] * len(CLEARANCE["text"].split())
     world.transcribe(CLEARANCE["text"], 16.0, confidences=confidences).run()
@@ -442,7 +464,7 @@ def test_a_crew_that_reads_asks_again_where_the_right_words_are_not_sure():
     assert world.done == []
 
 
-def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s():
+def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s() -> None:
     assert TRANSCRIPT_PATIENCE_S == 20.0
     world = Reading(CLEARANCE, topology="asr_first").run()
     assert world.hearings("AAL123")[0] == ("clearance", "missed")
@@ -453,7 +475,7 @@ def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s():
 
 
 @pytest.mark.parametrize("topology", ["parallel", "asr_first", "gated_fusion"])
-def test_with_text_and_no_noise_all_topologies_are_the_same(topology):
+def test_with_text_and_no_noise_all_topologies_are_the_same(topology: str) -> None:
     world = World(CLEARANCE, READBACK, topology=topology).run()
     assert world.said() == ["clearance", "readback"]
     assert len(world.done) == 1

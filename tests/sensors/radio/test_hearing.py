@@ -1,5 +1,7 @@
 """How well people hear: the less noise, the better, and the same in each run."""
 
+from __future__ import annotations
+
 from collections import Counter
 
 import pytest
@@ -15,29 +17,29 @@ from airhilt.sensors.radio.hearing import (
 TEXT = "American one two three, climb and maintain flight level three three zero."
 
 
-def outcomes(snr_db, calls=2000):
+def outcomes(snr_db: float, calls: int = 2000) -> Counter:
     model = HearingModel(seed=1)
     heard = (model.listen(f"call{n}", "AAL123", TEXT, snr_db) for n in range(calls))
     return Counter(one.outcome for one in heard)
 
 
-def test_without_noise_everybody_understands_every_word():
+def test_without_noise_everybody_understands_every_word() -> None:
     heard = HearingModel(seed=3).listen("a", "AAL123", TEXT, None)
     assert (heard.outcome, heard.text) == ("understood", TEXT)
 
 
-def test_half_of_all_calls_are_understood_at_the_middle_of_the_curve():
+def test_half_of_all_calls_are_understood_at_the_middle_of_the_curve() -> None:
     assert probability_understood(UNDERSTOOD_HALF_DB) == 0.5
     assert outcomes(UNDERSTOOD_HALF_DB)["understood"] / 2000 == pytest.approx(0.5, abs=0.04)
 
 
 @pytest.mark.parametrize("snr_db", [-8.0, -3.0, 2.0, 10.0])
-def test_as_many_calls_are_understood_as_the_curve_says(snr_db):
+def test_as_many_calls_are_understood_as_the_curve_says(snr_db: float) -> None:
     share = outcomes(snr_db)["understood"] / 2000
     assert share == pytest.approx(probability_understood(snr_db), abs=0.04)
 
 
-def test_the_more_noise_the_fewer_calls_are_understood_and_the_more_are_missed():
+def test_the_more_noise_the_fewer_calls_are_understood_and_the_more_are_missed() -> None:
     counts = [outcomes(snr_db) for snr_db in (20.0, 5.0, 0.0, -5.0, -15.0)]
     understood = [count["understood"] for count in counts]
     missed = [count["missed"] for count in counts]
@@ -48,11 +50,11 @@ def test_the_more_noise_the_fewer_calls_are_understood_and_the_more_are_missed()
 
 
 @pytest.mark.parametrize("snr_db", [-1000.0, -30.0, 0.0, 60.0, 1000.0])
-def test_what_is_understood_was_noticed(snr_db):
+def test_what_is_understood_was_noticed(snr_db: float) -> None:
     assert 0.0 <= probability_understood(snr_db) <= probability_noticed(snr_db) <= 1.0
 
 
-def test_what_is_misheard_differs_in_one_word_that_sounds_alike():
+def test_what_is_misheard_differs_in_one_word_that_sounds_alike() -> None:
     model = HearingModel(seed=1)
     heard = [model.listen(f"call{n}", "AAL123", TEXT, -2.0) for n in range(2000)]
     misheard = [one.text.lower().split() for one in heard if one.outcome == "misheard"]
@@ -67,8 +69,8 @@ def test_what_is_misheard_differs_in_one_word_that_sounds_alike():
         assert CONFUSED_WITH[pairs[0][0]] == pairs[0][1]
 
 
-def test_each_call_and_listener_is_drawn_by_itself_and_again_the_same():
-    def drawn(seed, listener):
+def test_each_call_and_listener_is_drawn_by_itself_and_again_the_same() -> None:
+    def drawn(seed: int, listener: str) -> list[str]:
         model = HearingModel(seed)
         return [model.listen(f"call{n}", listener, TEXT, 0.0).outcome for n in range(50)]
 

@@ -1,5 +1,10 @@
 """When a scripted call is due."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from airhilt.scenario.failures import EffectiveLine
@@ -10,7 +15,15 @@ from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 
 
-def line(name, at_s, words=8, frequency_khz=134325, late_s=0.0, dropped=False, when=None):
+def line(
+    name: str,
+    at_s: float,
+    words: int = 8,
+    frequency_khz: int = 134325,
+    late_s: float = 0.0,
+    dropped: bool = False,
+    when: TimeReached | None = None,
+) -> EffectiveLine:
     text = " ".join(["word"] * words)
     declared = RadioLine(
         id=name, at_s=at_s, speaker="Centre", frequency_khz=frequency_khz, text=text, when=when
@@ -19,22 +32,22 @@ def line(name, at_s, words=8, frequency_khz=134325, late_s=0.0, dropped=False, w
     return EffectiveLine(declared, None if dropped else declared, late_s, failures, frozenset())
 
 
-def played(*lines, failed=None):
+def played(*lines: EffectiveLine, failed: list[Any] | None = None) -> list[tuple[str, float]]:
     """Return which calls were due, and when.
 
     What waits for a condition waits for a time.
     """
     director, due = Director(Virtual()), []
 
-    def once(condition, action):
+    def once(condition: TimeReached, action: Callable[..., Any]) -> None:
         due_ns = max(seconds_to_ns(condition.at_s), director.now_ns)
         director.at(due_ns, action, Priority.SCRIPT)
 
-    def fail(effective):
+    def fail(effective: Any) -> None:
         if failed is not None:
             failed.append((effective.declared.id, director.now_ns / SECOND_NS))
 
-    def say(said):
+    def say(said: RadioLine) -> None:
         due.append((said.id, director.now_ns / SECOND_NS))
 
     RadioScript(director, lines, once, fail, say).start()
@@ -43,18 +56,20 @@ def played(*lines, failed=None):
 
 
 @pytest.mark.parametrize(("words_per_minute", "seconds"), [(160.0, 3.0), (80.0, 6.0)])
-def test_a_call_is_planned_to_take_as_long_as_its_words(words_per_minute, seconds):
+def test_a_call_is_planned_to_take_as_long_as_its_words(
+    words_per_minute: float, seconds: float
+) -> None:
     planned = planned_ends_ns([line("a", 20.0, late_s=5.0)], TextRadio(words_per_minute))
     assert planned == {"a": seconds_to_ns(25.0 + seconds)}
 
 
-def test_a_line_waits_for_its_condition_too():
+def test_a_line_waits_for_its_condition_too() -> None:
     waits = line("a", 5.0, when=TimeReached(type="time", at_s=12.0))
     late = line("b", 20.0, when=TimeReached(type="time", at_s=12.0))
     assert played(waits, late) == [("a", 12.0), ("b", 20.0)]
 
 
-def test_a_line_that_is_late_comes_late_and_one_that_is_dropped_never():
+def test_a_line_that_is_late_comes_late_and_one_that_is_dropped_never() -> None:
     failed = []
     due = played(
         line("a", 5.0), line("b", 10.0, late_s=7.0), line("c", 11.0, dropped=True), failed=failed

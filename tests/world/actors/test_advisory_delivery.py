@@ -1,6 +1,9 @@
 """Actors react to an advisory when they get it: from the screen, or when its voice begins."""
 
+from __future__ import annotations
+
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -16,23 +19,25 @@ class Crew:
 
     category = "aircraft"
 
-    def __init__(self, unable=False):
+    def __init__(self, unable: bool = False) -> None:
         self.spec = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
         self.body = SimpleNamespace(ended=None)
         self.heard = []
         self.unable = unable
 
-    def hear(self, advisory):
+    def hear(self, advisory: Advisory) -> Reaction:
         self.heard.append((advisory.revision, advisory.active))
         return Reaction(2.0, self.act, "follows turn")
 
-    def act(self):
+    def act(self) -> bool | None:
         if self.unable:
             raise Unable("unable to turn")
         return True
 
 
-def advisory(revision=0, severity="WARNING", active=True, recipient="AAL123"):
+def advisory(
+    revision: int = 0, severity: str = "WARNING", active: bool = True, recipient: str = "AAL123"
+) -> Advisory:
     return Advisory(
         id="d-1", revision=revision, recipient=recipient, recipients=(recipient,),
         kind="runway_conflict", severity=Severity(severity), active=active, traffic=("AAL123",),
@@ -40,7 +45,7 @@ def advisory(revision=0, severity="WARNING", active=True, recipient="AAL123"):
     )  # fmt: skip
 
 
-def audio(revision=0, recipient="AAL123"):
+def audio(revision: int = 0, recipient: str = "AAL123") -> AdvisoryAudio:
     return AdvisoryAudio(
         id="d-1", revision=revision, recipient=recipient, text="turn", t_dec_ns=0, engine="test",
         samples=1, sha256="",
@@ -48,12 +53,18 @@ def audio(revision=0, recipient="AAL123"):
 
 
 class Told:
-    def __init__(self, *messages, voiced=True, lost_at_s=None, unable=False):
+    def __init__(
+        self,
+        *messages: tuple[Any, ...],
+        voiced: bool = True,
+        lost_at_s: float | None = None,
+        unable: bool = False,
+    ) -> None:
         """Take in messages, each at its time in seconds, and let the crew react."""
         director = Director(Virtual())
         self.crew, self.events = Crew(unable), []
 
-        def event(kind, subject, text):
+        def event(kind: str, subject: str, text: str) -> None:
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
 
         delivery = AdvisoryDelivery(director, {"AAL123": self.crew}, event, is_voiced=voiced)
@@ -68,48 +79,48 @@ class Told:
         director.run()
 
     @property
-    def reacted_s(self):
+    def reacted_s(self) -> list[float]:
         return [at_s for kind, *_, at_s in self.events if kind == "pilot_reacts"]
 
 
-def test_without_a_voice_an_advisory_is_read_as_it_is_decided():
+def test_without_a_voice_an_advisory_is_read_as_it_is_decided() -> None:
     told = Told((10.0, advisory()), voiced=False)
     assert told.events == [("pilot_reacts", "AAL123", "follows turn (d-1)", 12.0)]
 
 
-def test_a_spoken_advisory_is_heard_when_its_voice_begins():
+def test_a_spoken_advisory_is_heard_when_its_voice_begins() -> None:
     assert Told((10.0, advisory()), (11.0, audio())).reacted_s == [13.0]
 
 
 @pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
-def test_what_is_not_spoken_is_read(severity):
+def test_what_is_not_spoken_is_read(severity: str) -> None:
     assert Told((10.0, advisory(severity=severity))).reacted_s == [12.0]
 
 
-def test_what_is_over_is_read_and_its_voice_comes_too_late():
+def test_what_is_over_is_read_and_its_voice_comes_too_late() -> None:
     told = Told((10.0, advisory()), (10.5, advisory(revision=1, active=False)), (11.0, audio()))
     assert told.crew.heard == [(1, False)]
 
 
-def test_the_voice_of_an_older_revision_is_not_acted_upon():
+def test_the_voice_of_an_older_revision_is_not_acted_upon() -> None:
     told = Told((10.0, advisory()), (10.5, advisory(revision=1)), (11.0, audio()), (12.0, audio(1)))
     assert told.crew.heard == [(1, True)]
 
 
-def test_when_the_voice_is_lost_what_waited_for_it_is_read():
+def test_when_the_voice_is_lost_what_waited_for_it_is_read() -> None:
     told = Told((10.0, advisory()), (15.0, advisory(revision=1)), lost_at_s=12.0)
     assert told.reacted_s == [14.0, 17.0]
 
 
-def test_an_advisory_reaches_a_crew_by_its_address():
+def test_an_advisory_reaches_a_crew_by_its_address() -> None:
     told = Told((1.0, advisory(recipient="a1b2c3")), (2.0, audio(recipient="a1b2c3")))
     assert told.reacted_s == [4.0]
 
 
-def test_an_advisory_for_somebody_else_reaches_nobody():
+def test_an_advisory_for_somebody_else_reaches_nobody() -> None:
     assert Told((1.0, advisory(recipient="ATC")), voiced=False).events == []
 
 
-def test_what_cannot_be_done_is_told():
+def test_what_cannot_be_done_is_told() -> None:
     told = Told((1.0, advisory()), voiced=False, unable=True)
     assert told.events == [("unable", "AAL123", "unable to turn", 3.0)]

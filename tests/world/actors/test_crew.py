@@ -1,5 +1,7 @@
 """Crews follow advisories after a while, and do what they were told before when it is over."""
 
+from __future__ import annotations
+
 import statistics
 
 import pytest
@@ -20,7 +22,7 @@ CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
 
 
 @pytest.fixture(scope="module")
-def aircraft():
+def aircraft() -> Aircraft:
     initial = InitialCondition(
         latitude_rad=47.0 * DEGREE,
         longitude_rad=8.0 * DEGREE,
@@ -32,19 +34,31 @@ def aircraft():
 
 
 @pytest.fixture(autouse=True)
-def as_it_began(aircraft):
+def as_it_began(aircraft: Aircraft) -> None:
     aircraft.en_route.hold_altitude(5_000 * FOOT)
     aircraft.en_route.hold_speed(95 * KNOT)
     aircraft.en_route.hold_track(60.0 * DEGREE)
 
 
-def crew_of(aircraft, compliance=1.0, median_s=5.0, sigma=0.0, seed=1):
+def crew_of(
+    aircraft: Aircraft,
+    compliance: float = 1.0,
+    median_s: float = 5.0,
+    sigma: float = 0.0,
+    seed: int = 1,
+) -> Crew:
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
     return Crew(ReactionModel("AAL123", reactions, seed), aircraft, ScenarioSite(centre, 0.0))
 
 
-def advisory(recommendation=CLIMB, severity="CAUTION", active=True, revision=0, name="s-1"):
+def advisory(
+    recommendation: Climb | MaintainLevel | None = CLIMB,
+    severity: str = "CAUTION",
+    active: bool = True,
+    revision: int = 0,
+    name: str = "s-1",
+) -> Advisory:
     return Advisory(
         id=name, revision=revision, recipient="AAL123", recipients=("AAL123",),
         kind="loss_of_separation", severity=Severity(severity), active=active,
@@ -53,15 +67,15 @@ def advisory(recommendation=CLIMB, severity="CAUTION", active=True, revision=0, 
     )  # fmt: skip
 
 
-def over(name="s-1", revision=9):
+def over(name: str = "s-1", revision: int = 9) -> Advisory:
     return advisory(None, "INFO", active=False, revision=revision, name=name)
 
 
-def level_ft(aircraft):
+def level_ft(aircraft: Aircraft) -> float:
     return aircraft.target_altitude_m / FOOT
 
 
-def test_a_crew_follows_after_its_reaction_time_and_not_before(aircraft):
+def test_a_crew_follows_after_its_reaction_time_and_not_before(aircraft: Aircraft) -> None:
     reaction = crew_of(aircraft).hear(advisory())
     assert reaction.delay_s == 5.0
     assert level_ft(aircraft) == pytest.approx(5_000)
@@ -70,35 +84,37 @@ def test_a_crew_follows_after_its_reaction_time_and_not_before(aircraft):
     assert aircraft.target_vertical_rate_m_s == pytest.approx(500 * FOOT_PER_MINUTE, rel=0.01)
 
 
-def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft):
+def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     crew.hear(over()).act()
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-def test_a_level_to_maintain_is_maintained(aircraft):
+def test_a_level_to_maintain_is_maintained(aircraft: Aircraft) -> None:
     crew_of(aircraft).hear(advisory(MaintainLevel(altitude_ft=5_200))).act()
     assert level_ft(aircraft) == pytest.approx(5_200)
 
 
 @pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
-def test_a_crew_does_not_act_on_less_than_a_caution(aircraft, severity):
+def test_a_crew_does_not_act_on_less_than_a_caution(aircraft: Aircraft, severity: str) -> None:
     assert crew_of(aircraft).hear(advisory(severity=severity)) is None
 
 
-def test_without_a_recommendation_there_is_nothing_to_do(aircraft):
+def test_without_a_recommendation_there_is_nothing_to_do(aircraft: Aircraft) -> None:
     assert crew_of(aircraft).hear(advisory(None)) is None
 
 
-def test_the_end_of_a_conflict_that_it_did_not_follow_is_nothing_to_it(aircraft):
+def test_the_end_of_a_conflict_that_it_did_not_follow_is_nothing_to_it(aircraft: Aircraft) -> None:
     assert crew_of(aircraft).hear(over()) is None
 
 
 @settings(deadline=None, max_examples=30)
 @given(st.integers(0, 2**40), st.integers(0, 5))
-def test_reaction_times_are_the_same_for_the_same_seed_and_advisory(aircraft, seed, revision):
-    def delay_s(crew_seed, name="s-1"):
+def test_reaction_times_are_the_same_for_the_same_seed_and_advisory(
+    aircraft: Aircraft, seed: int, revision: int
+) -> None:
+    def delay_s(crew_seed: int, name: str = "s-1") -> float:
         crew = crew_of(aircraft, sigma=0.3, seed=crew_seed)
         return crew.hear(advisory(revision=revision, name=name)).delay_s
 
@@ -106,7 +122,7 @@ def test_reaction_times_are_the_same_for_the_same_seed_and_advisory(aircraft, se
     assert len({delay_s(seed), delay_s(seed + 1), delay_s(seed, "s-2")}) == 3
 
 
-def test_reaction_times_lie_about_their_median(aircraft):
+def test_reaction_times_lie_about_their_median(aircraft: Aircraft) -> None:
     delays = [
         crew_of(aircraft, sigma=0.3, seed=seed).hear(advisory()).delay_s for seed in range(400)
     ]
@@ -116,25 +132,27 @@ def test_reaction_times_lie_about_their_median(aircraft):
 
 @settings(deadline=None, max_examples=30)
 @given(st.integers(0, 2**40))
-def test_compliance_0_never_follows_and_1_always_does(aircraft, seed):
+def test_compliance_0_never_follows_and_1_always_does(aircraft: Aircraft, seed: int) -> None:
     assert crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()) is None
     assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()) is not None
 
 
-def test_compliance_is_how_many_crews_follow(aircraft):
+def test_compliance_is_how_many_crews_follow(aircraft: Aircraft) -> None:
     follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()) is not None for seed in range(400)]
     assert 0.22 <= statistics.mean(follow) <= 0.38
 
 
 @settings(deadline=None, max_examples=20)
 @given(st.integers(0, 2**40))
-def test_whether_a_crew_follows_does_not_change_with_the_revision(aircraft, seed):
+def test_whether_a_crew_follows_does_not_change_with_the_revision(
+    aircraft: Aircraft, seed: int
+) -> None:
     crew = crew_of(aircraft, compliance=0.5, seed=seed)
     heard = [crew.hear(advisory(revision=revision)) is not None for revision in range(4)]
     assert len(set(heard)) == 1
 
 
-def test_a_changed_advisory_is_followed_in_half_the_time(aircraft):
+def test_a_changed_advisory_is_followed_in_half_the_time(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     again = crew.hear(
@@ -146,7 +164,7 @@ def test_a_changed_advisory_is_followed_in_half_the_time(aircraft):
     assert crew.hear(over()).delay_s == 2.5
 
 
-def test_an_older_advisory_does_not_overtake_a_newer_one(aircraft):
+def test_an_older_advisory_does_not_overtake_a_newer_one(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     old = crew.hear(advisory())
     new = crew.hear(advisory(CLIMB.model_copy(update={"altitude_ft": 6_000}), revision=1))
@@ -155,12 +173,12 @@ def test_an_older_advisory_does_not_overtake_a_newer_one(aircraft):
     assert level_ft(aircraft) == pytest.approx(6_000)
 
 
-def test_a_command_is_carried_out_at_once_where_there_is_no_advisory(aircraft):
+def test_a_command_is_carried_out_at_once_where_there_is_no_advisory(aircraft: Aircraft) -> None:
     crew_of(aircraft).command(AltitudeCommand(action="altitude", altitude_ft=7_000))
     assert level_ft(aircraft) == pytest.approx(7_000)
 
 
-def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft):
+def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     crew.command(AltitudeCommand(action="altitude", altitude_ft=7_000))
@@ -169,7 +187,7 @@ def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft):
     assert level_ft(aircraft) == pytest.approx(7_000)
 
 
-def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft):
+def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     crew.command(SpeedCommand(action="speed", cas_kt=80))
@@ -178,13 +196,13 @@ def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft):
     assert aircraft.target_speed_m_s == pytest.approx(80 * KNOT)
 
 
-def fly(aircraft, seconds):
+def fly(aircraft: Aircraft, seconds: int) -> float:
     for _ in range(round(seconds * 20)):
         aircraft.advance()
     return aircraft.state.track_rad / DEGREE % 360.0
 
 
-def test_a_track_commanded_during_a_climb_is_flown_afterwards(aircraft):
+def test_a_track_commanded_during_a_climb_is_flown_afterwards(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     crew.command(TrackCommand(action="track", track_deg=100.0))
@@ -193,7 +211,7 @@ def test_a_track_commanded_during_a_climb_is_flown_afterwards(aircraft):
     assert fly(aircraft, 60) == pytest.approx(100.0, abs=2.0)
 
 
-def test_after_a_turn_it_goes_back_to_its_track(aircraft):
+def test_after_a_turn_it_goes_back_to_its_track(aircraft: Aircraft) -> None:
     fly(aircraft, 60)
     crew = crew_of(aircraft)
     before = aircraft.state.track_rad / DEGREE
@@ -203,7 +221,7 @@ def test_after_a_turn_it_goes_back_to_its_track(aircraft):
     assert fly(aircraft, 60) == pytest.approx(before, abs=2.0)
 
 
-def test_of_two_advisories_both_must_be_over(aircraft):
+def test_of_two_advisories_both_must_be_over(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory(name="s-1")).act()
     crew.hear(advisory(MaintainLevel(altitude_ft=5_300), name="s-2")).act()
@@ -213,7 +231,7 @@ def test_of_two_advisories_both_must_be_over(aircraft):
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-def test_a_conflict_that_is_over_before_the_crew_reacts_is_not_followed(aircraft):
+def test_a_conflict_that_is_over_before_the_crew_reacts_is_not_followed(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     late = crew.hear(advisory())
     end = crew.hear(over())
@@ -224,7 +242,7 @@ def test_a_conflict_that_is_over_before_the_crew_reacts_is_not_followed(aircraft
     assert level_ft(aircraft) == pytest.approx(5_400)
 
 
-def test_a_revision_that_comes_too_late_is_not_followed_after_the_end(aircraft):
+def test_a_revision_that_comes_too_late_is_not_followed_after_the_end(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     late = crew.hear(advisory(CLIMB.model_copy(update={"altitude_ft": 6_000}), revision=1))
@@ -233,7 +251,7 @@ def test_a_revision_that_comes_too_late_is_not_followed_after_the_end(aircraft):
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-def test_an_end_that_is_told_twice_is_no_harm(aircraft):
+def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()
     ends = [crew.hear(over()), crew.hear(over())]

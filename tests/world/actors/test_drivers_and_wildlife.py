@@ -13,6 +13,7 @@ from airhilt.geodesy.wgs84 import distance_m
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.units import KNOT
 from airhilt.world.actors import Actor, Unable, build_actors
+from airhilt.world.actors.driver import Driver
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.site import ScenarioSite
 
@@ -52,7 +53,7 @@ def driver() -> Actor:
     return cast_of("s01b_nominal")["OPS1"]
 
 
-def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver):
+def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver: Driver) -> None:
     site = driver.site
     tell(driver, "taxi", to={"type": "hold_short", "runway": "01", "taxiway": "D"})
     assert driver.body.phase == "driving"
@@ -63,7 +64,7 @@ def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver):
     assert away == pytest.approx(driver.body.dimensions.length_m / 2 + 3.0, abs=0.1)
 
 
-def test_a_driver_stops_when_advised_to_hold_and_goes_on_when_told(driver):
+def test_a_driver_stops_when_advised_to_hold_and_goes_on_when_told(driver: Driver) -> None:
     tell(driver, "taxi", to={"type": "node", "node": "01/19 at D"})
     advance(driver, 3.0)
     reaction = driver.hear(advisory(HoldPosition(runway="01")))
@@ -76,25 +77,25 @@ def test_a_driver_stops_when_advised_to_hold_and_goes_on_when_told(driver):
     assert driver.body.phase == "driving"
 
 
-def test_a_driver_takes_no_notice_of_what_is_not_for_drivers(driver):
+def test_a_driver_takes_no_notice_of_what_is_not_for_drivers(driver: Driver) -> None:
     assert driver.hear(advisory(GoAround(runway="01"))) is None
     assert driver.hear(advisory(HoldPosition(runway="01"), active=False)) is None
 
 
-def test_a_driver_who_never_complies_does_not(driver):
+def test_a_driver_who_never_complies_does_not(driver: Driver) -> None:
     never = load("s01b_nominal").actors[1].driver.model_copy(update={"compliance": 0.0})
     stubborn = cast_of("s01b_nominal", driver=never)["OPS1"]
     assert stubborn.hear(advisory(HoldPosition(runway="01"))) is None
 
 
-def test_a_driver_says_what_it_cannot_do(driver):
+def test_a_driver_says_what_it_cannot_do(driver: Driver) -> None:
     with pytest.raises(Unable, match="a driver does not take off"):
         tell(driver, "take_off", runway="01")
     with pytest.raises(Unable, match="no taxi route"):
         tell(driver, "taxi", to={"type": "node", "node": "01/19 at D"}, via=["H"])
 
 
-def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
+def test_a_deer_walks_where_its_plan_says_and_hears_nobody() -> None:
     deer = cast_of("s01c_deer_undetected")["DEER1"]
     assert deer.hear(advisory(HoldPosition(runway="01"))) is None
     planned = deer.spec.plan[0]
@@ -110,7 +111,7 @@ def test_a_deer_walks_where_its_plan_says_and_hears_nobody():
         tell(deer, "land", runway="01")
 
 
-def test_a_deer_that_startles_flees_what_comes_near_and_moves():
+def test_a_deer_that_startles_flees_what_comes_near_and_moves() -> None:
     actors = cast_of("s01b_nominal")
     wild = cast_of("s01c_nominal", startles_within_m=60.0)["DEER1"]
     car = actors["OPS1"]
@@ -129,7 +130,7 @@ def test_a_deer_that_startles_flees_what_comes_near_and_moves():
     assert wild.body.startled
 
 
-def test_what_waits_is_done_once_as_soon_as_it_is_true():
+def test_what_waits_is_done_once_as_soon_as_it_is_true() -> None:
     done: list[str] = []
     triggers = Triggers()
     triggers.once(lambda now_ns: now_ns >= 5, lambda: done.append("a"))
@@ -141,12 +142,12 @@ def test_what_waits_is_done_once_as_soon_as_it_is_true():
     assert done == ["b", "a"]
 
 
-def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver):
+def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver: Driver) -> None:
     with pytest.raises(Unable, match="no path to go on with"):
         tell(driver, "continue")
 
 
-def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver):
+def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver: Driver) -> None:
     before = driver.body.state
     tell(driver, "taxi", to={"type": "node", "node": "K/E"}, off_taxiways=True, speed_kt=10.0)
     speeds = []
@@ -160,7 +161,7 @@ def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver
     assert max(speeds) == pytest.approx(10.0 * KNOT, rel=1e-6)
 
 
-def test_an_animal_told_to_go_where_nothing_is_or_to_fly_says_so():
+def test_an_animal_told_to_go_where_nothing_is_or_to_fly_says_so() -> None:
     deer = cast_of("s01c_deer_undetected")["DEER1"]
     with pytest.raises(Unable, match="no taxiway node 'K/Z'"):
         tell(deer, "move", gait="walk", to={"type": "node", "node": "K/Z"})
@@ -169,7 +170,7 @@ def test_an_animal_told_to_go_where_nothing_is_or_to_fly_says_so():
     assert deer.body.phase == "standing"
 
 
-def test_what_passes_high_above_or_is_an_animal_too_startles_nobody():
+def test_what_passes_high_above_or_is_an_animal_too_startles_nobody() -> None:
     wild = cast_of("s01c_nominal", startles_within_m=60.0)["DEER1"]
     fleeing = wild.body.state._replace(velocity_north_m_s=-8.0)
     other = cast_of("s01c_nominal")["DEER1"]
@@ -187,7 +188,7 @@ def test_what_passes_high_above_or_is_an_animal_too_startles_nobody():
     assert wild.body.startled
 
 
-def test_an_animal_stands_still_when_its_plan_says_so():
+def test_an_animal_stands_still_when_its_plan_says_so() -> None:
     deer = cast_of("s01c_deer_undetected")["DEER1"]
     tell(deer, "move", gait="run", to={"type": "node", "node": "K/D"})
     advance(deer, 5.0)
@@ -197,7 +198,7 @@ def test_an_animal_stands_still_when_its_plan_says_so():
     assert deer.body.phase == "standing"
 
 
-def test_a_trigger_that_another_sets_is_evaluated_the_next_time():
+def test_a_trigger_that_another_sets_is_evaluated_the_next_time() -> None:
     """Also where it is true already: no action runs twice or is forgotten."""
     done: list[str] = []
     triggers = Triggers()
@@ -211,7 +212,7 @@ def test_a_trigger_that_another_sets_is_evaluated_the_next_time():
     assert done == ["second"]
 
 
-def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first():
+def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first() -> None:
     done: list[str] = []
     triggers = Triggers()
     for name in "abc":

@@ -1,22 +1,27 @@
 """What somebody makes of words: for whom they are, and what they make him do."""
 
+from __future__ import annotations
+
 import dataclasses
+from typing import Any
 
 import pytest
 
 from airhilt.phraseology import Instruction, parse_call
-from airhilt.world.actors.listening import TAU_ASR, Listener, commands_of
+from airhilt.world.actors.listening import TAU_ASR, Listener, Understanding, commands_of
 
 ON_FREQUENCY = ("AAL123", "DAL456")
 SAID = "American one two three, climb and maintain flight level three three zero."
 LISTENER = Listener(ON_FREQUENCY)
 
 
-def sense(heard, said=SAID, known_by=("AAL123",), **more):
+def sense(
+    heard: str, said: str = SAID, known_by: tuple[str] = ("AAL123",), **more: Any
+) -> Understanding:
     return LISTENER.understand(heard, said, known_by, **more)
 
 
-def test_the_same_words_mean_the_same_however_they_are_written():
+def test_the_same_words_mean_the_same_however_they_are_written() -> None:
     heard = "american ONE two three climb and maintain flight level three three zero"
     assert sense(heard).kind == "as_said"
 
@@ -28,26 +33,26 @@ def test_the_same_words_mean_the_same_however_they_are_written():
         "American one two three climb maintain flight level tree tree zero",
     ],
 )
-def test_other_words_that_mean_the_same_do_too(heard):
+def test_other_words_that_mean_the_same_do_too(heard: str) -> None:
     assert sense(heard).kind == "as_said"
 
 
-def test_another_level_is_flown_as_it_was_heard():
+def test_another_level_is_flown_as_it_was_heard() -> None:
     taken = sense("american one two three climb and maintain flight level three five zero")
     assert taken.kind == "otherwise"
     assert [command.altitude_ft for command in taken.commands] == [35_000]
 
 
-def test_a_call_with_another_callsign_is_not_for_him():
+def test_a_call_with_another_callsign_is_not_for_him() -> None:
     heard = "delta four five six climb and maintain flight level three three zero"
     assert sense(heard).kind == "not_for_me"
 
 
-def test_nothing_that_can_be_made_out_is_not_for_him():
+def test_nothing_that_can_be_made_out_is_not_for_him() -> None:
     assert sense("mumble mumble").kind == "not_for_me"
 
 
-def test_a_call_that_could_be_for_two_is_asked_for_again():
+def test_a_call_that_could_be_for_two_is_asked_for_again() -> None:
     listener = Listener(("AAL123", "AAL132"))
     match = dataclasses.replace(parse_call(SAID, ("AAL123",)).match, ambiguous=True)
     ambiguous = dataclasses.replace(parse_call(SAID, ("AAL123",)), match=match)
@@ -56,28 +61,30 @@ def test_a_call_that_could_be_for_two_is_asked_for_again():
 
 
 @pytest.mark.parametrize(("confidence", "kind"), [(TAU_ASR - 0.01, "unclear"), (1.0, "as_said")])
-def test_what_he_is_not_sure_of_he_asks_for_again(confidence, kind):
+def test_what_he_is_not_sure_of_he_asks_for_again(confidence: float, kind: str) -> None:
     call = dataclasses.replace(parse_call(SAID, ON_FREQUENCY), confidence=confidence)
     listener = Listener(ON_FREQUENCY, lambda *_: call)
     assert listener.understand("nearly that", SAID, ("AAL123",)).kind == kind
 
 
-def read(text, confidence, said=None):
+def read(text: str, confidence: float, said: str | None = None) -> str:
     return sense(text, said or text, word_confidences=[confidence] * len(text.split())).kind
 
 
-def test_who_reads_the_right_words_and_cannot_be_sure_of_them_asks_again():
+def test_who_reads_the_right_words_and_cannot_be_sure_of_them_asks_again() -> None:
     assert read(SAID, 0.7) == "unclear"
     assert read(SAID, 0.9) == "as_said"
 
 
-def test_who_reads_a_runway_that_may_be_the_rest_of_another_asks_and_who_hears_it_does_not():
+def test_who_reads_a_runway_that_may_be_the_rest_of_another_asks_and_who_hears_it_does_not() -> (
+    None
+):
     said = "American one two three, cleared to land runway one."
     assert read(said, 1.0) == "unclear"
     assert sense(said, said).kind == "as_said"
 
 
-def test_who_reads_a_callsign_that_may_be_two_asks_again_though_the_words_are_right():
+def test_who_reads_a_callsign_that_may_be_two_asks_again_though_the_words_are_right() -> None:
     call = parse_call(SAID, ("AAL123",))
     match = dataclasses.replace(call.match, ambiguous=True)
     listener = Listener(ON_FREQUENCY, lambda *_: dataclasses.replace(call, match=match))
@@ -85,7 +92,7 @@ def test_who_reads_a_callsign_that_may_be_two_asks_again_though_the_words_are_ri
     assert listener.understand(SAID, SAID, ("AAL123",), None, sure).kind == "unclear"
 
 
-def test_nobody_asks_for_a_call_again_that_orders_and_asks_nothing():
+def test_nobody_asks_for_a_call_again_that_orders_and_asks_nothing() -> None:
     roger = "American one two three, roger."
     assert read(roger, 0.3) == "as_said"
     assert read("american one two three good day", 0.3, roger) == "as_said"
@@ -96,7 +103,7 @@ def test_nobody_asks_for_a_call_again_that_orders_and_asks_nothing():
     assert read("american one two three again", 0.3, question) == "unclear"
 
 
-def test_the_right_words_are_for_their_addressee_even_without_a_callsign():
+def test_the_right_words_are_for_their_addressee_even_without_a_callsign() -> None:
     assert read("Roger, thank you.", 1.0) == "as_said"
 
 
@@ -104,40 +111,40 @@ BEHIND = "American one two three, behind the landing Delta line up runway one ni
 AT_ONCE = "American one two three, line up runway one niner."
 
 
-def test_a_condition_that_is_lost_is_not_waited_for():
+def test_a_condition_that_is_lost_is_not_waited_for() -> None:
     taken = sense(AT_ONCE, BEHIND)
     assert taken.kind == "otherwise"
     assert [command.action for command in taken.commands] == ["line_up"]
 
 
-def test_a_condition_that_was_not_said_is():
+def test_a_condition_that_was_not_said_is() -> None:
     taken = sense(BEHIND, AT_ONCE)
     assert (taken.kind, taken.commands) == ("otherwise", ())
 
 
-def test_a_condition_in_other_words_is_the_same():
+def test_a_condition_in_other_words_is_the_same() -> None:
     other = "American one two three, behind landing Delta traffic line up runway one niner behind."
     assert sense(other, BEHIND).kind == "as_said"
 
 
 @pytest.mark.parametrize(("read_back", "said"), [(AT_ONCE, BEHIND), (BEHIND, AT_ONCE)])
-def test_a_readback_with_a_condition_lost_or_invented_differs(read_back, said):
+def test_a_readback_with_a_condition_lost_or_invented_differs(read_back: str, said: str) -> None:
     assert LISTENER.differs(read_back, said)
     assert not LISTENER.differs(said, said)
 
 
-def test_a_callsign_without_an_instruction_is_asked_for_again():
+def test_a_callsign_without_an_instruction_is_asked_for_again() -> None:
     assert sense("american one two three climb and").kind == "unclear"
 
 
-def test_who_overhears_a_call_with_his_callsign_takes_it():
+def test_who_overhears_a_call_with_his_callsign_takes_it() -> None:
     heard = "delta four five six climb and maintain flight level three three zero"
     taken = LISTENER.overhear(heard, SAID, "DAL456")
     assert [command.altitude_ft for command in taken.commands] == [33_000]
     assert LISTENER.overhear(SAID, SAID, "DAL456").kind == "not_for_me"
 
 
-def test_a_readback_that_says_less_is_no_mistake_and_one_that_says_otherwise_is():
+def test_a_readback_that_says_less_is_no_mistake_and_one_that_says_otherwise_is() -> None:
     right = "Climb and maintain flight level three three zero, American one two three."
     wrong = "Climb and maintain flight level three five zero, American one two three."
     assert not LISTENER.differs(right, SAID)
@@ -145,7 +152,7 @@ def test_a_readback_that_says_less_is_no_mistake_and_one_that_says_otherwise_is(
     assert LISTENER.differs(wrong, SAID)
 
 
-def test_a_readback_of_another_clearance_differs():
+def test_a_readback_of_another_clearance_differs() -> None:
     said = "Delta four five six, runway three three, continue holding, traffic landing."
     read = "Runway three three, cleared for takeoff, Delta four five six."
     assert LISTENER.differs(read, said)
@@ -173,27 +180,29 @@ def test_a_readback_of_another_clearance_differs():
         ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
     ],
 )
-def test_an_instruction_makes_a_command(instruction, command):
+def test_an_instruction_makes_a_command(
+    instruction: dict[Any, Any], command: dict[Any, Any]
+) -> None:
     (made,) = commands_of([Instruction(**instruction)], "01")
     assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
 
 
 @pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
-def test_without_any_runway_there_is_nothing_to_do(action):
+def test_without_any_runway_there_is_nothing_to_do(action: str) -> None:
     assert commands_of([Instruction(action=action)], None) == ()
 
 
-def test_a_level_with_a_takeoff_is_where_it_climbs_to():
+def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
     said = [Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)]
     (command,) = commands_of(said, None)
     assert (command.action, command.climb_to_ft) == ("take_off", 6000.0)
 
 
-def test_what_is_said_twice_is_done_once():
+def test_what_is_said_twice_is_done_once() -> None:
     said = [Instruction("stop"), Instruction("hold_short", "01")]
     assert [command.action for command in commands_of(said, None)] == ["hold_position"]
 
 
-def test_what_holds_on_a_condition_is_not_done_at_once():
+def test_what_holds_on_a_condition_is_not_done_at_once() -> None:
     said = [Instruction("line_up", "01", condition="behind the landing cessna")]
     assert commands_of(said, None) == ()

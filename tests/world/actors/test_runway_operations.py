@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -20,6 +21,7 @@ from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.runway import RunwayEnd
 
 B737 = load_aircraft_type("737")
 COMMAND = TypeAdapter(Command)
@@ -61,7 +63,7 @@ class Plane:
         return 1_000.0
 
     @property
-    def state(self):
+    def state(self) -> type[Any]:
         heading, speed = math.radians(self.heading_deg), self.speed_kt * KNOT
 
         class Now:
@@ -78,39 +80,41 @@ class Plane:
             raise ValueError(f"{name} in phase {self.phase}; expected something else")
         self.told.append((name, *arguments))
 
-    def taxi(self, path, speed_m_s=None, *, then="standing"):
+    def taxi(
+        self, path: list[tuple[float, float]], speed_m_s: None = None, *, then: str = "standing"
+    ) -> None:
         self._tell("taxi", tuple(path), then)
         self.phase = "line_up" if then == "lined_up" else "taxi"
 
-    def take_off(self, runway, climb_to_m):
+    def take_off(self, runway: RunwayEnd, climb_to_m: float) -> None:
         self._tell("take_off", runway.ident, round(climb_to_m / FOOT))
         self.phase = "takeoff_roll"
 
-    def land(self, runway, exit_path=()):
+    def land(self, runway: RunwayEnd, exit_path: tuple[Any, ...] = ()) -> None:
         self._tell("land", runway.ident, bool(exit_path))
         self.phase = "glide"
 
-    def go_around(self, climb_to_m):
+    def go_around(self, climb_to_m: float) -> None:
         self._tell("go_around", round(climb_to_m / FOOT))
         self.phase = "go_around"
 
-    def reject_takeoff(self):
+    def reject_takeoff(self) -> None:
         self._tell("reject_takeoff")
         self.phase = "rejected_takeoff"
 
-    def hold_position(self):
+    def hold_position(self) -> None:
         self._tell("hold_position")
 
-    def resume_taxi(self):
+    def resume_taxi(self) -> None:
         self._tell("resume_taxi")
 
-    def fly_route(self, places):
+    def fly_route(self, places: list[tuple[float, float]]) -> None:
         self._tell("fly_route", len(places))
 
-    def resume_route(self):
+    def resume_route(self) -> None:
         self._tell("resume_route")
 
-    def hold_track(self, track_rad):
+    def hold_track(self, track_rad: float) -> None:
         self._tell("hold_track")
 
     @property
@@ -147,7 +151,7 @@ def advisory(recommendation: object) -> Advisory:
 # --- departures -----------------------------------------------------------------------------
 
 
-def test_from_a_hold_it_lines_up_along_the_way_in():
+def test_from_a_hold_it_lines_up_along_the_way_in() -> None:
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "line_up", runway="01")
@@ -157,7 +161,7 @@ def test_from_a_hold_it_lines_up_along_the_way_in():
     assert len(path) > 10
 
 
-def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then():
+def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then() -> None:
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "take_off", runway="01", climb_to_ft=4000)
@@ -169,13 +173,13 @@ def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then():
     assert plane.told[1:] == [("take_off", "01", 4000)]
 
 
-def test_away_from_every_hold_it_is_unable_to_line_up():
+def test_away_from_every_hold_it_is_unable_to_line_up() -> None:
     plane = Plane(place=kdca().airport.node("gate_b12"))
     with pytest.raises(Unable, match="not at a hold-short position of runway 01"):
         tell(crew_of(plane), "line_up", runway="01")
 
 
-def test_a_takeoff_is_cancelled_before_it_rolls():
+def test_a_takeoff_is_cancelled_before_it_rolls() -> None:
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "take_off", runway="01")
@@ -187,13 +191,13 @@ def test_a_takeoff_is_cancelled_before_it_rolls():
 
 
 @pytest.mark.parametrize(("speed_kt", "rejects"), [(100.0, True), (133.0, False)])
-def test_rolling_it_rejects_below_decision_speed_only(speed_kt, rejects):
+def test_rolling_it_rejects_below_decision_speed_only(speed_kt: float, rejects: bool) -> None:
     plane = Plane("takeoff_roll", speed_kt=speed_kt)
     assert crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act() is rejects
     assert ("reject_takeoff" in plane.names) is rejects
 
 
-def test_once_it_climbs_out_it_is_bound_for_no_runway():
+def test_once_it_climbs_out_it_is_bound_for_no_runway() -> None:
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "line_up", runway="01")
@@ -205,7 +209,7 @@ def test_once_it_climbs_out_it_is_bound_for_no_runway():
 # --- arrivals -------------------------------------------------------------------------------
 
 
-def test_without_a_landing_clearance_it_goes_around_at_200_ft():
+def test_without_a_landing_clearance_it_goes_around_at_200_ft() -> None:
     plane = on_final(2_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -217,7 +221,7 @@ def test_without_a_landing_clearance_it_goes_around_at_200_ft():
     assert crew.runway_operations.bound_runway is None
 
 
-def test_with_one_it_goes_on():
+def test_with_one_it_goes_on() -> None:
     plane = on_final(2_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -228,7 +232,7 @@ def test_with_one_it_goes_on():
     assert plane.told[1] == ("land", "01", True)
 
 
-def test_over_a_circuit_it_lands_once_it_is_on_final():
+def test_over_a_circuit_it_lands_once_it_is_on_final() -> None:
     away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
     plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
     crew = crew_of(plane)
@@ -242,7 +246,7 @@ def test_over_a_circuit_it_lands_once_it_is_on_final():
     assert plane.told[1:] == [("land", "01", False)]
 
 
-def test_over_the_threshold_and_far_too_high_it_goes_around():
+def test_over_the_threshold_and_far_too_high_it_goes_around() -> None:
     plane = on_final(4_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -252,7 +256,7 @@ def test_over_the_threshold_and_far_too_high_it_goes_around():
     assert plane.names[-1] == "go_around"
 
 
-def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not():
+def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not() -> None:
     flying, landed = on_final(2_000.0), Plane("rollout")
     assert crew_of(flying).hear(advisory(GoAround(runway="01"))).act()
     assert not crew_of(landed).hear(advisory(GoAround(runway="01"))).act()
@@ -260,7 +264,7 @@ def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not():
     assert landed.names == []
 
 
-def test_an_exit_that_does_not_exist_is_named_with_those_that_do():
+def test_an_exit_that_does_not_exist_is_named_with_those_that_do() -> None:
     with pytest.raises(Unable, match="has no exit Z; there are: B_"):
         tell(crew_of(on_final(5_000.0)), "land", runway="01", exit="Z")
 
@@ -268,7 +272,7 @@ def test_an_exit_that_does_not_exist_is_named_with_those_that_do():
 # --- taxiing --------------------------------------------------------------------------------
 
 
-def test_taxiing_to_a_hold_its_nose_stops_short_of_the_line():
+def test_taxiing_to_a_hold_its_nose_stops_short_of_the_line() -> None:
     plane = Plane(place=kdca().airport.node("gate_b12"))
     hold = {"type": "hold_short", "runway": "01", "taxiway": "E"}
     tell(crew_of(plane), "taxi", to=hold)
@@ -278,7 +282,7 @@ def test_taxiing_to_a_hold_its_nose_stops_short_of_the_line():
     assert short == pytest.approx(B737.dimensions.length_m / 2 + 3.0, abs=0.1)
 
 
-def test_it_holds_its_position_when_advised_and_when_told():
+def test_it_holds_its_position_when_advised_and_when_told() -> None:
     plane = Plane("taxi")
     assert crew_of(plane).hear(advisory(HoldPosition(runway="01"))).act()
     tell(crew_of(plane), "hold_position")
@@ -286,7 +290,7 @@ def test_it_holds_its_position_when_advised_and_when_told():
     assert plane.names == ["hold_position", "hold_position", "resume_taxi"]
 
 
-def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run():
+def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run() -> None:
     plane = Plane("takeoff_roll", refuses="hold_position")
     with pytest.raises(Unable, match="unable, hold_position in phase takeoff_roll"):
         tell(crew_of(plane), "hold_position")
@@ -295,7 +299,7 @@ def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run():
 # --- what went wrong once, or nearly ----------------------------------------------------------
 
 
-def test_who_is_unable_to_line_up_is_bound_for_no_runway():
+def test_who_is_unable_to_line_up_is_bound_for_no_runway() -> None:
     crew = crew_of(Plane(place=kdca().airport.node("gate_b12")))
     for action in ("line_up", "take_off"):
         with pytest.raises(Unable):
@@ -303,7 +307,7 @@ def test_who_is_unable_to_line_up_is_bound_for_no_runway():
     assert crew.runway_operations.bound_runway is None
 
 
-def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there():
+def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there() -> None:
     plane = at_hold()
     plane.phase = "taxi"
     crew = crew_of(plane)
@@ -317,7 +321,7 @@ def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there():
     assert plane.names == ["taxi", "take_off"]
 
 
-def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold():
+def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold() -> None:
     plane = at_hold()
     crew = crew_of(plane)
     tell(crew, "take_off", runway="01")
@@ -332,7 +336,7 @@ def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold():
     assert whole[1] not in again
 
 
-def test_a_cancelled_takeoff_is_not_taken_up_by_itself():
+def test_a_cancelled_takeoff_is_not_taken_up_by_itself() -> None:
     plane = Plane("lined_up", kdca().airport.runway("01").start)
     crew = crew_of(plane)
     crew.runway_operations.bind("01")
@@ -344,26 +348,26 @@ def test_a_cancelled_takeoff_is_not_taken_up_by_itself():
 
 
 @pytest.mark.parametrize("phase", ["climb_out", "rejected_takeoff", "rotate", "rollout"])
-def test_there_is_nothing_to_cancel_where_there_is_no_takeoff_to_reject(phase):
+def test_there_is_nothing_to_cancel_where_there_is_no_takeoff_to_reject(phase: str) -> None:
     plane = Plane(phase)
     assert not crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act()
     assert plane.told == []
 
 
-def test_a_go_around_advised_as_the_wheels_touch_comes_too_late():
+def test_a_go_around_advised_as_the_wheels_touch_comes_too_late() -> None:
     plane = on_final(-300.0, height_m=0.0, refuses="go_around")
     plane.phase = "flare"
     assert not crew_of(plane).hear(advisory(GoAround(runway="01"))).act()
 
 
 @pytest.mark.parametrize(("height_ft", "climb_to_ft"), [(300.0, 3_015), (4_500.0, 5_000)])
-def test_a_go_around_climbs_from_wherever_it_begins(height_ft, climb_to_ft):
+def test_a_go_around_climbs_from_wherever_it_begins(height_ft: float, climb_to_ft: int) -> None:
     plane = on_final(2_000.0, height_m=height_ft * FOOT)
     assert crew_of(plane).hear(advisory(GoAround(runway="01"))).act()
     assert plane.told == [("go_around", climb_to_ft)]
 
 
-def test_after_a_go_around_it_needs_another_clearance_to_land():
+def test_after_a_go_around_it_needs_another_clearance_to_land() -> None:
     plane = on_final(2_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -377,7 +381,7 @@ def test_after_a_go_around_it_needs_another_clearance_to_land():
     assert plane.names == ["land", "go_around"]
 
 
-def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles():
+def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles() -> None:
     plane = on_final(5_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -388,13 +392,13 @@ def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_cir
     assert crew.runway_operations.bound_runway == "33"
 
 
-def test_on_the_ground_it_is_unable_to_land():
+def test_on_the_ground_it_is_unable_to_land() -> None:
     with pytest.raises(Unable, match="on the ground"):
         tell(crew_of(Plane("lined_up")), "land", runway="01")
 
 
 @pytest.mark.parametrize("command", [{"action": "track", "track_deg": 90}])
-def test_who_leaves_an_approach_is_bound_for_no_runway(command):
+def test_who_leaves_an_approach_is_bound_for_no_runway(command: dict[str, int | str]) -> None:
     plane = on_final(5_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")
@@ -407,7 +411,7 @@ def test_who_leaves_an_approach_is_bound_for_no_runway(command):
     assert plane.names == ["land", "hold_track"]
 
 
-def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land():
+def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land() -> None:
     away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
     plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
     crew = crew_of(plane)
@@ -431,8 +435,8 @@ def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land():
     ],
 )
 def test_the_final_approach_is_joined_near_it_and_about_along_it(
-    away_m, right_m, heading_deg, lands
-):
+    away_m: float, right_m: float, heading_deg: float, lands: bool
+) -> None:
     place = kdca().place(
         RunwayPosition(type="runway", runway="01", along_m=-away_m, offset_m=right_m)
     )

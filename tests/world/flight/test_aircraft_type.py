@@ -1,6 +1,11 @@
 """The aircraft files are complete, and a wrong one is told what is wrong with it."""
 
+from __future__ import annotations
+
 import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -10,11 +15,11 @@ from airhilt.world.flight import load_aircraft_type
 
 
 @pytest.fixture
-def wrong(tmp_path, monkeypatch):
+def wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
     """Write a changed 737 as the aircraft ``wrong``."""
     content = json.loads(library.find("aircraft", "737").read_text())
 
-    def write(change):
+    def write(change: Callable[..., Any]) -> None:
         change(content)
         (tmp_path / "wrong.json").write_text(json.dumps(content))
         monkeypatch.setattr(library, "folder", lambda kind: tmp_path)
@@ -25,19 +30,19 @@ def wrong(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("name", "designator"), [("737", "B737"), ("B747", "B744"), ("c172p", "C172"), ("c310", "C310")]
 )
-def test_every_type_is_there(name, designator):
+def test_every_type_is_there(name: str, designator: str) -> None:
     kind = load_aircraft_type(name)
     assert kind.name == name
     assert kind.icao_designator == designator
     assert kind.speeds.minimum_clean_kt < kind.speeds.cruise_kt < kind.speeds.maximum_kt
 
 
-def test_a_misspelt_name_gets_the_nearest():
+def test_a_misspelt_name_gets_the_nearest() -> None:
     with pytest.raises(ScenarioError, match="did you mean 'B747'"):
         load_aircraft_type("b74")
 
 
-def test_a_missing_field_is_named_with_its_place(wrong):
+def test_a_missing_field_is_named_with_its_place(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["speeds"].pop("cruise_kt"))
     with pytest.raises(
         ScenarioError, match=r"wrong.json is not an aircraft type:\n  speeds.cruise_kt"
@@ -45,13 +50,13 @@ def test_a_missing_field_is_named_with_its_place(wrong):
         load_aircraft_type("wrong")
 
 
-def test_an_unknown_field_is_refused(wrong):
+def test_an_unknown_field_is_refused(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["gains"]["pitch"].update(gain=1.0))
     with pytest.raises(ScenarioError, match=r"gains\.pitch\.gain: Extra inputs are not permitted"):
         load_aircraft_type("wrong")
 
 
-def test_a_value_out_of_range_is_refused(wrong):
+def test_a_value_out_of_range_is_refused(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["dimensions"].update(span_m=-1.0))
     with pytest.raises(ScenarioError, match=r"dimensions\.span_m: Input should be greater than 0"):
         load_aircraft_type("wrong")

@@ -1,11 +1,19 @@
 """An aircraft that lost an engine flies on, drifts down to what it can keep, or comes down fast."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
+from airhilt.world.surface.runway import RunwayEnd
 
 
-def test_a_twin_drifts_down_at_its_speed_on_its_heading(in_cruise, states):
+def test_a_twin_drifts_down_at_its_speed_on_its_heading(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737")
     heading = aircraft.state.heading_rad
     aircraft.fail_engine(0)
@@ -20,7 +28,9 @@ def test_a_twin_drifts_down_at_its_speed_on_its_heading(in_cruise, states):
     assert max(state.altitude_m for state in flown) < 35_000 * FOOT + 15.0
 
 
-def test_it_levels_where_the_other_engine_keeps_it(in_cruise, states):
+def test_it_levels_where_the_other_engine_keeps_it(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737", altitude_ft=28_000, airspeed_kt=225)
     aircraft.fail_engine(1)
     aircraft.procedures.drift_down()
@@ -31,7 +41,9 @@ def test_it_levels_where_the_other_engine_keeps_it(in_cruise, states):
     assert after.altitude_m > 24_000 * FOOT
 
 
-def test_it_does_not_go_below_an_altitude_that_it_was_told(in_cruise, states):
+def test_it_does_not_go_below_an_altitude_that_it_was_told(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737")
     aircraft.fail_engine(0)
     aircraft.procedures.drift_down()
@@ -46,7 +58,9 @@ def test_it_does_not_go_below_an_altitude_that_it_was_told(in_cruise, states):
 
 @pytest.mark.parametrize("name", ["737", "B747"])
 @pytest.mark.parametrize("engine", [0, 1])
-def test_cruise_goes_on_under_control(name, engine, in_cruise, states):
+def test_cruise_goes_on_under_control(
+    name: str, engine: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name, altitude_ft=15_000, airspeed_kt=260)
     aircraft.fail_engine(engine)
     for state in states(aircraft, 120):
@@ -56,7 +70,9 @@ def test_cruise_goes_on_under_control(name, engine, in_cruise, states):
     assert state.calibrated_airspeed_m_s == pytest.approx(260 * KNOT, abs=5 * KNOT)
 
 
-def test_a_go_around_goes_on_with_one_engine(on_final, runway, states):
+def test_a_go_around_goes_on_with_one_engine(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("737", distance_nm=1.0)
     aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
@@ -70,7 +86,9 @@ def test_a_go_around_goes_on_with_one_engine(on_final, runway, states):
     assert abs(wrap_angle(aircraft.state.track_rad - runway.course_rad)) < 1 * DEGREE
 
 
-def test_a_single_without_its_engine_glides(in_cruise, states):
+def test_a_single_without_its_engine_glides(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p")
     aircraft.fail_engine(0)
     aircraft.procedures.drift_down()
@@ -80,13 +98,15 @@ def test_a_single_without_its_engine_glides(in_cruise, states):
     assert -1_000 < state.vertical_rate_m_s / FOOT_PER_MINUTE < -500
 
 
-def test_an_engine_that_is_not_there_is_named(in_cruise):
+def test_an_engine_that_is_not_there_is_named(in_cruise: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="engine is 2; expected 0 to 1"):
         in_cruise("737").fail_engine(2)
 
 
 @pytest.mark.parametrize("name", ["737", "B747"])
-def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name, in_cruise, states):
+def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(
+    name: str, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name)
     aircraft.procedures.emergency_descent(10_000 * FOOT)
     seconds = 0.0
@@ -101,6 +121,6 @@ def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name, in_c
     assert state.altitude_m == pytest.approx(10_000 * FOOT, abs=50 * FOOT)
 
 
-def test_an_emergency_descent_upwards_is_refused(in_cruise):
+def test_an_emergency_descent_upwards_is_refused(in_cruise: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="expected less than the altitude now"):
         in_cruise("737").procedures.emergency_descent(12_000.0)

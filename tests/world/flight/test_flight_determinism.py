@@ -1,9 +1,13 @@
 """The same seed gives the same flight, bit by bit, wherever and beside whatever it is flown."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from airhilt import library
 from airhilt.world.flight import Atmosphere
@@ -20,22 +24,30 @@ print(repr(flight(in_cruise, states)))
 """
 
 
-def flight(in_cruise, states, name="737", seed=7):
+def flight(
+    in_cruise: Callable[..., Any], states: Callable[..., Any], name: str = "737", seed: int = 7
+) -> tuple[float, ...]:
     aircraft = in_cruise(name, seed=seed, atmosphere=AIR)
     aircraft.en_route.turn_by(0.5)
     *_, last = states(aircraft, 20)
     return tuple(last)
 
 
-def test_in_one_process(name, in_cruise, states):
+def test_in_one_process(
+    name: str, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     assert flight(in_cruise, states, name) == flight(in_cruise, states, name)
 
 
-def test_another_seed_gives_another_flight(in_cruise, states):
+def test_another_seed_gives_another_flight(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     assert flight(in_cruise, states) != flight(in_cruise, states, seed=8)
 
 
-def test_with_other_aircraft_flown_in_between(in_cruise, states):
+def test_with_other_aircraft_flown_in_between(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     alone = flight(in_cruise, states)
     aircraft = in_cruise("737", seed=7, atmosphere=AIR)
     others = [in_cruise("B747", seed=3, atmosphere=AIR), in_cruise("737", seed=9, atmosphere=AIR)]
@@ -46,7 +58,7 @@ def test_with_other_aircraft_flown_in_between(in_cruise, states):
     assert tuple(aircraft.state) == alone
 
 
-def test_in_another_process(in_cruise, states):
+def test_in_another_process(in_cruise: Callable[..., Any], states: Callable[..., Any]) -> None:
     program = PROGRAM.format(folders=[str(Path(__file__).parent), str(SUPPORT)])
     answer = subprocess.run(
         [sys.executable, "-c", program],
@@ -58,7 +70,7 @@ def test_in_another_process(in_cruise, states):
     assert answer.stdout == f"{flight(in_cruise, states)!r}\n"
 
 
-def test_in_threads(in_cruise, states):
+def test_in_threads(in_cruise: Callable[..., Any], states: Callable[..., Any]) -> None:
     with ThreadPoolExecutor(3) as threads:
         flights = [threads.submit(flight, in_cruise, states) for _ in range(3)]
     assert {one.result() for one in flights} == {flight(in_cruise, states)}

@@ -1,14 +1,23 @@
 """A go-around from just above the runway climbs away, and does not touch it."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from airhilt.units import DEGREE, FOOT, KNOT, wrap_angle
 from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.surface.runway import RunwayEnd
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 
 
-def descend_to(height_ft, aircraft, runway, states):
+def descend_to(
+    height_ft: int, aircraft: Aircraft, runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     """Fly the approach down to a height of the main wheels."""
     aircraft.procedures.land(runway)
     for state in states(aircraft, 200):
@@ -17,7 +26,13 @@ def descend_to(height_ft, aircraft, runway, states):
 
 
 @pytest.mark.parametrize("air", [Atmosphere(), TURBULENCE], ids=["calm", "turbulence"])
-def test_from_50_ft_it_climbs_away_without_touching(name, air, on_final, runway, states):
+def test_from_50_ft_it_climbs_away_without_touching(
+    name: str,
+    air: Atmosphere,
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_final(name, atmosphere=air, distance_nm=1.0)
     descend_to(50, aircraft, runway, states)
     aircraft.procedures.go_around(600.0)
@@ -31,7 +46,9 @@ def test_from_50_ft_it_climbs_away_without_touching(name, air, on_final, runway,
     assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 5 * DEGREE
 
 
-def test_it_levels_off_clean_on_the_runways_track(on_final, runway, states):
+def test_it_levels_off_clean_on_the_runways_track(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("737", distance_nm=1.0)
     descend_to(200, aircraft, runway, states)
     aircraft.procedures.go_around(900.0)
@@ -43,7 +60,9 @@ def test_it_levels_off_clean_on_the_runways_track(on_final, runway, states):
     assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 0.5 * DEGREE
 
 
-def test_it_turns_when_told_and_climbs_on(on_final, runway, states):
+def test_it_turns_when_told_and_climbs_on(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("737", distance_nm=1.0)
     descend_to(100, aircraft, runway, states)
     aircraft.procedures.go_around(900.0)
@@ -56,7 +75,9 @@ def test_it_turns_when_told_and_climbs_on(on_final, runway, states):
     assert turned == pytest.approx(30 * DEGREE, abs=1 * DEGREE)
 
 
-def test_once_more_it_lands(on_final, runway, states):
+def test_once_more_it_lands(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("c172p", distance_nm=3.0)
     aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
@@ -70,7 +91,9 @@ def test_once_more_it_lands(on_final, runway, states):
     assert aircraft.on_ground
 
 
-def test_after_touchdown_it_is_refused(on_final, runway, states):
+def test_after_touchdown_it_is_refused(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("c172p", distance_nm=0.5)
     aircraft.procedures.land(runway)
     for _ in states(aircraft, 100):
@@ -80,12 +103,14 @@ def test_after_touchdown_it_is_refused(on_final, runway, states):
         aircraft.procedures.go_around(500.0)
 
 
-def test_without_an_approach_it_is_refused(on_final):
+def test_without_an_approach_it_is_refused(on_final: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
         on_final("737").procedures.go_around(1_000.0)
 
 
-def test_an_altitude_that_is_not_above_is_refused(on_final, runway):
+def test_an_altitude_that_is_not_above_is_refused(
+    on_final: Callable[..., Any], runway: RunwayEnd
+) -> None:
     aircraft = on_final("737")
     aircraft.procedures.land(runway)
     with pytest.raises(ValueError, match="expected more than the altitude now"):

@@ -1,6 +1,10 @@
 """A flight that cannot go on ends with a named cause, and stays ended."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -8,7 +12,9 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.guard import Guard
 
 
-def test_flying_into_the_ground_ends_with_ground_contact(in_cruise, states):
+def test_flying_into_the_ground_ends_with_ground_contact(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p", altitude_ft=2_000, terrain_elevation_m=500.0)
     aircraft.en_route.hold_altitude(0.0, 1_000 * FOOT_PER_MINUTE)
     for state in states(aircraft, 60):
@@ -38,7 +44,9 @@ def test_flying_into_the_ground_ends_with_ground_contact(in_cruise, states):
         ({"roll_rad": 40 * DEGREE, "altitude_m": 100 * FOOT}, None),
     ],
 )
-def test_the_guard_names_the_cause(change, cause, in_cruise):
+def test_the_guard_names_the_cause(
+    change: dict[str, float], cause: str | None, in_cruise: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737")
     assert Guard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
 
@@ -55,13 +63,15 @@ def test_the_guard_names_the_cause(change, cause, in_cruise):
     ],
     ids=["soft", "slow", "hard", "tail", "wing", "gear"],
 )
-def test_only_the_wheels_may_touch_the_ground_and_softly(change, cause, on_the_ground):
+def test_only_the_wheels_may_touch_the_ground_and_softly(
+    change: dict[Any, Any], cause: str | None, on_the_ground: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("737")
     state = aircraft.state._replace(**change)
     assert Guard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
 
 
-def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground):
+def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground: Callable[..., Any]) -> None:
     aircraft = on_the_ground("737")
     hop = aircraft.state._replace(height_agl_m=0.5, calibrated_airspeed_m_s=70 * KNOT)
     guard = Guard(aircraft.kind)
@@ -69,7 +79,9 @@ def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground):
     assert guard.check(hop, may_touch=False, on_ground=True) == "ground_contact"
 
 
-def test_a_state_that_is_not_finite_ends_the_flight(in_cruise, monkeypatch):
+def test_a_state_that_is_not_finite_ends_the_flight(
+    in_cruise: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
     aircraft = in_cruise("737")
     good = aircraft.state
     monkeypatch.setattr(

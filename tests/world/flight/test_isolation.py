@@ -1,5 +1,7 @@
 """JSBSim says nothing, listens nowhere and writes nothing."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys
@@ -29,7 +31,7 @@ print("sockets", sockets, "left", os.listdir(tempfile.gettempdir()), file=sys.st
 
 
 @pytest.mark.skipif(not Path("/proc/self/fd").is_dir(), reason="needs /proc")
-def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path):
+def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path: Path) -> None:
     installed = Path(jsbsim.get_default_root_dir())
     before = listing(installed)
     scratch = tmp_path / "scratch"
@@ -54,17 +56,17 @@ def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path):
     assert listing(installed) == before
 
 
-def test_the_models_own_inputs_and_outputs_are_gone():
+def test_the_models_own_inputs_and_outputs_are_gone() -> None:
     fdm = load_model("737")
     assert fdm.get_output_filename(0) == ""
 
 
-def test_a_model_that_jsbsim_does_not_have_is_named():
+def test_a_model_that_jsbsim_does_not_have_is_named() -> None:
     with pytest.raises(ModelError, match="no model 'Zeppelin'"):
         load_model("Zeppelin")
 
 
-def listing(folder):
+def listing(folder: Path) -> dict[Path, tuple[int, int]]:
     return {
         path: (path.stat().st_size, path.stat().st_mtime_ns)
         for path in folder.rglob("*")

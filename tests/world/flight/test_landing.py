@@ -1,12 +1,18 @@
 """An aircraft lands where and as softly as it should, and leaves the runway."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
 from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
+from airhilt.world.surface.runway import RunwayEnd
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 TOUCHDOWN_ZONE_M = 3_000 * FOOT
@@ -16,7 +22,7 @@ JOINING = {"737": (10.0, 220), "B747": (12.0, 230), "c172p": (5.0, 95), "c310": 
 SOFT_FPM = {"737": 250, "B747": 250, "c172p": 200, "c310": 200}
 
 
-def wind_from_left(knots, runway):
+def wind_from_left(knots: int, runway: RunwayEnd) -> Atmosphere:
     course = runway.course_rad
     return Atmosphere(-knots * KNOT * math.sin(course), knots * KNOT * math.cos(course))
 
@@ -24,7 +30,13 @@ def wind_from_left(knots, runway):
 class Landing:
     """What a landing was like, in the units of the targets."""
 
-    def __init__(self, aircraft, runway, states, exit_path=()):
+    def __init__(
+        self,
+        aircraft: Aircraft,
+        runway: RunwayEnd,
+        states: Callable[..., Any],
+        exit_path: list[tuple[float, float]] | tuple[Any, ...] = (),
+    ) -> None:
         final = Final(runway, aircraft.kind)
         aircraft.procedures.land(runway, exit_path)
         self.phases = [aircraft.phase]
@@ -57,8 +69,12 @@ class Landing:
 
 @pytest.mark.parametrize("wind_kt", [0, 15, -15])
 def test_it_lands_in_the_touchdown_zone_and_stops_on_the_centre_line(
-    name, wind_kt, on_final, runway, states
-):
+    name: str,
+    wind_kt: int,
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_final(name, atmosphere=wind_from_left(wind_kt, runway))
     landing = Landing(aircraft, runway, states)
     assert landing.ended is None
@@ -73,8 +89,12 @@ def test_it_lands_in_the_touchdown_zone_and_stops_on_the_centre_line(
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(
-    name, seed, on_final, runway, states
-):
+    name: str,
+    seed: int,
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     landing = Landing(on_final(name, atmosphere=TURBULENCE, seed=seed), runway, states)
     assert landing.ended is None
     assert landing.off_glide_path_m > 1 * FOOT
@@ -84,8 +104,10 @@ def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(
     assert landing.off_centre_m < 20 * FOOT
 
 
-def test_a_landing_is_the_same_bit_by_bit(name, on_final, runway, states):
-    def last():
+def test_a_landing_is_the_same_bit_by_bit(
+    name: str, on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
+    def last() -> tuple[float, ...]:
         aircraft = on_final(name, atmosphere=TURBULENCE, seed=5, distance_nm=1.0)
         return tuple(Landing(aircraft, runway, states).state)
 
@@ -93,8 +115,12 @@ def test_a_landing_is_the_same_bit_by_bit(name, on_final, runway, states):
 
 
 def test_it_leaves_the_runway_at_the_exit_and_stands_at_its_end(
-    name, on_final, runway, along_runway, states
-):
+    name: str,
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    along_runway: Callable[..., Any],
+    states: Callable[..., Any],
+) -> None:
     exit_m = 1_900.0 if name in {"737", "B747"} else 800.0
     curve = [
         along_runway(exit_m + 30 * math.sin(a * DEGREE), 30 * (1 - math.cos(a * DEGREE)))
@@ -108,7 +134,9 @@ def test_it_leaves_the_runway_at_the_exit_and_stands_at_its_end(
     assert final.cross_track_m(landing.state) == pytest.approx(150, abs=3.0)
 
 
-def test_it_joins_the_final_approach_from_the_side_clean_and_fast(name, on_final, runway, states):
+def test_it_joins_the_final_approach_from_the_side_clean_and_fast(
+    name: str, on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     distance_nm, airspeed_kt = JOINING[name]
     aircraft = on_final(
         name,
@@ -125,7 +153,9 @@ def test_it_joins_the_final_approach_from_the_side_clean_and_fast(name, on_final
     assert landing.sink_fpm < SOFT_FPM[name]
 
 
-def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(on_final, runway, states):
+def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("737")
     aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
@@ -136,7 +166,9 @@ def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(on_final, run
     assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
 
 
-def test_a_runway_that_cannot_be_reached_is_refused(on_final, runway):
+def test_a_runway_that_cannot_be_reached_is_refused(
+    on_final: Callable[..., Any], runway: RunwayEnd
+) -> None:
     aside = on_final("737", offset_m=9_000.0)
     with pytest.raises(ValueError, match="68 degrees off the final approach course of runway 01"):
         aside.procedures.land(runway)
@@ -151,7 +183,9 @@ def test_a_runway_that_cannot_be_reached_is_refused(on_final, runway):
         away.procedures.land(runway)
 
 
-def test_on_the_ground_no_en_route_command_is_taken(on_final, runway, states):
+def test_on_the_ground_no_en_route_command_is_taken(
+    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_final("c172p", distance_nm=1.0)
     Landing(aircraft, runway, states)
     for command in (
@@ -165,7 +199,12 @@ def test_on_the_ground_no_en_route_command_is_taken(on_final, runway, states):
             command()
 
 
-def test_side_stepping_it_lands_on_the_parallel_runway(on_final, runway, parallel_runway, states):
+def test_side_stepping_it_lands_on_the_parallel_runway(
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    parallel_runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_final("737", distance_nm=5.0)
     aircraft.procedures.land(runway)
     *_, _ = states(aircraft, 10)
@@ -176,7 +215,12 @@ def test_side_stepping_it_lands_on_the_parallel_runway(on_final, runway, paralle
     assert landing.off_centre_m < 20 * FOOT
 
 
-def test_a_side_step_too_late_or_too_wide_is_refused(on_final, runway, parallel_runway, states):
+def test_a_side_step_too_late_or_too_wide_is_refused(
+    on_final: Callable[..., Any],
+    runway: RunwayEnd,
+    parallel_runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_final("737", distance_nm=0.6)
     aircraft.procedures.land(runway)
     with pytest.raises(ValueError, match="expected at least 300 ft"):

@@ -1,6 +1,10 @@
 """What an aircraft is told to do, it does: climbs, turns, speeds, avoidance."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -14,7 +18,9 @@ CLIMBS = {"737": (2_000, 1_500), "B747": (2_000, 1_500), "c172p": (500, 500), "c
 
 
 @pytest.mark.parametrize("sign", [1, -1], ids=["climb", "descent"])
-def test_it_changes_level_and_levels_off_without_overshoot(name, sign, in_cruise, states):
+def test_it_changes_level_and_levels_off_without_overshoot(
+    name: str, sign: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     feet, rate_fpm = CLIMBS[name]
     aircraft = in_cruise(name)
     start = aircraft.state.altitude_m
@@ -31,7 +37,9 @@ def test_it_changes_level_and_levels_off_without_overshoot(name, sign, in_cruise
 
 @pytest.mark.parametrize("name", ["737", "B747"])
 @pytest.mark.parametrize("sign", [1, -1])
-def test_an_avoidance_climb_is_established_within_7_seconds(name, sign, in_cruise, states):
+def test_an_avoidance_climb_is_established_within_7_seconds(
+    name: str, sign: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name)
     rate = 1_500 * FOOT_PER_MINUTE
     aircraft.en_route.hold_altitude(aircraft.state.altitude_m + sign * 1_000 * FOOT, rate)
@@ -44,7 +52,9 @@ def test_an_avoidance_climb_is_established_within_7_seconds(name, sign, in_cruis
 
 
 @pytest.mark.parametrize("angle_deg", [30, -30])
-def test_it_turns_by_an_angle(name, angle_deg, in_cruise, states):
+def test_it_turns_by_an_angle(
+    name: str, angle_deg: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name)
     altitude = aircraft.state.altitude_m
     aircraft.en_route.turn_by(angle_deg * DEGREE)
@@ -57,7 +67,9 @@ def test_it_turns_by_an_angle(name, angle_deg, in_cruise, states):
     assert max(abs(state.altitude_m - altitude) for state in flown) < 50 * FOOT
 
 
-def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(in_cruise, states):
+def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p")
     aircraft.en_route.turn_by(-270 * DEGREE)
     flown = list(states(aircraft, 110))
@@ -66,7 +78,9 @@ def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(in_cruise, s
     assert flown[700].roll_rad < -15 * DEGREE
 
 
-def test_it_holds_a_heading_in_wind(in_cruise, states):
+def test_it_holds_a_heading_in_wind(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p", atmosphere=Atmosphere(wind_east_m_s=12.0))
     aircraft.en_route.hold_heading(0.0)
     *_, state = states(aircraft, 60)
@@ -75,7 +89,9 @@ def test_it_holds_a_heading_in_wind(in_cruise, states):
 
 
 @pytest.mark.parametrize("change_kt", [20, -20])
-def test_it_changes_speed(name, change_kt, in_cruise, states):
+def test_it_changes_speed(
+    name: str, change_kt: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name, airspeed_kt={"c310": 140}.get(name))
     altitude = aircraft.state.altitude_m
     target = aircraft.en_route.hold_speed(aircraft.target_speed_m_s + change_kt * KNOT)
@@ -87,7 +103,9 @@ def test_it_changes_speed(name, change_kt, in_cruise, states):
     assert max(abs(state.altitude_m - altitude) for state in flown) < 50 * FOOT
 
 
-def test_a_climb_that_the_engines_cannot_keep_gives_way_before_the_airspeed(in_cruise, states):
+def test_a_climb_that_the_engines_cannot_keep_gives_way_before_the_airspeed(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737")
     aircraft.en_route.hold_altitude(40_000 * FOOT, 4_000 * FOOT_PER_MINUTE)
     flown = list(states(aircraft, 200))
@@ -98,8 +116,8 @@ def test_a_climb_that_the_engines_cannot_keep_gives_way_before_the_airspeed(in_c
 
 @pytest.mark.parametrize(("name", "speed_kt"), [("737", 325), ("B747", 350)])
 def test_in_a_long_climb_the_mach_limit_takes_over_from_the_airspeed(
-    name, speed_kt, in_cruise, states
-):
+    name: str, speed_kt: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name, altitude_ft=22_000, airspeed_kt=speed_kt)
     aircraft.en_route.hold_altitude(33_000 * FOOT, 2_500 * FOOT_PER_MINUTE)
     flown = list(states(aircraft, 330))
@@ -108,7 +126,9 @@ def test_in_a_long_climb_the_mach_limit_takes_over_from_the_airspeed(
     assert flown[-1].altitude_m == pytest.approx(33_000 * FOOT, abs=30 * FOOT)
 
 
-def test_commands_beyond_the_envelope_are_brought_into_it_and_told_back(in_cruise):
+def test_commands_beyond_the_envelope_are_brought_into_it_and_told_back(
+    in_cruise: Callable[..., Any],
+) -> None:
     aircraft = in_cruise("737")
     accepted = aircraft.en_route.hold_altitude(50_000 * FOOT, 9_000 * FOOT_PER_MINUTE)
     assert accepted.altitude_m == 41_000 * FOOT
@@ -119,7 +139,7 @@ def test_commands_beyond_the_envelope_are_brought_into_it_and_told_back(in_cruis
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_a_command_that_is_not_finite_is_refused(bad, in_cruise):
+def test_a_command_that_is_not_finite_is_refused(bad: float, in_cruise: Callable[..., Any]) -> None:
     aircraft = in_cruise("c172p")
     for command in (
         aircraft.en_route.hold_track,
@@ -151,8 +171,13 @@ def test_a_command_that_is_not_finite_is_refused(bad, in_cruise):
     turn_rad=st.floats(-6.28, 6.28),
 )
 def test_no_sequence_of_commands_throws_it_out_of_the_air(
-    altitude_m, rate_m_s, speed_m_s, turn_rad, in_cruise, states
-):
+    altitude_m: float,
+    rate_m_s: float,
+    speed_m_s: float,
+    turn_rad: float,
+    in_cruise: Callable[..., Any],
+    states: Callable[..., Any],
+) -> None:
     aircraft = in_cruise("c172p")
     aircraft.en_route.hold_altitude(altitude_m, rate_m_s)
     aircraft.en_route.hold_speed(speed_m_s)

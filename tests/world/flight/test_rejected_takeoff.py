@@ -1,12 +1,19 @@
 """A takeoff that is rejected ends standing on the runway."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.state import AircraftState
+from airhilt.world.surface.runway import RunwayEnd
 
 COURSE = 10.0
 REJECTED_AT_KT = {"737": 100, "B747": 100, "c172p": 40, "c310": 70}
@@ -15,7 +22,7 @@ CROSSWIND = Atmosphere(
 )
 
 
-def roll_to(aircraft, airspeed_kt, states):
+def roll_to(aircraft: Aircraft, airspeed_kt: float, states: Callable[..., Any]) -> AircraftState:
     for state in states(aircraft, 60):
         if state.calibrated_airspeed_m_s >= airspeed_kt * KNOT:
             return state
@@ -23,7 +30,13 @@ def roll_to(aircraft, airspeed_kt, states):
 
 
 @pytest.mark.parametrize("air", [Atmosphere(), CROSSWIND], ids=["calm", "crosswind"])
-def test_it_stops_within_3000_ft_on_the_centre_line(air, name, on_the_ground, runway, states):
+def test_it_stops_within_3000_ft_on_the_centre_line(
+    air: Atmosphere,
+    name: str,
+    on_the_ground: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
     line = Final(runway, aircraft.kind)
     aircraft.procedures.take_off(runway, 500.0)
@@ -37,7 +50,9 @@ def test_it_stops_within_3000_ft_on_the_centre_line(air, name, on_the_ground, ru
     assert line.along_m(aircraft.state) - rejected_m < 3_000 * FOOT
 
 
-def test_it_can_take_off_after_all(on_the_ground, runway, states):
+def test_it_can_take_off_after_all(
+    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("c172p")
     aircraft.procedures.take_off(runway, 100.0)
     roll_to(aircraft, 30, states)
@@ -50,7 +65,9 @@ def test_it_can_take_off_after_all(on_the_ground, runway, states):
     assert aircraft.phase == "en_route"
 
 
-def test_only_a_takeoff_roll_is_rejected(on_the_ground, runway, states):
+def test_only_a_takeoff_roll_is_rejected(
+    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("c172p")
     with pytest.raises(ValueError, match="reject_takeoff in phase lined_up; expected takeoff_roll"):
         aircraft.procedures.reject_takeoff()

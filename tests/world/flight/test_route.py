@@ -1,7 +1,11 @@
 """Routes follow the geodesics of the ellipsoid, and turn from one to the next."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from geographiclib.geodesic import Geodesic
@@ -13,16 +17,20 @@ from airhilt.world.flight.route import legs_through
 EARTH = Geodesic.WGS84
 
 
-def place(start_deg, course_deg, distance_m):
+def place(
+    start_deg: tuple[float, float], course_deg: float, distance_m: float
+) -> tuple[float, float]:
     there = EARTH.Direct(*start_deg, course_deg, distance_m)
     return there["lat2"], there["lon2"]
 
 
-def radians(position_deg):
+def radians(position_deg: tuple[float, float]) -> tuple[float, float]:
     return position_deg[0] * DEGREE, position_deg[1] * DEGREE
 
 
-def cross_track_m(position_deg, start_deg, end_deg):
+def cross_track_m(
+    position_deg: tuple[float, float], start_deg: tuple[float, float], end_deg: tuple[float, float]
+) -> float:
     """Return the distance to the right of the geodesic, found on the geodesic itself."""
     line = EARTH.InverseLine(*start_deg, *end_deg)
     along = 0.0
@@ -34,7 +42,7 @@ def cross_track_m(position_deg, start_deg, end_deg):
     return offset["s12"] * math.sin(angle)
 
 
-def ecef(position_deg, height_m):
+def ecef(position_deg: tuple[float, float], height_m: float) -> SimpleNamespace:
     latitude, longitude = radians(position_deg)
     e2 = EARTH.f * (2.0 - EARTH.f)
     radius = EARTH.a / math.sqrt(1.0 - e2 * math.sin(latitude) ** 2)
@@ -49,7 +57,9 @@ def ecef(position_deg, height_m):
 
 @pytest.mark.parametrize("start", [(0.0, 10.0), (47.0, 8.0), (-65.0, 179.5)])
 @pytest.mark.parametrize("course", [0.0, 35.0, 90.0, 215.0, 310.0])
-def test_a_leg_of_200_km_is_the_geodesic_within_two_metres(start, course):
+def test_a_leg_of_200_km_is_the_geodesic_within_two_metres(
+    start: tuple[float, float], course: float
+) -> None:
     end = place(start, course, 199_998.0)  # two legs of 99,999 m
     legs = legs_through(radians(start), [radians(end)])
     line = EARTH.InverseLine(*start, *end)
@@ -76,7 +86,9 @@ def test_a_leg_of_200_km_is_the_geodesic_within_two_metres(start, course):
     ids=["calm", "wind"],
 )
 @pytest.mark.parametrize("name", ["737", "c172p"])
-def test_it_follows_a_route_with_a_turn(name, air, in_cruise, states):
+def test_it_follows_a_route_with_a_turn(
+    name: str, air: Atmosphere, in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise(name, atmosphere=air)
     length = aircraft.state.true_airspeed_m_s * 150.0
     start = (47.0, 8.0)
@@ -97,7 +109,9 @@ def test_it_follows_a_route_with_a_turn(name, air, in_cruise, states):
     assert bank < 32 * DEGREE
 
 
-def test_beyond_the_last_waypoint_it_holds_the_last_track(in_cruise, states):
+def test_beyond_the_last_waypoint_it_holds_the_last_track(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p")
     end = place((47.0, 8.0), 60.0, 1_500.0)
     aircraft.en_route.fly_route([radians(end)])
@@ -106,7 +120,9 @@ def test_beyond_the_last_waypoint_it_holds_the_last_track(in_cruise, states):
     assert abs(wrap_angle(state.track_rad - course * DEGREE)) < 0.1 * DEGREE
 
 
-def test_it_resumes_a_route_that_it_left(in_cruise, states):
+def test_it_resumes_a_route_that_it_left(
+    in_cruise: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("737")
     end = place((47.0, 8.0), 60.0, 120_000.0)
     aircraft.en_route.fly_route([radians(end)])
@@ -121,6 +137,6 @@ def test_it_resumes_a_route_that_it_left(in_cruise, states):
     assert abs(cross_track_m(position, (47.0, 8.0), end)) < 15.0
 
 
-def test_without_a_route_there_is_none_to_resume(in_cruise):
+def test_without_a_route_there_is_none_to_resume(in_cruise: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="no route to resume"):
         in_cruise("c172p").en_route.resume_route()

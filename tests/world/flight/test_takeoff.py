@@ -1,19 +1,25 @@
 """An aircraft takes off along the runway and climbs out, whatever the air does."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
+from airhilt.world.surface.runway import RunwayEnd
 
 COURSE = 10.0
 CLIMB_TO_M = 300.0
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 
 
-def crosswind(from_left_kt):
+def crosswind(from_left_kt: Any) -> Any:
     return Atmosphere(
         -from_left_kt * KNOT * math.sin(COURSE * DEGREE),
         from_left_kt * KNOT * math.cos(COURSE * DEGREE),
@@ -23,7 +29,7 @@ def crosswind(from_left_kt):
 class Takeoff:
     """What a takeoff was like."""
 
-    def __init__(self, aircraft, runway, states):
+    def __init__(self, aircraft: Aircraft, runway: RunwayEnd, states: Callable[..., Any]) -> None:
         line = Final(runway, aircraft.kind)
         self.phases = [aircraft.phase]
         self.off_centre_m = self.pitch_on_ground_rad = self.lost_m = 0.0
@@ -43,7 +49,13 @@ class Takeoff:
 @pytest.mark.parametrize(
     "air", [crosswind(15), crosswind(-15), TURBULENCE], ids=["left", "right", "turbulence"]
 )
-def test_it_keeps_to_the_centre_line_and_strikes_nothing(air, name, on_the_ground, runway, states):
+def test_it_keeps_to_the_centre_line_and_strikes_nothing(
+    air: Atmosphere,
+    name: str,
+    on_the_ground: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
     aircraft.procedures.take_off(runway, CLIMB_TO_M)
     takeoff = Takeoff(aircraft, runway, states)
@@ -53,7 +65,9 @@ def test_it_keeps_to_the_centre_line_and_strikes_nothing(air, name, on_the_groun
     assert takeoff.lost_m < 3.0
 
 
-def test_it_levels_off_clean_on_the_runway_track(name, on_the_ground, runway, states):
+def test_it_levels_off_clean_on_the_runway_track(
+    name: str, on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground(name)
     aircraft.procedures.take_off(runway, CLIMB_TO_M)
     speeds = aircraft.kind.speeds
@@ -66,7 +80,12 @@ def test_it_levels_off_clean_on_the_runway_track(name, on_the_ground, runway, st
     assert aircraft._airframe._fdm["gear/gear-cmd-norm"] == 0.0
 
 
-def test_it_takes_off_after_lining_up(on_the_ground, along_runway, runway, states):
+def test_it_takes_off_after_lining_up(
+    on_the_ground: Callable[..., Any],
+    along_runway: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground("737", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
     bend = [
         (30.0 + 40.0 * (1.0 - math.cos(a)), 40.0 - 40.0 * math.sin(a))
@@ -85,7 +104,12 @@ def test_it_takes_off_after_lining_up(on_the_ground, along_runway, runway, state
     assert takeoff.off_centre_m < 20 * FOOT
 
 
-def test_it_takes_off_rolling(on_the_ground, along_runway, runway, states):
+def test_it_takes_off_rolling(
+    on_the_ground: Callable[..., Any],
+    along_runway: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground("737")
     aircraft.procedures.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
     *_, state = states(aircraft, 20)
@@ -96,7 +120,9 @@ def test_it_takes_off_rolling(on_the_ground, along_runway, runway, states):
     assert Takeoff(aircraft, runway, states).phases[-1] == "en_route"
 
 
-def test_commands_in_the_climb_are_flown_above_400_ft(on_the_ground, runway, states):
+def test_commands_in_the_climb_are_flown_above_400_ft(
+    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("737")
     aircraft.procedures.take_off(runway, 1_500.0)
     for _ in states(aircraft, 60):
@@ -112,7 +138,9 @@ def test_commands_in_the_climb_are_flown_above_400_ft(on_the_ground, runway, sta
     assert abs(state.track_rad - (COURSE + 40.0) * DEGREE) < 1.0 * DEGREE
 
 
-def test_a_takeoff_that_cannot_be_is_refused(in_cruise, on_the_ground, runway):
+def test_a_takeoff_that_cannot_be_is_refused(
+    in_cruise: Callable[..., Any], on_the_ground: Callable[..., Any], runway: RunwayEnd
+) -> None:
     with pytest.raises(ValueError, match="take_off in phase en_route in the air"):
         in_cruise("737").procedures.take_off(runway, CLIMB_TO_M)
     with pytest.raises(ValueError, match="60 m beside the centre line of runway 01"):
@@ -129,8 +157,10 @@ def test_a_takeoff_that_cannot_be_is_refused(in_cruise, on_the_ground, runway):
         on_the_ground("737").procedures.take_off(runway, math.nan)
 
 
-def test_the_same_seed_gives_the_same_takeoff(name, on_the_ground, runway, states):
-    def flown(seed):
+def test_the_same_seed_gives_the_same_takeoff(
+    name: str, on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+) -> None:
+    def flown(seed: int) -> tuple[float, ...]:
         aircraft = on_the_ground(name, seed=seed, atmosphere=TURBULENCE)
         aircraft.procedures.take_off(runway, CLIMB_TO_M)
         *_, last = states(aircraft, 40)

@@ -1,6 +1,10 @@
 """On the ground an aircraft follows its path, stops where it shall, and stays there."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 from shapely import LineString, Point
@@ -8,6 +12,7 @@ from shapely import LineString, Point
 from airhilt.geodesy.plane import Plane
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import Atmosphere
+from airhilt.world.flight.state import AircraftState
 
 COURSE = 10.0
 RADIUS_M = 30.0
@@ -16,12 +21,12 @@ END = (BEND_AT_M + RADIUS_M, 150.0)
 """Along and to the right of the runway."""
 
 
-def wind_from(degrees, kt=15.0):
+def wind_from(degrees: float, kt: float = 15.0) -> Atmosphere:
     to = (degrees + 180.0) * DEGREE
     return Atmosphere(kt * KNOT * math.cos(to), kt * KNOT * math.sin(to))
 
 
-def corner(place):
+def corner(place: Callable[..., Any]) -> list[tuple[float, float]]:
     """Return a path ahead, around a bend to the right, and on."""
     bend = [math.pi / 2.0 * step / 12 for step in range(13)]
     points = [
@@ -32,21 +37,27 @@ def corner(place):
     return [place(*point) for point in points]
 
 
-def distances_to(path, flown):
+def distances_to(path: list[tuple[float, float]], flown: Any) -> list[float]:
     """Return how far from the path each of the places is (m)."""
     plane = Plane(path[0], 0.0)
     line = LineString([plane.to_local(place) for place in path])
     return [line.distance(Point(plane.to_local(place))) for place in flown]
 
 
-def place_of(state):
+def place_of(state: AircraftState) -> tuple[float, float]:
     return state.latitude_rad, state.longitude_rad
 
 
 @pytest.mark.parametrize(
     "wind", [Atmosphere(), wind_from(COURSE + 90.0)], ids=["calm", "crosswind"]
 )
-def test_it_follows_the_path_and_stops_at_its_end(wind, name, on_the_ground, along_runway, states):
+def test_it_follows_the_path_and_stops_at_its_end(
+    wind: Atmosphere,
+    name: str,
+    on_the_ground: Callable[..., Any],
+    along_runway: Callable[..., Any],
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind)
     path = corner(along_runway)
     aircraft.procedures.taxi(path)
@@ -71,7 +82,9 @@ def test_it_follows_the_path_and_stops_at_its_end(wind, name, on_the_ground, alo
     assert max(off[-20:]) < 2.0
 
 
-def test_it_slows_down_for_a_bend(on_the_ground, along_runway, states):
+def test_it_slows_down_for_a_bend(
+    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("737", along_m=0.0)
     aircraft.procedures.taxi(corner(along_runway), 20 * KNOT)
     fastest = sideways = 0.0
@@ -84,7 +97,12 @@ def test_it_slows_down_for_a_bend(on_the_ground, along_runway, states):
     assert sideways < 1.3
 
 
-def test_it_holds_its_position_and_goes_on(name, on_the_ground, along_runway, states):
+def test_it_holds_its_position_and_goes_on(
+    name: str,
+    on_the_ground: Callable[..., Any],
+    along_runway: Callable[..., Any],
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground(name, along_m=0.0)
     aircraft.procedures.taxi([along_runway(0.0), along_runway(200.0)])
     *_, moving = states(aircraft, 20)
@@ -106,7 +124,9 @@ def test_it_holds_its_position_and_goes_on(name, on_the_ground, along_runway, st
 
 
 @pytest.mark.parametrize("from_deg", [0.0, 90.0, 180.0, 270.0])
-def test_it_stands_still_in_any_wind(from_deg, name, on_the_ground, states):
+def test_it_stands_still_in_any_wind(
+    from_deg: float, name: str, on_the_ground: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground(name, lined_up=False, atmosphere=wind_from(COURSE + from_deg, 30.0))
     _, *later = states(aircraft, 60)
     assert set(later) == {aircraft.state}
@@ -116,7 +136,13 @@ def test_it_stands_still_in_any_wind(from_deg, name, on_the_ground, states):
 
 
 @pytest.mark.parametrize("from_deg", [90.0, 180.0])
-def test_no_wind_tips_it_over(from_deg, name, on_the_ground, along_runway, states):
+def test_no_wind_tips_it_over(
+    from_deg: float,
+    name: str,
+    on_the_ground: Callable[..., Any],
+    along_runway: Callable[..., Any],
+    states: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind_from(COURSE + from_deg, 25.0))
     standing = aircraft.state.pitch_rad
     aircraft.procedures.taxi(corner(along_runway))
@@ -126,7 +152,9 @@ def test_no_wind_tips_it_over(from_deg, name, on_the_ground, along_runway, state
     assert aircraft.ended is None
 
 
-def test_it_lines_up_when_told_so(on_the_ground, along_runway, states):
+def test_it_lines_up_when_told_so(
+    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
+) -> None:
     aircraft = on_the_ground("c172p", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
     lead_in = [(30.0, 80.0), (30.0, 30.0), (39.0, 9.0), (60.0, 0.0), (120.0, 0.0)]
     aircraft.procedures.taxi([along_runway(*point) for point in lead_in], then="lined_up")
@@ -137,7 +165,9 @@ def test_it_lines_up_when_told_so(on_the_ground, along_runway, states):
     assert abs(aircraft.state.heading_rad - COURSE * DEGREE) < 2.0 * DEGREE
 
 
-def test_what_belongs_to_the_ground_is_refused_in_the_air(in_cruise, along_runway):
+def test_what_belongs_to_the_ground_is_refused_in_the_air(
+    in_cruise: Callable[..., Any], along_runway: Callable[..., Any]
+) -> None:
     aircraft = in_cruise("c172p")
     with pytest.raises(ValueError, match="taxi in phase en_route in the air"):
         aircraft.procedures.taxi([along_runway(0.0), along_runway(100.0)])
@@ -145,7 +175,9 @@ def test_what_belongs_to_the_ground_is_refused_in_the_air(in_cruise, along_runwa
         aircraft.procedures.hold_position()
 
 
-def test_what_belongs_to_the_air_is_refused_on_the_ground(on_the_ground):
+def test_what_belongs_to_the_air_is_refused_on_the_ground(
+    on_the_ground: Callable[..., Any],
+) -> None:
     aircraft = on_the_ground("c172p")
     for command in (
         lambda: aircraft.en_route.hold_altitude(1_000.0),
@@ -158,6 +190,6 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(on_the_ground):
     assert aircraft.phase == "lined_up"
 
 
-def test_a_path_needs_places(on_the_ground):
+def test_a_path_needs_places(on_the_ground: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="path"):
         on_the_ground("c172p").procedures.taxi([])

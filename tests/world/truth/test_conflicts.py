@@ -1,6 +1,9 @@
 """What becomes true of two aircraft, and when."""
 
+from __future__ import annotations
+
 import math
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -13,7 +16,9 @@ from airhilt.world.truth.conflicts import profile_of
 from straight import MINIMA, Rolling, Straight, Watch
 
 
-def head_on(seconds=60.0, speed=250.0, **second):
+def head_on(
+    seconds: float = 60.0, speed: float = 250.0, **second: Any
+) -> tuple[Straight, Straight]:
     """Two that meet after some seconds."""
     away = speed * seconds
     return (
@@ -22,7 +27,7 @@ def head_on(seconds=60.0, speed=250.0, **second):
     )
 
 
-def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision():
+def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision() -> None:
     watch = Watch(*head_on(60.0)).fly(70.0)
     assert watch.told["loss_of_separation"] == pytest.approx(
         60.0 - MINIMA.horizontal_m / 500, abs=0.1
@@ -31,19 +36,19 @@ def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision():
     assert watch.told["collision"] == pytest.approx(60.0, abs=0.15)
 
 
-def test_tcas_speaks_at_its_thresholds():
+def test_tcas_speaks_at_its_thresholds() -> None:
     watch = Watch(*head_on(80.0)).fly(50.0)
     assert watch.told["tcas_ta"] == pytest.approx(80.0 - 48.0, abs=1.5)
     assert watch.told["tcas_ra"] == pytest.approx(80.0 - 35.0, abs=1.5)
 
 
-def test_tcas_says_nothing_of_who_carries_no_transponder():
+def test_tcas_says_nothing_of_who_carries_no_transponder() -> None:
     watch = Watch(*head_on(80.0), transponders=frozenset({"A"})).fly(81.0)
     assert not {"tcas_ta", "tcas_ra"} & set(watch.told)
     assert "collision" in watch.told
 
 
-def test_near_the_ground_tcas_says_nothing():
+def test_near_the_ground_tcas_says_nothing() -> None:
     low = {"altitude_ft": 400.0}
     watch = Watch(Straight(-5_000, east_m_s=50.0, **low), Straight(5_000, east_m_s=-50.0, **low))
     watch.fly(60.0)
@@ -53,7 +58,9 @@ def test_near_the_ground_tcas_says_nothing():
 
 @settings(deadline=None, max_examples=40)
 @given(st.floats(0.0, 1.0), st.floats(0.0, 25.0), st.floats(1_000.0, 7_000.0))
-def test_a_pass_between_two_ticks_is_not_stepped_over(phase, aside_m, closing):
+def test_a_pass_between_two_ticks_is_not_stepped_over(
+    phase: float, aside_m: float, closing: float
+) -> None:
     """At 7 km/s, with a tick of a second, the two are only seen kilometres from each other."""
     away = closing * (2.0 + phase)
     first = Straight()
@@ -66,7 +73,7 @@ def test_a_pass_between_two_ticks_is_not_stepped_over(phase, aside_m, closing):
     )
 
 
-def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage():
+def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage() -> None:
     first = Straight()
     second = Straight(1_000, east_m_s=-1_000.0, altitude_ft=35_000 + 100, rate_fpm=-6_000)
     watch = Watch(first, second, tick_s=2.0).fly(4.0)
@@ -88,19 +95,19 @@ def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage
         (0.0, 1_001.0, set()),
     ],
 )
-def test_how_near_is_what(aside_m, above_ft, told):
+def test_how_near_is_what(aside_m: float, above_ft: float, told: set[Any]) -> None:
     other = {"north_m": aside_m, "altitude_ft": 35_000 + above_ft}
     watch = Watch(*head_on(20.0, **other)).fly(40.0)
     assert {phase for phase in watch.told if not phase.startswith("tcas")} == told
 
 
-def test_two_of_another_pair_are_watched_too():
+def test_two_of_another_pair_are_watched_too() -> None:
     watch = Watch(Straight(north_m=90_000.0), *head_on(30.0)).fly(40.0)
     assert {"loss_of_separation", "collision"} <= set(watch.monitor.pairs[("B", "C")].first_ns)
     assert watch.monitor.pairs[("A", "B")].first_ns == {}
 
 
-def test_an_aircraft_that_has_ended_is_in_nobodys_way():
+def test_an_aircraft_that_has_ended_is_in_nobodys_way() -> None:
     watch = Watch(*head_on(60.0))
     watch.fly(10.0)
     watch.aircraft["B"].ended = "ground_contact"
@@ -109,12 +116,12 @@ def test_an_aircraft_that_has_ended_is_in_nobodys_way():
     assert not watch.monitor.flying(("A", "B"))
 
 
-def test_what_is_lost_from_the_start_is_told_in_the_first_second():
+def test_what_is_lost_from_the_start_is_told_in_the_first_second() -> None:
     watch = Watch(Straight(), Straight(east_m=1_000.0)).fly(0.5)
     assert "loss_of_separation" in watch.told
 
 
-def test_two_that_draw_apart_from_the_start_were_never_closer_than_at_the_start():
+def test_two_that_draw_apart_from_the_start_were_never_closer_than_at_the_start() -> None:
     for away in (1_000.0, 20_000.0):
         pair = Straight(-away, east_m_s=-250.0), Straight(away, east_m_s=250.0)
         closest = Watch(*pair).fly(3.0).truth.closest
@@ -125,7 +132,7 @@ def test_two_that_draw_apart_from_the_start_were_never_closer_than_at_the_start(
 # --- least separation -----------------------------------------------------------------------
 
 
-def test_the_least_separations_are_each_taken_while_the_other_is_infringed():
+def test_the_least_separations_are_each_taken_while_the_other_is_infringed() -> None:
     """800 ft apart when they pass 2 NM abeam; on the same level only long after."""
     second = {"north_m": 2 * NAUTICAL_MILE, "altitude_ft": 35_800.0}
     watch = Watch(*head_on(30.0, **second)).fly(60.0)
@@ -133,7 +140,7 @@ def test_the_least_separations_are_each_taken_while_the_other_is_infringed():
     assert watch.truth.least_vertical_m == pytest.approx(800 * FOOT, rel=1e-6)
 
 
-def test_a_minimum_that_never_applied_is_none():
+def test_a_minimum_that_never_applied_is_none() -> None:
     above = Watch(*head_on(20.0, altitude_ft=37_000.0)).fly(40.0).truth
     assert above.least_horizontal_m is None
     assert above.least_vertical_m == pytest.approx(2_000 * FOOT)
@@ -142,7 +149,7 @@ def test_a_minimum_that_never_applied_is_none():
     assert beside.least_vertical_m is None
 
 
-def test_vertical_separation_far_away_does_not_count():
+def test_vertical_separation_far_away_does_not_count() -> None:
     """It descends through the other's level, but 40 km from it."""
     second = Straight(40_000.0, altitude_ft=36_000.0, rate_fpm=-3_000.0)
     truth = Watch(Straight(), second).fly(30.0).truth
@@ -158,8 +165,8 @@ def test_vertical_separation_far_away_does_not_count():
     st.floats(-2_000.0, 2_000.0),
 )
 def test_the_closest_approach_is_no_farther_than_the_pair_was_at_any_tick(
-    aside_m, above_ft, north_m_s, rate_fpm
-):
+    aside_m: float, above_ft: float, north_m_s: float, rate_fpm: float
+) -> None:
     watch = Watch(
         *head_on(
             10.0, north_m=aside_m, altitude_ft=35_000 + above_ft, north_m_s=north_m_s,
@@ -177,7 +184,7 @@ def test_the_closest_approach_is_no_farther_than_the_pair_was_at_any_tick(
     assert closest.slant_m == pytest.approx(nearest, abs=70.0)
 
 
-def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far():
+def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far() -> None:
     near, far = (
         Watch(*head_on(20.0, north_m=60_000.0), always=always).fly(30.0) for always in (True, False)
     )
@@ -197,7 +204,9 @@ def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far():
         (Straight(rate_fpm=-1_500, target_ft=31_000), (35_000, -1_500, 31_000)),
     ],
 )
-def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(aircraft, expected):
+def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(
+    aircraft: Straight, expected: tuple[Any, ...]
+) -> None:
     altitude, rate, target = expected
     assert profile_of(aircraft) == pytest.approx(
         VerticalProfile(
@@ -206,7 +215,7 @@ def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(aircraft, expe
     )
 
 
-def test_the_time_to_loss_knows_where_a_climb_ends():
+def test_the_time_to_loss_knows_where_a_climb_ends() -> None:
     """Below, at 1500 ft/min, 1500 m from the other's level: it levels off 1000 ft short, or not."""
     for target_ft, loss in ((34_000.0, False), (35_000.0, True)):
         climbing = Straight(-25_000, altitude_ft=33_000, east_m_s=250.0, rate_fpm=1_500,
@@ -222,14 +231,14 @@ def test_the_time_to_loss_knows_where_a_climb_ends():
 ZONE = FixedSite(0.0, 0.0)
 
 
-def low(aside_m=0.0, altitude_ft=1_000.0):
+def low(aside_m: float = 0.0, altitude_ft: float = 1_000.0) -> list[Straight]:
     """Two at 140 kt that meet over the airport, or beside it, after half a minute."""
     return [
         Straight(-way * 30.0 * 72.0, aside_m, altitude_ft, east_m_s=way * 72.0) for way in (1, -1)
     ]
 
 
-def test_in_the_zone_of_a_tower_there_are_no_minima_but_near_misses_and_collisions():
+def test_in_the_zone_of_a_tower_there_are_no_minima_but_near_misses_and_collisions() -> None:
     watch = Watch(*low(), zone=ZONE).fly(40.0)
     assert {"nmac", "collision"} <= set(watch.told)
     assert "loss_of_separation" not in watch.told
@@ -239,18 +248,18 @@ def test_in_the_zone_of_a_tower_there_are_no_minima_but_near_misses_and_collisio
     ("aside_m", "altitude_ft", "lost"),
     [(0.0, 2_400.0, False), (0.0, 2_700.0, True), (10_000.0, 1_000.0, True)],
 )
-def test_the_zone_ends_above_and_around(aside_m, altitude_ft, lost):
+def test_the_zone_ends_above_and_around(aside_m: float, altitude_ft: float, lost: bool) -> None:
     watch = Watch(*low(aside_m, altitude_ft), zone=ZONE).fly(40.0)
     assert ("loss_of_separation" in watch.told) == lost
 
 
-def test_who_is_in_the_zone_must_be_separated_from_who_is_not():
+def test_who_is_in_the_zone_must_be_separated_from_who_is_not() -> None:
     inside = Straight(0.0, 8_500.0, 2_000.0)
     outside = Straight(0.0, 10_000.0, 2_000.0)
     assert "loss_of_separation" in Watch(inside, outside, zone=ZONE).fly(1.0).told
 
 
-def test_a_vehicle_and_an_aircraft_have_no_separation_to_lose_but_can_collide():
+def test_a_vehicle_and_an_aircraft_have_no_separation_to_lose_but_can_collide() -> None:
     plane = Straight(-300.0, altitude_ft=0.0, east_m_s=60.0, on_ground=True, phase="rollout")
     watch = Watch(plane, Rolling()).fly(8.0)
     assert set(watch.told) == {"collision"}
@@ -258,14 +267,14 @@ def test_a_vehicle_and_an_aircraft_have_no_separation_to_lose_but_can_collide():
     assert watch.truth.least_horizontal_m is None
 
 
-def test_in_the_air_above_a_vehicle_nothing_is_lost_either():
+def test_in_the_air_above_a_vehicle_nothing_is_lost_either() -> None:
     plane = Straight(-300.0, altitude_ft=50.0, east_m_s=70.0, phase="flare")
     watch = Watch(plane, Rolling()).fly(8.0)
     assert watch.told == {}
     assert watch.truth.closest.vertical_m == pytest.approx(50 * FOOT, abs=0.1)
 
 
-def test_a_car_between_nose_and_wing_touches_nothing():
+def test_a_car_between_nose_and_wing_touches_nothing() -> None:
     """It is 12 m ahead of the middle and 12 m to the right, well within the box around it all."""
     plane = Straight(altitude_ft=0.0, east_m_s=0.1, on_ground=True)
     watch = Watch(plane, Rolling(12.0, -60.0, north_m_s=8.0)).fly(6.0)
@@ -273,7 +282,7 @@ def test_a_car_between_nose_and_wing_touches_nothing():
     assert watch.truth.closest.horizontal_m == pytest.approx(17.0, abs=1.0)
 
 
-def test_two_on_the_ground_are_never_too_near_until_they_touch():
+def test_two_on_the_ground_are_never_too_near_until_they_touch() -> None:
     first = Straight(-40.0, altitude_ft=0.0, east_m_s=5.0, on_ground=True, phase="taxi")
     second = Straight(altitude_ft=0.0, on_ground=True, phase="standing")
     watch = Watch(first, second).fly(1.0)
@@ -281,7 +290,7 @@ def test_two_on_the_ground_are_never_too_near_until_they_touch():
     assert set(watch.fly(3.0).told) == {"collision"}
 
 
-def test_a_fast_aircraft_does_not_pass_a_vehicle_between_two_looks():
+def test_a_fast_aircraft_does_not_pass_a_vehicle_between_two_looks() -> None:
     """Pairs on the ground are sorted out once a second."""
     plane = Straight(-2_000.0, altitude_ft=0.0, east_m_s=75.0, on_ground=True, phase="takeoff_roll")
     assert "collision" in Watch(plane, Rolling(), always=False).fly(40.0).told

@@ -11,6 +11,7 @@ from shapely import Polygon, affinity, union_all
 
 from airhilt.units import FOOT
 from airhilt.world.flight import load_aircraft_type
+from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.truth.gaps import gap, radius_m
 from straight import Rolling, Straight
 
@@ -19,7 +20,7 @@ LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
 
 def plane(
     east_m: float = 0.0, north_m: float = 0.0, heading_deg: float = 0.0, height_m: float = 0.0
-):
+) -> Straight:
     heading = math.radians(heading_deg)
     return Straight(
         east_m,
@@ -73,7 +74,9 @@ poses = st.tuples(st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(0.0,
 
 @settings(deadline=None, max_examples=60)
 @given(poses, poses, st.floats(0.0, 30.0))
-def test_it_does_not_matter_who_is_asked(first, second, height) -> None:
+def test_it_does_not_matter_who_is_asked(
+    first: tuple[float, float, float], second: tuple[float, float, float], height: float
+) -> None:
     a, b = plane(*first), plane(*second, height)
     assert gap(a, b).horizontal_m == pytest.approx(gap(b, a).horizontal_m, abs=1e-3)
     assert gap(a, b).vertical_m == pytest.approx(gap(b, a).vertical_m, abs=1e-9)
@@ -81,7 +84,9 @@ def test_it_does_not_matter_who_is_asked(first, second, height) -> None:
 
 @settings(deadline=None, max_examples=60)
 @given(poses, st.floats(0.0, 359.0))
-def test_turning_the_whole_scene_changes_nothing(second, turn) -> None:
+def test_turning_the_whole_scene_changes_nothing(
+    second: tuple[float, float, float], turn: float
+) -> None:
     east, north, heading = second
     sin, cos = math.sin(math.radians(turn)), math.cos(math.radians(turn))
     turned = (east * cos + north * sin, north * cos - east * sin, (heading + turn) % 360.0)
@@ -92,7 +97,7 @@ def test_turning_the_whole_scene_changes_nothing(second, turn) -> None:
 
 @settings(deadline=None, max_examples=60)
 @given(poses)
-def test_the_circles_around_them_bound_the_distance(second) -> None:
+def test_the_circles_around_them_bound_the_distance(second: tuple[float, float, float]) -> None:
     a, b = plane(), plane(*second)
     between = math.hypot(*second[:2])
     assume(between > 1.0)
@@ -104,7 +109,7 @@ TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
 
 
 @pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
-def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind) -> None:
+def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind: AircraftType) -> None:
     size = kind.dimensions
     middle = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
     for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
@@ -119,7 +124,9 @@ def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind) -> None:
 
 @settings(deadline=None, max_examples=60)
 @given(poses, st.floats(0.0, 30.0), st.sampled_from(TYPES))
-def test_two_touch_just_where_their_outlines_and_their_heights_overlap(second, height, kind):
+def test_two_touch_just_where_their_outlines_and_their_heights_overlap(
+    second: tuple[float, float, float], height: float, kind: AircraftType
+) -> None:
     a = plane()
     b = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
                  east_m_s=math.sin(math.radians(second[2])),
@@ -132,7 +139,7 @@ def test_two_touch_just_where_their_outlines_and_their_heights_overlap(second, h
     assert found.horizontal_m == pytest.approx(shapes[0].distance(shapes[1]), abs=0.1)
 
 
-def silhouette(body):
+def silhouette(body: Straight) -> Polygon:
     """The same shape, made of parts: a fuselage, two wings, two halves of a tailplane."""
     size, mesh = body.kind.dimensions, body.kind.mesh
     half, width = size.length_m / 2.0, mesh.fuselage_diameter_m / 2.0
@@ -158,7 +165,9 @@ def silhouette(body):
 
 @settings(deadline=None, max_examples=30)
 @given(poses, st.floats(-20_000.0, 20_000.0), st.floats(-5_000.0, 5_000.0))
-def test_it_does_not_matter_where_on_the_airport_they_are(second, east, north) -> None:
+def test_it_does_not_matter_where_on_the_airport_they_are(
+    second: tuple[float, float, float], east: float, north: float
+) -> None:
     away_east, away_north, heading = second
     moved = plane(away_east + east, away_north + north, heading)
     found = gap(plane(east, north), moved).horizontal_m
