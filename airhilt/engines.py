@@ -13,6 +13,7 @@ import importlib.metadata
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from airhilt.errors import AirhiltError
@@ -187,10 +188,11 @@ class EngineFamily(Family, Generic[T]):
         if takers:
             forms = " or ".join(f"{engine.name}:{text}" for engine in takers)
             raise self.error(f"{self.word} {text!r}: more than one can take it; expected {forms}")
-        raise self.error(
-            f"{self.word} {text!r}: there is none of that name; expected {self.expected()}"
-            f"{self._suggestion(name)}"
-        )
+        if text and Path(text).exists():
+            problem, meant = f"no {self.word} knows such files", ""
+        else:
+            problem, meant = "there is none of that name", self._suggestion(name)
+        raise self.error(f"{self.word} {text!r}: {problem}; expected {self.expected()}{meant}")
 
     def members(self) -> list[Engine[T]]:
         """Return all engines that can be loaded: by name, those with an address last."""
@@ -212,5 +214,6 @@ class EngineFamily(Family, Generic[T]):
         return f"{', '.join(others)}, or {last}" if others else last
 
     def _suggestion(self, name: str) -> str:
-        tail = nearest(name, [*self.names(), *self.also])
+        named = [engine.name for engine in self.members() if not engine.usage]
+        tail = nearest(name, [*named, *self.also])
         return tail if "did you mean" in tail else ""

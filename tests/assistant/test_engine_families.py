@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeVar
@@ -15,12 +17,13 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.bus import free_endpoint
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
+from airhilt.cosim.replay import replay
 from airhilt.engines import Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
@@ -41,6 +44,7 @@ from camera_run import passing
 from engine_package import installed
 from oracle import BlankSceneRenderer
 from paths import DOCS
+from processes import process
 
 M = TypeVar("M", bound=Message)
 HEAD = """
@@ -189,15 +193,31 @@ def test_a_run_decides_and_words_with_engines_of_other_packages(
         ("decision-heard-AAL123", "ATC", "ATC! ADVISORY! HEARD AAL123"),
         ("decision-heard-DAL456", "ATC", "ATC! ADVISORY! HEARD DAL456"),
     }
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT),
+        installed(tmp_path, monkeypatch, "airhilt.wording", "shouting", WORDING),
+    ):
+        assert replay(result.folder).identical
 
 
 def test_a_worker_of_its_own_process_takes_engines_of_other_packages(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    endpoint = free_endpoint()
     with installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT):
-        worker = reference_worker("decision", "nervous", "mine")
-    assert worker.description.name == "mine"
-    assert [one.key for one in worker.description.inputs] == ["adsb/*"]
+        monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), *sys.path]))
+        command = ("worker", "decision", "--engine", "nervous", "--name", "mine")
+        with process("-m", "airhilt", *command, "--connect", endpoint):
+            result = run(
+                encounter.model_copy(update={"duration_s": 5.0}),
+                out=tmp_path / "run",
+                latency="fixed",
+                speech=False,
+                endpoint=endpoint,
+                attach=("mine",),
+            )
+    told = messages(result, "advisory/", Advisory)
+    assert {one.id for one in told} == {"mine-heard-AAL123", "mine-heard-DAL456"}
 
 
 def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None:
@@ -298,7 +318,7 @@ def test_a_folder_goes_to_the_recogniser_whose_model_is_in_it(
 ) -> None:
     (tmp_path / file).touch()
     if name is None:
-        with pytest.raises(SpeechError, match="there is none of that name; expected embedded,"):
+        with pytest.raises(SpeechError, match="no recogniser knows such files; expected embedded,"):
             RECOGNISERS.choose(str(tmp_path))
     else:
         assert RECOGNISERS.choose(str(tmp_path))[0].name == name

@@ -27,6 +27,7 @@ HASHING_RECOGNISER = """
 import hashlib, sys
 from airhilt.workers import serve
 from airhilt.assistant.asr.engine import Recognised
+from airhilt.audio.pcm import to_pcm
 from airhilt.assistant.asr.worker import AsrWorker
 class Hashing:
     name = "hashing"
