@@ -80,7 +80,7 @@ class RecognitionStatistics(BaseModel):
 
     model_config = ConfigDict(frozen=True)
     snr_db: float | None = Field(
-        description="signal-to-noise ratio of these calls; null: without noise, or not the same for all"
+        description="signal-to-noise ratio; null: without noise, or not the same for all calls"
     )
     calls: int = Field(description="transcripts that were compared with what was said")
     words: int = Field(description="words said in these calls")

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from airhilt.geodesy.wgs84 import Place
+from airhilt.units import NAUTICAL_MILE
 from airhilt.world.surface import path as lines
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.ground_plan import Area, RunwayShape, TaxiwayLeg, ground_plan
@@ -38,9 +40,10 @@ class ReportAirport:
         self._frame = layout.frame
         self._plan = ground_plan(layout)
 
-    def locate(self, latitude_rad: float, longitude_rad: float) -> Local:
-        """Return how far east and north of the reference point a place is, in m."""
-        return self._frame.to_local((latitude_rad, longitude_rad))
+    def locate(self, place: Place, height_m: float) -> Local:  # noqa: ARG002
+        """Return the distance of a place east and north of the reference point, in NM."""
+        east_m, north_m = self._frame.to_local(place)
+        return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
 
     def threshold_crossed_s(
         self, ident: str, t_s: Sequence[float], east_m: Sequence[float], north_m: Sequence[float]

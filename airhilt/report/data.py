@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -21,7 +20,7 @@ from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
 from airhilt.report.sections import Content, Section
 from airhilt.report.text import cut
-from airhilt.report.tracks import Locate, Phases, Projection, State, ThinnedStates, Track
+from airhilt.report.tracks import Locate, Phases, Projection, ThinnedStates, Track
 from airhilt.shapes.sizes import Size
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
@@ -58,6 +57,8 @@ class RunData:
         Time of the last message in the log.
     events
         What happened, as rows of the timeline.
+    locate
+        Returns where a place lies on the plan, in NM east and north of its centre.
     tracks
         Where each actor was, by its callsign.
     pair
@@ -75,6 +76,7 @@ class RunData:
     notes: list[str]
     end_ns: int
     events: Events
+    locate: Locate
     tracks: dict[str, Track]
     pair: list[str] | None
     pair_is_annotated: bool
@@ -139,7 +141,8 @@ def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, Content])
     summary = _summary(folder, notes)
     _note_how_it_ended(info, log, notes)
     airport = _airport(info, notes)
-    tracks = _tracks(log, airport)
+    locate = _locate(log, airport)
+    tracks = _tracks(log, locate)
     pair, annotated = _pair(info, summary, tracks)
     return RunData(
         folder=folder,
@@ -149,6 +152,7 @@ def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, Content])
         notes=notes,
         end_ns=log.end_ns,
         events=log.events,
+        locate=locate,
         tracks=tracks,
         pair=pair,
         pair_is_annotated=annotated,
@@ -264,24 +268,19 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
         return None
 
 
-def _tracks(log: _Log, airport: ReportAirport | None) -> dict[str, Track]:
-    states = {actor: thinned.states() for actor, thinned in log.states.items()}
-    locate: Locate
-    if airport is None:
-        locate = Projection.around(itertools.chain.from_iterable(states.values())).locate
-    else:
-        locate = _around(airport)
+def _locate(log: _Log, airport: ReportAirport | None) -> Locate:
+    """Return the projection of the plan: around the airport, or around the traffic."""
+    if airport is not None:
+        return airport.locate
+    states = [state for thinned in log.states.values() for state in thinned.states()]
+    return Projection.around(states).locate
+
+
+def _tracks(log: _Log, locate: Locate) -> dict[str, Track]:
     return {
-        actor: Track.of(own, log.phases[actor].as_json(), locate) for actor, own in states.items()
+        actor: Track.of(thinned.states(), log.phases[actor].as_json(), locate)
+        for actor, thinned in log.states.items()
     }
-
-
-def _around(airport: ReportAirport) -> Locate:
-    def locate(state: State) -> tuple[float, float]:
-        east_m, north_m = airport.locate(state.latitude_rad, state.longitude_rad)
-        return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
-
-    return locate
 
 
 def _kind(actor: Json) -> Json:
@@ -326,7 +325,8 @@ def _pair(
 
 def _nearest_pair(closest: ClosestApproach, tracks: dict[str, Track]) -> list[str]:
     """Return the two actors whose distance at that time is the one in the summary."""
-    positions = np.array([track.position_m(closest.t_s * SECOND_NS) for track in tracks.values()])
+    t_ns = [round(closest.t_s * SECOND_NS)]
+    positions = np.array([np.ravel(track.positions_m(t_ns)) for track in tracks.values()])
     apart = np.abs(positions[:, None, :] - positions[None, :, :])
     horizontal_m, vertical_m = np.hypot(apart[..., 0], apart[..., 1]), apart[..., 2]
     error_m = np.hypot(horizontal_m - closest.horizontal_m, vertical_m - closest.vertical_m)

@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from airhilt.geodesy.wgs84 import offset_m
+from airhilt.geodesy.wgs84 import Place, offset_m
 from airhilt.report.intervals import Intervals, seconds
 from airhilt.report.text import cut
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 Json = dict[str, Any]
+Values = NDArray[np.float64]
 
 PHASE = re.compile(rb'"phase":\s*("(?:[^"\\]|\\.)*")')
 """The phase in the bytes of a state: parsing each state only to see no change takes too long."""
@@ -104,8 +106,9 @@ class Phases:
         ]
 
 
-Locate = Callable[[State], tuple[float, float]]
-"""Returns the distance of a state east and north of the plan's centre, in NM."""
+Locate = Callable[[Place, float], tuple[float, float]]
+"""Returns the distance of a place east and north of the plan's centre, in NM; the second argument
+is the height of the place above WGS84, in m."""
 
 
 class Projection(NamedTuple):
@@ -128,13 +131,10 @@ class Projection(NamedTuple):
             begin + (min(turns) + max(turns)) / 2.0,
         )
 
-    def locate(self, state: State) -> tuple[float, float]:
-        """Return the distance of a state east and north of the centre at its height, in NM."""
-        north_m, east_m = offset_m(
-            (self.latitude_rad, self.longitude_rad),
-            (state.latitude_rad, state.longitude_rad),
-            state.altitude_m,
-        )
+    def locate(self, place: Place, height_m: float) -> tuple[float, float]:
+        """Return the distance of a place east and north of the centre at its height, in NM."""
+        centre = self.latitude_rad, self.longitude_rad
+        north_m, east_m = offset_m(centre, place, height_m)
         return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
 
 
@@ -153,18 +153,20 @@ class Track(NamedTuple):
     @classmethod
     def of(cls, states: list[State], phases: list[Json], locate: Locate) -> Track:
         """Return the track through some states."""
-        positions = [locate(state) for state in states]
+        positions = [
+            locate((state.latitude_rad, state.longitude_rad), state.altitude_m) for state in states
+        ]
         east_nm, north_nm = [east for east, _ in positions], [north for _, north in positions]
         return cls(states, east_nm, north_nm, phases)
 
-    def position_m(self, t_ns: float) -> tuple[float, float, float]:
-        """Return the distance east, north and up at a time, linearly between two states, in m."""
+    def positions_m(self, t_ns: Sequence[int]) -> tuple[Values, Values, Values]:
+        """Return the distances east, north and up at some times, between two states, in m."""
         times = [state.t_ns for state in self.states]
         heights_m = [state.altitude_m for state in self.states]
         return (
-            float(np.interp(t_ns, times, self.east_nm)) * NAUTICAL_MILE,
-            float(np.interp(t_ns, times, self.north_nm)) * NAUTICAL_MILE,
-            float(np.interp(t_ns, times, heights_m)),
+            np.interp(t_ns, times, self.east_nm) * NAUTICAL_MILE,
+            np.interp(t_ns, times, self.north_nm) * NAUTICAL_MILE,
+            np.interp(t_ns, times, heights_m),
         )
 
     def as_json(self, callsign: str, at_airport: bool) -> Json:

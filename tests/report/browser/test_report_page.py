@@ -299,6 +299,31 @@ def test_hostile_names_at_an_airport_stay_text(page: Page, incursion: Path, tmp_
     assert any(hostile in text for text in texts(page, "phases"))
 
 
+# --- the radar ------------------------------------------------------------------------------
+
+
+def test_a_run_without_radars_has_no_such_section(page: Page, report: Path) -> None:
+    page.open(report)
+    assert page.evaluate("document.getElementById('radar').hidden")
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_plots_are_drawn_with_rings_and_the_last_turn_has_its_codes(
+    page: Page, encounter: Scenario, tmp_path: Path, width: int
+) -> None:
+    options = Options(latency="fixed", speech=False, radar="terminal", out=tmp_path / "run")
+    run(encounter, options)
+    page.open(tmp_path / "run" / "report.html", width=width)
+    plots = page.evaluate("run.sections.radar[0].plots.length")
+    assert page.evaluate("document.querySelectorAll('#radar-0 .plot.past').length") == plots
+    assert page.evaluate("document.querySelectorAll('#radar-0 .range-ring').length") >= 2
+    page.evaluate("clock.set(20)")
+    assert any(re.fullmatch(r"[0-7]{4} A3[45]\d", text) for text in texts(page, "radar-0"))
+    assert "one turn in 4.8 s" in page.evaluate("document.getElementById('radars').textContent")
+    assert page.evaluate("document.querySelectorAll('#radars tbody tr').length") == 2
+    assert page.evaluate("document.scrollingElement.scrollWidth") <= width
+
+
 # --- the radio ------------------------------------------------------------------------------
 
 

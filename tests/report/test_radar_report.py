@@ -1,0 +1,71 @@
+"""What the report of a run shows of its radars."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.cosim.simulation import run
+from airhilt.options import Options
+from airhilt.report import write_report
+from airhilt.report.sections import radar as radar_section
+from airhilt.scenario import Scenario
+
+
+@pytest.fixture(scope="module")
+def folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run of 30 s with a radar that turns once in 4.8 s."""
+    out = tmp_path_factory.mktemp("radar") / "run"
+    options = Options(latency="fixed", speech=False, radar="terminal", out=out)
+    return run(encounter, options).folder
+
+
+def data(folder: Path) -> dict[str, Any]:
+    page = write_report(folder)
+    (script,) = re.findall(
+        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
+    )
+    found: dict[str, Any] = json.loads(script)
+    return found
+
+
+def test_a_radar_is_shown_with_its_period_and_ranges(folder: Path) -> None:
+    (radar,) = data(folder)["sections"]["radar"]
+    assert (radar["site"], radar["kind"], radar["rotation_s"]) == ("terminal", "terminal", 4.8)
+    assert radar["secondary_range_m"] > radar["primary_range_m"] > 100_000.0
+
+
+def test_each_actor_is_detected_in_most_turns(folder: Path) -> None:
+    (radar,) = data(folder)["sections"]["radar"]
+    for one in radar["detected"]:
+        found = one["primary"] + one["secondary"] + one["combined"]
+        assert one["turns"] in (6, 7)
+        assert one["turns"] - 2 <= found <= one["turns"]
+    assert sum(plot["actor"] is None for plot in radar["plots"]) == 0
+
+
+def test_plots_lie_where_the_actor_was(folder: Path) -> None:
+    page = data(folder)
+    (radar,) = page["sections"]["radar"]
+    tracks = {track["callsign"]: track for track in page["tracks"]}
+    for plot in radar["plots"]:
+        track = tracks[plot["actor"]]
+        index = min(range(len(track["t"])), key=lambda i: abs(track["t"][i] - plot["t"]))
+        east_nm = track["east_nm"][index] - plot["east_nm"]
+        north_nm = track["north_nm"][index] - plot["north_nm"]
+        assert math.hypot(east_nm, north_nm) < 0.4
+        assert plot["mode_c_ft"] in (None, *range(34_000, 36_100, 100))
+
+
+def test_more_plots_than_can_be_shown_are_noted(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(radar_section, "MOST_PLOTS", 3)
+    page = data(folder)
+    assert len(page["sections"]["radar"][0]["plots"]) == 3
+    assert any("radar terminal shows the first 3 plots" in note for note in page["notes"])
