@@ -1,6 +1,6 @@
-"""What is said on the radio, both ways: `parse_call` reads a call, the functions of `say` make one.
+"""Phraseology: `parse_call` finds the meaning of a call, and the functions of `say` word one.
 
-Both use one vocabulary; `tokens` shows the words that the reading starts from.
+Both use the same vocabulary. `tokens` returns the words that parsing starts from.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The words that tell an action, and how to read what is said about it.
+"""Forms of actions: their words, and how their details are read.
 
 The forms are those of ICAO Doc 4444, chapter 12, and FAA Order JO 7110.65, chapter 2, section 4,
-and chapter 3, sections 7 to 10, with those that people use instead.
+and chapter 3, sections 7 to 10, and what people say instead.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ from airhilt.phraseology.slots import (
 )
 
 BARE_RUNWAY = 0.85
-"""Confidence in a runway that is told without the word."""
+"""Confidence in a runway that is said without the word."""
 NO_RUNWAY = 0.75
-"""Of an action on a runway that does not tell which."""
+"""Confidence in an action on a runway that is not named."""
 NO_VALUE = 0.6
-"""Of a level, heading or frequency that is missing."""
+"""Confidence in an action whose level, heading or frequency is missing."""
 BARE_VALUE = 0.85
-"""Of one that is told without its word."""
+"""Confidence in a value that is said without its word."""
 
 ANIMALS = (
     "deer", "coyote", "fox", "dog", "animal", "wildlife", "geese", "goose", "gull", "gulls",
@@ -48,23 +48,23 @@ UNITS = (
     "tower", "ground", "approach", "departure", "centre", "control", "radar", "director",
     "delivery", "apron", "ramp", "information", "radio",
 )  # fmt: skip
-"""The last word of a station's callsign (ICAO Annex 10 volume II, 5.2.1.7.1.2)."""
+"""Last words of callsigns of stations (ICAO Annex 10 volume II, 5.2.1.7.1.2)."""
 
 
 class Segment(NamedTuple):
-    """An action's words, and those around it in which its runway and its values may stand."""
+    """The words of an action, and those around it that may hold its runway and its values."""
 
     found: re.Match[str]
     text: str
-    """Of the whole call."""
+    """Text of the whole call."""
     begin: int
-    """Where the words before the action begin that no other action has taken."""
+    """Begin of the words before the action that belong to no other action."""
     limit: int
-    """Where the next action begins."""
+    """Begin of the next action."""
 
     @property
     def start(self) -> int:
-        """Where the action's own words begin."""
+        """Begin of the action's own words."""
         return self.found.start()
 
     @property
@@ -74,7 +74,7 @@ class Segment(NamedTuple):
 
 
 class Read(NamedTuple):
-    """An instruction, and how far its words reach."""
+    """An instruction, with the begin and the end of its words."""
 
     instruction: Instruction
     start: int
@@ -85,7 +85,7 @@ Builder = Callable[[Segment, Action], Read | None]
 
 
 class Form(NamedTuple):
-    """How an action is said: words that begin with one of these, and match."""
+    """One form of an action: a pattern of its words, and the function that reads its details."""
 
     action: Action
     words: re.Pattern[str]
@@ -97,7 +97,7 @@ _BARE_AFTER = re.compile(rf" (?:on )?{RUNWAY}")
 _OTHER_RUNWAY = re.compile(
     r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
 )
-"""Before a runway that is not that of the action, or after one that cannot be read."""
+"""Words before a runway that is not that of the action, or after one that cannot be read."""
 _POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
 _POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
 _VIA = re.compile(rf"(?<!\S)via ((?:(?:and |taxiway )?{TAXIWAY}(?: |$))+)")
@@ -111,15 +111,15 @@ _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)"
 
 
 def _is_immediate(segment: Segment, end: int) -> bool:
-    """Return whether it is to be done at once: told among its words, or right after them."""
+    """Return whether the words of an action, or those right after them, demand it at once."""
     after = _WITHOUT_DELAY.match(segment.text, end, segment.limit)
     return bool(after or _IMMEDIATE.search(segment.text[segment.start : end]))
 
 
 def _on_runway(segment: Segment, action: Action) -> Read | None:
-    """Read an action on a runway, which is told right before it or after it.
+    """Read an action on a runway, which is named right before it or after it.
 
-    One that is told twice, and not the same, is not read.
+    The action is not read if two different runways are named.
     """
     inside = NAMED_RUNWAY.search(segment.found[0])
     before = _BEFORE.search(segment.text[segment.begin : segment.start].rstrip())
@@ -150,7 +150,7 @@ def _on_runway(segment: Segment, action: Action) -> Read | None:
 
 
 def _runway_after(segment: Segment) -> re.Match[str] | None:
-    """Return the runway that is told after an action, and not before the next one."""
+    """Return the runway that is named after an action and does not belong to the next one."""
     bare = _BARE_AFTER.match(segment.after)
     if bare:
         return bare
@@ -168,7 +168,7 @@ def _runway_after(segment: Segment) -> re.Match[str] | None:
 
 
 def _alone(segment: Segment, action: Action) -> Read | None:
-    """Read an action that says everything by itself."""
+    """Read an action without details."""
     return Read(Instruction(action), segment.start, segment.found.end())
 
 
@@ -329,7 +329,7 @@ def _contact(segment: Segment, action: Action) -> Read | None:
 
 
 def _frequency(segment: Segment, action: Action) -> Read | None:
-    """Read a frequency that is told, or read back, alone or after its station."""
+    """Read a frequency that is given or read back, alone or after its station."""
     khz = frequency_khz(segment.found[1], segment.found[2])
     if khz is None:
         return None
@@ -356,7 +356,7 @@ def _approach(segment: Segment, action: Action) -> Read | None:
 
 
 def _place(segment: Segment, action: Action) -> Read | None:
-    """Read an action with the place or the state that it is about, in words."""
+    """Read an action with its place or state in words."""
     said = re.match(r"((?: (?!via |and |then |turn )[a-z0-9]+){1,5})", segment.after)
     if not said:
         return None
@@ -365,7 +365,7 @@ def _place(segment: Segment, action: Action) -> Read | None:
 
 
 def _wildlife(segment: Segment, action: Action) -> Read | None:
-    """Read a report of wildlife, which counts even if it is not clear where."""
+    """Read a report of wildlife, which counts even without a place."""
     read = _on_runway(segment, action)
     if read is None:
         return Read(Instruction(action, confidence=NO_RUNWAY), segment.start, segment.found.end())
@@ -479,6 +479,6 @@ def _by_first_word() -> dict[str, tuple[Form, ...]]:
 
 
 FORMS = _by_first_word()
-"""The ways to say actions, by their first words."""
+"""Forms of actions, by their first words."""
 FREQUENCY_FORM = Form("contact", FREQUENCY, _frequency)
-"""A frequency by itself."""
+"""Form of a frequency without an action."""

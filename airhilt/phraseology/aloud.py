@@ -1,4 +1,4 @@
-"""What is written for the eye, such as an advisory, in words for a voice."""
+"""Written texts, such as advisories, in words for a voice."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ _SECONDS = re.compile(r"\b([0-9]+) s\b")
 
 
 def read_aloud(text: str, recipient: str, style: Style) -> str:
-    """Return a written text as it is spoken to somebody.
+    """Return a written text as it is spoken to its recipient.
 
-    Callsigns, runways, levels and units become words; other numbers stay, as any voice reads
-    them. Who is called is called first.
+    Callsigns, runways, levels and units become words. Other numbers stay as they are, because any
+    voice reads them. The callsign of the recipient comes first.
     """
     if text.startswith(f"{recipient} "):
         text = f"{recipient}, {text.removeprefix(recipient).lstrip()}"

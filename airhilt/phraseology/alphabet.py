@@ -8,16 +8,16 @@ LETTERS = (
     "sierra", "tango", "uniform", "victor", "whiskey", "xray", "yankee", "zulu",
 )  # fmt: skip
 LETTER_OF = {word: word[0].upper() for word in LETTERS}
-"""The letter that a word stands for."""
+"""Letter of each word."""
 LETTER_VARIANTS = {
     "alpha": "alfa", "juliet": "juliett", "whisky": "whiskey", "foxtrott": "foxtrot",
     "zebra": "zulu", "quebeck": "quebec", "seirra": "sierra", "siera": "sierra",
 }  # fmt: skip
-"""Other ways in which people and recognisers write the words."""
+"""Other spellings by people and recognisers."""
 
 
 def spell(text: str) -> list[str]:
-    """Return the words for the letters and the digits of a text, the digits as they are."""
+    """Return the words of the letters of a text, and its digits as they are."""
     return [
         LETTERS[ord(sign) - ord("A")] if "A" <= sign <= "Z" else sign
         for sign in text.upper()

@@ -1,4 +1,4 @@
-"""What a call says, as the parts of it that mean something."""
+"""The meaning of a call."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ Action = Literal[
     "direct", "own_navigation", "squawk", "contact", "monitor", "stand_by", "report",
     "wildlife", "wildlife_gone",
 ]  # fmt: skip
-"""What somebody is to do, or does, or, of wildlife, reports."""
+"""Action that a call orders, reads back, or reports."""
 
 CLEARANCES: frozenset[Action] = frozenset(
     {"cleared_to_land", "cleared_for_takeoff", "line_up", "cross", "proceed", "touch_and_go",
      "low_approach", "cleared_option", "cleared_approach", "backtrack", "taxi", "push_back",
      "start_up"}
 )  # fmt: skip
-"""Actions that need a clearance: none of them is ever guessed."""
+"""Actions that need a clearance, and are therefore never guessed."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
-"""Actions that tell about something instead of doing it."""
+"""Actions that are reports."""
 
 Sense = Literal["climb", "descend", "maintain"]
 Turn = Literal["left", "right"]
@@ -36,20 +36,20 @@ Kind = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Instruction:
-    """One action of a call, and what is said about it.
+    """One action of a call, with its details.
 
-    Two are equal if they mean the same, however sure each is.
+    Two instructions are equal if they mean the same, whatever their confidences.
     """
 
     action: Action
     runway: str | None = None
     """Its designator, such as 01L."""
     position: str | None = None
-    """Where: a taxiway or intersection such as B5, a station, a fix or a place in words."""
+    """Place: a taxiway or intersection such as B5, a station, a fix or a place in words."""
     condition: str | None = None
-    """What must come first, or how long it holds, in words: "behind the landing cessna"."""
+    """Condition or limit in words, such as "behind the landing cessna"."""
     hold_short: str | None = None
-    """The point to hold short of, if it is no runway."""
+    """Point to hold short of, if it is not a runway."""
     via: tuple[str, ...] = ()
     """Taxiways."""
     sense: Sense | None = None
@@ -60,16 +60,16 @@ class Instruction:
     frequency_khz: int | None = None
     squawk: str | None = None
     approach: str | None = None
-    """Its kind, such as ils or visual."""
+    """Kind of approach, such as ils or visual."""
     immediate: bool = False
-    """At once, or without delay."""
+    """Whether it is to be done at once or without delay."""
     confidence: float = field(default=1.0, compare=False)
-    """That this was said, in [0, 1]; see docs/phraseology.md."""
+    """Confidence in [0, 1] that this was said; see docs/phraseology.md."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """A wind that was told; without a direction it is variable, without speed calm."""
+    """A wind: variable if it has no direction, calm if it has no speed."""
 
     direction_deg: float | None
     speed_kt: float
@@ -78,49 +78,49 @@ class Wind:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """What one call says."""
+    """The meaning of one call."""
 
     match: CallsignMatch = NOBODY
     addressed_first: bool = False
-    """It begins with the callsign, as an instruction does; a readback ends with it."""
+    """Whether it begins with the callsign, as an instruction does; a readback ends with it."""
     kind: Kind = "unknown"
     instructions: tuple[Instruction, ...] = ()
     distress: bool = False
-    """It says mayday (ICAO Annex 10 volume II, 5.3.2)."""
+    """Whether it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False
-    """It says pan pan (5.3.3)."""
+    """Whether it says pan pan (5.3.3)."""
     corrected: bool = False
-    """It corrects itself or the call before it."""
+    """Whether it corrects itself or the call before it."""
     negative: bool = False
-    """It begins with "negative", or says "unable"."""
+    """Whether it begins with "negative" or says "unable"."""
     acknowledged: bool = False
-    """It says roger, wilco or the like."""
+    """Whether it says roger, wilco or the like."""
     position: str | None = None
-    """Where the speaker says to be, in words."""
+    """Position that the speaker reports, in words."""
     traffic: tuple[str, ...] = ()
     """Traffic information, in words."""
     wind: Wind | None = None
     pressure_hpa: float | None = None
     """Altimeter setting."""
     confidence: float = 0.0
-    """That all of it is right, in [0, 1]; see docs/phraseology.md."""
+    """Confidence in [0, 1] that all of it is right; see docs/phraseology.md."""
 
     @property
     def callsign(self) -> str | None:
-        """The callsign on the frequency that it names, if it names one and only that."""
+        """Callsign on the frequency that it names; None if there is none, or more than one."""
         return None if self.match.ambiguous else self.match.callsign
 
     @property
     def altitude(self) -> Instruction | None:
-        """The first instruction to climb, to descend or to keep a level."""
+        """First instruction to climb, to descend or to maintain a level."""
         return next((each for each in self.instructions if each.action == "altitude"), None)
 
     @property
     def sense(self) -> Sense | None:
-        """That of the first instruction about a level."""
+        """Sense of the first instruction about a level."""
         return self.altitude.sense if self.altitude else None
 
     @property
     def altitude_ft(self) -> float | None:
-        """That of the first instruction about a level."""
+        """Altitude of the first instruction about a level."""
         return self.altitude.altitude_ft if self.altitude else None

@@ -1,4 +1,4 @@
-"""Whose callsign a call says, among those that are really on the frequency.
+"""Callsigns: which of those on the frequency a call names.
 
 Full callsigns are those of ICAO Annex 10 volume II, 5.2.1.7.2.1; abbreviated ones those of
 5.2.1.7.2.2 (the first sign or the maker, and the last two signs) and of FAA Order JO 7110.65,
@@ -22,32 +22,33 @@ MAKERS = (
     "november", "cessna", "piper", "beech", "cirrus", "bonanza", "baron", "cherokee", "skyhawk",
     "skylane", "diamond", "mooney", "citation", "learjet", "gulfstream", "kingair", "helicopter",
 )  # fmt: skip
-"""What the call of an aircraft of the United States may begin with (FAA AIM 4-2-4)."""
+"""First words of the callsign of an aircraft of the United States (FAA AIM 4-2-4)."""
 VEHICLES = {"PLOW": ("snowplow",), "FIRE": ("firetruck",), "OPS": ("operations",)}
-"""Other ways to say the call of a vehicle than by its letters and number."""
+"""Spoken names of vehicles, by the letters of their callsigns."""
 WAKE = frozenset({"heavy", "super"})
-"""Added to the callsign of a large aircraft (ICAO Doc 4444, 4.9.2; FAA Order JO 7110.65,
+"""Words after the callsign of a large aircraft (ICAO Doc 4444, 4.9.2; FAA Order JO 7110.65,
 2-4-15)."""
 LEADING = frozenset({"okay", "ok", "and", "break", "alright"})
-"""Words before the callsign that begins a call."""
+"""Words that may stand before the callsign at the beginning of a call."""
 
 FULL = 1.0
 """Score of a callsign that is said in full."""
 ABBREVIATED = 0.9
+"""Score of a callsign that is abbreviated."""
 MISSPELT = 0.95
-"""Times how alike the names are, if the number is right."""
+"""Factor for a misspelt name with the right number; the other factor is their similarity."""
 CONTINUED = 0.7
-"""Times that, if a letter follows that could belong to another callsign."""
+"""Factor for a callsign that is followed by a letter, which may belong to another callsign."""
 ONLY_NUMBER = 0.5
-"""If the number is right, but the name is missing or another's."""
+"""Score of a right number whose name is missing or another's."""
 ONLY_NAME = 0.3
-"""If the name is right; the number adds up to as much again, by how alike the two are."""
+"""Score of a right name with another number; the similarity of the numbers at most doubles it."""
 ACCEPTED = 0.6
-"""From this score on, a call is taken to name somebody."""
+"""Least score at which a call is taken to name an actor."""
 ALIKE = 0.7
-"""How alike a name must be to one on the frequency."""
+"""Least similarity of a name with one on the frequency."""
 MARGIN = 0.1
-"""Two candidates that are this close cannot be told apart."""
+"""Difference of scores below which two candidates are ambiguous."""
 
 _LONGEST_NAME = 4
 _AIRLINE = re.compile(r"([A-Z]{3})([0-9][0-9A-Z]{0,3})")
@@ -57,18 +58,18 @@ _NAMED = re.compile(r"([A-Z]+)([0-9]+)")
 
 
 class Form(NamedTuple):
-    """One way to say a callsign."""
+    """One spoken form of a callsign."""
 
     name: str
-    """Its words, joined."""
+    """Words of the name, joined."""
     signs: str
-    """The digits and the letters after it."""
+    """Digits and letters after the name."""
     worth: float = FULL
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Somebody on the frequency who may have been named, with a score in [0, 1]."""
+    """A callsign on the frequency that may have been said, with a score in [0, 1]."""
 
     callsign: str
     score: float
@@ -76,23 +77,23 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class CallsignMatch:
-    """Who of those on the frequency was named, and how well it fits.
+    """The callsign on the frequency that a call says.
 
-    ``callsign`` is that of the best candidate if it is good enough, also if it is ambiguous.
+    ``callsign`` is that of the best candidate if its score is high enough, even if it is ambiguous.
     """
 
     callsign: str | None
     score: float
     ambiguous: bool
     candidates: tuple[Candidate, ...]
-    """Best first."""
+    """Candidates, the best first."""
 
 
 NOBODY = CallsignMatch(None, 0.0, False, ())
 
 
 class Hit(NamedTuple):
-    """A place in a call that may name somebody."""
+    """Words of a call that may be a callsign."""
 
     start: int
     end: int
@@ -105,19 +106,19 @@ class Hit(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Naming:
-    """Where a call names whom."""
+    """The callsigns in a call."""
 
     match: CallsignMatch
     hit: Hit | None = None
     addressed_first: bool = False
     again: tuple[Hit, ...] = ()
-    """Where the same callsign is said again."""
+    """Other places with the same callsign."""
     others: tuple[Hit, ...] = ()
-    """Where somebody else is named, or perhaps."""
+    """Places that name another callsign, or may do so."""
 
 
 def forms(callsign: str) -> tuple[Form, ...]:
-    """Return the ways in which a callsign may be said, the full ones first."""
+    """Return the spoken forms of a callsign, the full ones first."""
     airline = _AIRLINE.fullmatch(callsign)
     if airline and airline[1] in AIRLINES:
         said = (airline[1].lower(), *(_joined(name) for name in names(airline[1])))
@@ -158,17 +159,18 @@ _KNOWN_NAMES = frozenset(_joined(name) for designator in AIRLINES for name in na
 
 @dataclass(frozen=True)
 class Roster:
-    """Those who are on a frequency, by what they are called."""
+    """The callsigns on a frequency, by their spoken forms."""
 
     by_name: dict[str, list[tuple[str, str, float]]] = field(default_factory=dict)
-    """The signs after a name, whose they are, and what they are worth."""
+    """Signs after the name, callsign and score, by name."""
     by_number: dict[str, list[tuple[str, str, str, float]]] = field(default_factory=dict)
-    """By the digits right after the name: the name, all signs, whose, and what it is worth."""
+    """Name, all signs, callsign and score, by the digits right after the name."""
 
     def naming(self, words: list[str]) -> Naming:
-        """Return whom a call names.
+        """Return the callsigns that a call names.
 
-        Of several, it is the one that begins the call, else the one that ends it, else the first.
+        If there are several, the match is the one that begins the call, or else the one that ends
+        it, or else the first.
         """
         hits, near = self._find(words)
         lead = 0
@@ -203,7 +205,7 @@ class Roster:
         return Naming(match, chosen, chosen.start <= lead, again, others)
 
     def _find(self, words: list[str]) -> tuple[list[Hit], list[Hit]]:
-        """Return where a name is said with its number, and where with another."""
+        """Return the places of names with their own numbers, and of names with others."""
         hits: list[Hit] = []
         near: list[Hit] = []
         size = len(words)
@@ -224,7 +226,7 @@ class Roster:
         return hits, near
 
     def _find_misspelt(self, words: list[str]) -> tuple[list[Hit], list[Hit]]:
-        """Return where a number is said after a name that is like its own, or without one."""
+        """Return the places of numbers after a name similar to their own, and of those without."""
         hits: list[Hit] = []
         unnamed: list[Hit] = []
         for at, word in enumerate(words):
@@ -249,12 +251,12 @@ class Roster:
 
 
 def _may_be_taxiway(words: list[str], at: int) -> bool:
-    """Return whether a letter and a number are such as taxiways have."""
+    """Return whether a letter and a number may be a taxiway."""
     return words[at] in LETTER_OF and len(words[at + 1]) <= 2
 
 
 def _names_before(words: list[str], at: int) -> list[tuple[int, str]]:
-    """Return what may be the name before a number: the last one to three words, joined."""
+    """Return possible names before a number: the last one to three words, joined."""
     said: list[tuple[int, str]] = []
     name = ""
     for start in range(at - 1, max(at - _LONGEST_NAME, -1), -1):
@@ -268,7 +270,7 @@ def _names_before(words: list[str], at: int) -> list[tuple[int, str]]:
 def _read(
     words: list[str], start: int, at: int, signs: str, callsign: str, worth: float
 ) -> Hit | None:
-    """Return the hit if the words from ``at`` on say these signs."""
+    """Return the hit if the words from ``at`` on are these signs."""
     read, size, left_over = 0, len(signs), ""
     is_mended = False
     while read < size:
@@ -321,7 +323,7 @@ def _best(chosen: Hit | None, hits: list[Hit]) -> CallsignMatch:
 
 @lru_cache(maxsize=64)
 def roster_of(callsigns: tuple[str, ...]) -> Roster:
-    """Return those on a frequency by what they are called; it is worked out once for each set."""
+    """Return the roster of a frequency; it is computed once for each set of callsigns."""
     roster = Roster()
     for callsign in dict.fromkeys(callsigns):
         for name, signs, worth in forms(callsign):
@@ -335,7 +337,7 @@ def roster_of(callsigns: tuple[str, ...]) -> Roster:
 
 @lru_cache(maxsize=4096)
 def similarity(first: str, second: str) -> float:
-    """Return how alike two texts are, from 0 to 1 if they are equal, by their edit distance."""
+    """Return the similarity of two texts by their edit distance, from 0 to 1 (equal)."""
     if first == second:
         return 1.0
     longest = max(len(first), len(second))

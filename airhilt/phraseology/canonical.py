@@ -1,8 +1,8 @@
-"""Brings what general recognisers write into the form of this project's transcripts.
+"""The form of transcripts, for the output of general recognisers.
 
-Transcripts are lower-case words without punctuation. A runway is the word "runway", its digits
-one by one as words, and its side: "run way 01L", "Runway 1-L" and "RWY one left" are places where
-recognisers differ from each other and from themselves, and the words of a safety case.
+Transcripts are lower-case words without punctuation. A runway is the word "runway", then its digits
+one by one as words, then its side. Recognisers write "run way 01L", "Runway 1-L" or "RWY one left",
+and the same recogniser writes one or the other.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ _PUNCTUATION = " \t\n.,;:!?\"'()[]…"
 
 
 def canonical(words: Iterable[WordConfidence]) -> tuple[WordConfidence, ...]:
-    """Return words in the form of transcripts, each with the confidence of what it came from."""
+    """Return words in the form of transcripts, each with the confidence of its source."""
     return tuple(_runways(list(_joined(_plain(words)))))
 
 
 def _plain(words: Iterable[WordConfidence]) -> Iterator[WordConfidence]:
-    """Yield them in lower case, without punctuation but decimal points."""
+    """Yield words in lower case, without punctuation except decimal points."""
     for text, confidence in words:
         text = text.lower().replace("x-ray", "xray")
         text = re.sub(r"(?<=[0-9]),(?=[0-9]{3})", "", text)
@@ -49,7 +49,7 @@ def _plain(words: Iterable[WordConfidence]) -> Iterator[WordConfidence]:
 
 
 def _joined(words: Iterable[WordConfidence]) -> Iterator[WordConfidence]:
-    """Yield them with "runway" as one word, however it was written."""
+    """Yield words with "runway" as one word, however it was written."""
     waiting: WordConfidence | None = None
     for text, confidence in words:
         if waiting is not None:
@@ -73,7 +73,7 @@ def _joined(words: Iterable[WordConfidence]) -> Iterator[WordConfidence]:
 
 
 def _runways(words: list[WordConfidence]) -> Iterator[WordConfidence]:
-    """Yield them with the designator after each "runway" spelled."""
+    """Yield words with the designator after each "runway" spelled."""
     index = 0
     while index < len(words):
         yield words[index]
@@ -101,7 +101,13 @@ def _runways(words: list[WordConfidence]) -> Iterator[WordConfidence]:
 
 
 def _spelled(text: str, digits: int) -> list[str]:
-    """Return the words of a part of a designator after so many digits; none if it is no part."""
+    """Return the words of a part of a designator, or none if the text is not one.
+
+    Parameters
+    ----------
+    digits
+        Number of digits of the designator before it.
+    """
     if text in SPOKEN_DIGITS:
         return [SPOKEN_DIGITS[text]]
     if digits == 0 and text in TEENS:

@@ -1,16 +1,16 @@
-"""When the words of an action do not mean it: denied, asked, expected, or not yet."""
+"""Words by which an action is denied, asked for, or expected, instead of ordered."""
 
 from __future__ import annotations
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
 
 NAME = "|"
-"""Stands in the words for the callsign of the call."""
+"""Placeholder for the callsign of the call."""
 DENIALS = frozenset(
     {"no", "not", "never", "without", "unable", "neither", "nor", "cancelled", "refuse", "do",
      "cancel", "cancelling", "ignore"}
 )  # fmt: skip
-"""Before any action."""
+"""Words before an action that deny it."""
 OPEN = frozenset(
     {"if", "unless", "when", "until", "once", "before", "whether", "expect", "expecting",
      "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
@@ -18,39 +18,39 @@ OPEN = frozenset(
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
      "need", "intend", "planning"}
 )  # fmt: skip
-"""Before an action that somebody asks for, asks about, or will perhaps be told."""
+"""Words before an action that is asked for, asked about, or only expected."""
 ASKED = frozenset(
     {"did", "does", "why", "what", "who", "how", "could", "would", "should", "can", "may",
      "might", "plan"}
 )  # fmt: skip
-"""Anywhere before a clearance, if no other action stands between."""
+"""Words anywhere before a clearance that make it a question, if no other action stands between."""
 ASKS = frozenset({"is", "are", "am", "was", "were"})
-"""What begins a question."""
+"""First words of a question."""
 OTHERS = frozenset({"is", "was", "were", "are", "be", "has", "have", "been"})
-"""Before a clearance that somebody else has: "traffic is cleared to land"."""
+"""Words before the clearance of another: "traffic is cleared to land"."""
 SOMEBODY = frozenset(
     {"aircraft", "airplane", "aeroplane", "jet", "helicopter", "vehicle", "vehicles", "truck",
      "car", "tug", "somebody", "someone", "company", "boeing", "airbus", "cessna", "piper",
      "citation", "learjet", "gulfstream", "embraer", "bombardier", "heavy", "he", "she", "they"}
 )  # fmt: skip
-"""Right before a clearance, whose that is: "vehicle crossing runway 01"."""
+"""Words right before the clearance of another: "vehicle crossing runway 01"."""
 SPOKEN_OF = frozenset({"follow", "following", "behind", "after", "traffic", "number"})
-"""But it is where these words end, if one of them stands before."""
+"""Words before one of `SOMEBODY` that mean that the clearance is not that aircraft's."""
 OWN = frozenset({("you", "are"), ("we", "are"), ("are", "now"), ("you", "now")})
-"""But these tell, or read back, a clearance."""
+"""Word pairs before a clearance that give it or read it back all the same."""
 BETWEEN = frozenset(
     {"yet", "to", "be", "been", "being", "have", "had", "has", "the", "a", "an", "for",
      "clearance", "get", "now", "still", "runway", "left", "right", "centre", "your", "any", "you",
      "we", "i", "am", "are", "l", "r", "c", "of", "immediate", "immediately", "was", "were",
      "is", "it", "cleared", "clear", "longer", "currently", "actually", "really"}
 )  # fmt: skip
-"""Words that may stand between."""
+"""Words that may stand between a denial and its action."""
 STOPS = DENIALS | OPEN | {"delay"}
-"""Words that are not passed over."""
+"""Words that are never passed over."""
 AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative"})
-"""After a clearance that is none: "cleared to land, cancelled"."""
+"""Words after a clearance that deny it: "cleared to land, cancelled"."""
 CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
-"""Likewise, after "cancel": "line up and wait, cancel that"."""
+"""Words after "cancel" that deny the clearance before it: "line up and wait, cancel that"."""
 _PHRASES = frozenset(
     {("are", "you"), ("are", "we"), ("are", "they"), ("am", "i"), ("is", "he"), ("were", "you"),
      ("were", "we"), ("was", "i"), ("have", "we"), ("have", "i"),
@@ -62,20 +62,20 @@ _PHRASES = frozenset(
 def is_meant(
     words: list[str], first: int, after: int, action: Action, floor: int, before_is_meant: bool
 ) -> bool:
-    """Return whether an action is told or read back, and not denied, asked about or expected.
+    """Return whether an action is ordered or read back, not denied, asked about or expected.
 
     Parameters
     ----------
     first, after
-        Where the words of the action begin, and where they end.
+        Begin and end of the words of the action.
     floor
-        Where the words of the action before it end.
+        End of the words of the action before it.
     before_is_meant
-        Whether that is meant: "do not cross or line up" denies both.
+        Whether the action before it is meant: "do not cross or line up" denies both.
 
     Notes
     -----
-    One word that does not belong there is passed over before a clearance: recognisers put in words.
+    One unknown word before a clearance is passed over, because recognisers insert words.
     """
     if action in CLEARANCES and not _is_own(words, first, after, floor):
         return False
@@ -99,7 +99,7 @@ def is_meant(
 
 
 def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
-    """Return whether a clearance is told to, or read back by, who has it or is to have it now."""
+    """Return whether a clearance belongs to the one who is called or reads it back."""
     ends = words[after : after + 2]
     if words[max(first - 2, floor) : first] in (["cleared", "to"], ["clear", "to"]):
         first -= 2

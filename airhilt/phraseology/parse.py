@@ -1,7 +1,7 @@
-"""From the words of a call to what it says.
+"""The meaning of a call, from its words.
 
-`parse_call` finds who is named (`callsigns`), then what is told (`actions`), leaving out what is
-about somebody else (traffic), what comes first (conditions), and what is not meant (`denials`).
+`parse_call` finds the callsign (`callsigns`), then the actions (`actions`). It leaves out words
+about others (traffic), separates conditions, and drops actions that are not meant (`denials`).
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ from airhilt.phraseology.words import MENDED, Words, words_of
 DISTRESS = "mayday"
 URGENCY = "pan"
 NO_CALLSIGN = 0.5
-"""Confidence in a call that names nobody on the frequency, or two that it cannot tell apart."""
+"""Confidence in a call that names no callsign on the frequency, or two ambiguous ones."""
 CONDITIONS = frozenset({"behind", "after", "when", "until", "before", "once", "if", "unless"})
-"""What begins a condition (ICAO Doc 4444, 12.2.7)."""
+"""First words of a condition (ICAO Doc 4444, 12.2.7)."""
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
-"""What may be said about an action."""
+"""Details of an action."""
 LONGEST_CONDITION = 9
-"""Words."""
+"""Most words in a condition."""
 LONGEST_STATION = 6
-"""Words from "contact" to the frequency."""
+"""Most words from "contact" to the frequency."""
 CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
-"""Actions that a condition with "behind" can stand after."""
+"""Actions that may be followed by a condition with "behind"."""
 
 _TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
 _BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
@@ -71,23 +71,23 @@ NAMED_AFTER = CONDITIONS | {
     "ahead", "via", "taxi", "exit", "vacate", "taxiway", "intersection", "at", "on", "number",
     "than", "or", "departed", "landed",
 }  # fmt: skip
-"""What stands before the callsign of somebody who is not called."""
+"""Words before a callsign that is not the one called."""
 
 
 RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
 
 
 class Found(NamedTuple):
-    """An action's words."""
+    """The words of an action."""
 
     form: Form
     match: re.Match[str]
     first: int
-    """Its first word."""
+    """Index of its first word."""
 
 
 class Span(NamedTuple):
-    """Words that are no instruction: about traffic, or a condition."""
+    """Words about traffic, or a condition: no instruction."""
 
     start: int
     end: int
@@ -95,12 +95,12 @@ class Span(NamedTuple):
 
 
 @dataclass(slots=True)
-class Told:
-    """What a run of words tells."""
+class Content:
+    """The meaning of some words."""
 
     instructions: list[Instruction] = field(default_factory=list)
     doing: list[bool] = field(default_factory=list)
-    """Whether each is told as done now: "climbing"."""
+    """Whether each is being done now, as in "climbing"."""
     traffic: list[str] = field(default_factory=list)
 
 
@@ -109,64 +109,64 @@ def parse_call(
     callsigns: Iterable[str],
     word_confidences: Sequence[float] | None = None,
 ) -> Call:
-    """Return what a call says, its callsign among those that are known on the frequency.
+    """Return the meaning of a call.
 
     Parameters
     ----------
     text
-        As heard, in words or digits.
+        Words of the call, with numbers in words or digits.
     callsigns
-        Of all who are on the frequency.
+        Callsigns on the frequency.
     word_confidences
-        How sure the recogniser is of each word of the text, in [0, 1].
+        Confidence of the recogniser in each word of the text, in [0, 1].
     """
     words = words_of(text, word_confidences)
     naming = roster_of(tuple(callsigns)).naming(words.texts)
     named = _confidence_of_name(words, naming)
     rest = _without_name(words, naming)
-    told = _Reader(rest).read()
-    return _call(naming, rest, told, named)
+    content = _Reader(rest).read()
+    return _call(naming, rest, content, named)
 
 
-def _call(naming: Naming, rest: Words, told: Told, named: float) -> Call:
+def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
     words = rest.texts
     present = set(words)
     text = " ".join(words)
     first = words[1:2] if words[:1] == [NAME] else words[:1]
     corrects = bool({"negative", "correction"}.intersection(first))
-    kind = _kind(naming, words, text, told, corrects)
+    kind = _kind(naming, words, text, content, corrects)
     match = replace(naming.match, score=min(naming.match.score, named))
     certain = match.callsign is not None and not match.ambiguous
-    parts = [each.confidence for each in told.instructions]
+    parts = [each.confidence for each in content.instructions]
     parts.append(match.score if certain else NO_CALLSIGN)
     if kind == "unknown":
         parts.append(0.0)
-    elif not told.instructions:
+    elif not content.instructions:
         parts.append(min(rest.confidences, default=0.0))
     place = None if naming.addressed_first and kind == "instruction" else _PLACES.search(text)
     return Call(
         match=match,
         addressed_first=naming.addressed_first,
         kind=kind,
-        instructions=tuple(told.instructions),
+        instructions=tuple(content.instructions),
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         corrected=corrects or "correction" in present,
         negative="negative" in first or "unable" in present,
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
         position=place[0] if place else None,
-        traffic=tuple(told.traffic),
+        traffic=tuple(content.traffic),
         wind=wind_of(text) if "wind" in present else None,
         pressure_hpa=pressure_of(text) if present & {"altimeter", "qnh", "q"} else None,
         confidence=min(parts),
     )
 
 
-def _kind(naming: Naming, words: list[str], text: str, told: Told, corrects: bool) -> Kind:
+def _kind(naming: Naming, words: list[str], text: str, content: Content, corrects: bool) -> Kind:
     present = set(words)
     doing = [
         doing
-        for each, doing in zip(told.instructions, told.doing, strict=True)
+        for each, doing in zip(content.instructions, content.doing, strict=True)
         if each.action not in REPORTS
     ]
     if "disregard" in present:
@@ -186,8 +186,8 @@ def _kind(naming: Naming, words: list[str], text: str, told: Told, corrects: boo
         return "readback" if ends or not all(doing) else "report"
     reports = (
         present & {DISTRESS, URGENCY, "unable", "negative"}
-        or told.instructions
-        or told.traffic
+        or content.instructions
+        or content.traffic
         or not _ACKNOWLEDGED.isdisjoint(present)
         or _PLACES.search(text)
         or LEVEL.search(text)
@@ -198,7 +198,7 @@ def _kind(naming: Naming, words: list[str], text: str, told: Told, corrects: boo
 
 
 def _confidence_of_name(words: Words, naming: Naming) -> float:
-    """Return how sure the words of the callsign are, and that nothing in it was mended."""
+    """Return the confidence in the words of the callsign, lower if they had to be mended."""
     hit = naming.hit
     if hit is None:
         return 1.0
@@ -207,7 +207,7 @@ def _confidence_of_name(words: Words, naming: Naming) -> float:
 
 
 def _without_name(words: Words, naming: Naming) -> Words:
-    """Return the words with a sign for the callsign of the call, without those for others."""
+    """Return the words with `NAME` for the callsign of the call, and without other callsigns."""
     if naming.hit is None:
         return words
     rest = Words()
@@ -231,78 +231,78 @@ def _without_name(words: Words, naming: Naming) -> Words:
 
 
 def _is_spoken_of(before: str) -> bool:
-    """Return whether the word before a callsign shows that it is not called, but spoken of."""
+    """Return whether the word before a callsign shows that it is not the one called."""
     return before in NAMED_AFTER or before in LETTER_OF or before.endswith("ing")
 
 
 class _Reader:
-    """Reads what words tell, with what corrects or withdraws it."""
+    """Finds the meaning of words, including those that correct or withdraw others."""
 
     def __init__(self, words: Words) -> None:
         self._words = words
 
-    def read(self) -> Told:
-        """Return what all the words tell in the end."""
+    def read(self) -> Content:
+        """Return the meaning after all corrections."""
         texts = self._words.texts
         if "correction" not in texts and "disregard" not in texts:
-            return _told(self._words)
-        told = Told()
+            return _content_of(self._words)
+        content = Content()
         begin, marker = 0, ""
         for at, word in [*enumerate(texts), (len(texts), "")]:
             if at < len(texts) and word not in ("correction", "disregard"):
                 continue
-            self._take(told, begin, at, marker)
+            self._take(content, begin, at, marker)
             begin, marker = at, word
-        return told
+        return content
 
-    def _take(self, told: Told, begin: int, end: int, marker: str) -> None:
-        """Take in the words from a marker on."""
+    def _take(self, content: Content, begin: int, end: int, marker: str) -> None:
+        """Add the meaning of the words from a marker on."""
         part = Words(self._words.texts[begin:end], self._words.confidences[begin:end])
         if marker == "disregard":
-            told.instructions.clear()
-            told.doing.clear()
-            told.traffic.clear()
+            content.instructions.clear()
+            content.doing.clear()
+            content.traffic.clear()
             size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
             if size > 1:
                 part = Words(part.texts[size:], part.confidences[size:])
-        new = _told(part)
-        told.traffic += new.traffic
-        if marker == "correction" and told.instructions:
-            if _corrects_itself(told.instructions[-1], new):
-                _replace(told, new)
+        new = _content_of(part)
+        content.traffic += new.traffic
+        if marker == "correction" and content.instructions:
+            if _corrects_itself(content.instructions[-1], new):
+                _replace(content, new)
                 return
-            corrected = _corrected(told.instructions[-1], " ".join(part.texts[1:]))
+            corrected = _corrected(content.instructions[-1], " ".join(part.texts[1:]))
             if corrected is not None:
-                told.instructions[-1] = corrected
+                content.instructions[-1] = corrected
             elif new.instructions:
-                _replace(told, new)
+                _replace(content, new)
                 return
             else:
-                told.instructions.pop()
-                told.doing.pop()
-        told.instructions += new.instructions
-        told.doing += new.doing
+                content.instructions.pop()
+                content.doing.pop()
+        content.instructions += new.instructions
+        content.doing += new.doing
 
 
-def _corrects_itself(last: Instruction, new: Told) -> bool:
-    """Return whether what follows "correction" is an instruction and not a value of the last."""
+def _corrects_itself(last: Instruction, new: Content) -> bool:
+    """Return whether "correction" is followed by an instruction, not by a value of the last one."""
     return any(
         each.action == last.action or (each.runway and last.runway) for each in new.instructions
     )
 
 
-def _replace(told: Told, new: Told) -> None:
-    """Put corrected instructions in the place of those that they correct."""
+def _replace(content: Content, new: Content) -> None:
+    """Replace instructions by those that correct them."""
     actions = {each.action for each in new.instructions}
-    kept = [i for i, each in enumerate(told.instructions) if each.action not in actions]
-    if len(kept) == len(told.instructions):
+    kept = [i for i, each in enumerate(content.instructions) if each.action not in actions]
+    if len(kept) == len(content.instructions):
         kept.pop()
-    told.instructions[:] = [*(told.instructions[i] for i in kept), *new.instructions]
-    told.doing[:] = [*(told.doing[i] for i in kept), *new.doing]
+    content.instructions[:] = [*(content.instructions[i] for i in kept), *new.instructions]
+    content.doing[:] = [*(content.doing[i] for i in kept), *new.doing]
 
 
 def _corrected(last: Instruction, text: str) -> Instruction | None:
-    """Return an instruction with the value that corrects it; None if there is none to be read."""
+    """Return an instruction with its corrected value; None if there is no such value."""
     sure = min(last.confidence, MENDED)
     if last.runway:
         found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
@@ -321,29 +321,29 @@ def _corrected(last: Instruction, text: str) -> Instruction | None:
     if last.speed_kt and number:
         return replace(last, speed_kt=float(number[1]), confidence=sure)
     if last.frequency_khz and FREQUENCY_FORM.words.match(text):
-        told = _told(words_of(text)).instructions
-        if told:
-            return replace(last, frequency_khz=told[0].frequency_khz, confidence=sure)
+        content = _content_of(words_of(text)).instructions
+        if content:
+            return replace(last, frequency_khz=content[0].frequency_khz, confidence=sure)
     return None
 
 
-def _told(words: Words) -> Told:
-    """Return what words without corrections tell."""
+def _content_of(words: Words) -> Content:
+    """Return the meaning of words without corrections."""
     texts = words.texts
     text = " ".join(texts)
     starts = [0, *accumulate(len(word) + 1 for word in texts)]
     found, spans = _scan(texts, text, starts)
-    told = Told()
+    content = Content()
     for span in spans:
         if span.is_traffic:
-            told.traffic.append(text[span.start : span.end].strip())
+            content.traffic.append(text[span.start : span.end].strip())
             text = _blank(text, span)
     conditions = [span for span in spans if not span.is_traffic]
     plain = text
     for span in conditions:
         plain = _blank(plain, span)
     reads: list[tuple[Read, Found]] = []
-    taken, floor, is_told = 0, 0, True
+    taken, floor, is_said = 0, 0, True
     for index, each in enumerate(found):
         limit = found[index + 1].match.start() if index + 1 < len(found) else len(plain)
         read = each.form.build(Segment(each.match, plain, taken, limit), each.form.action)
@@ -351,9 +351,9 @@ def _told(words: Words) -> Told:
             continue
         taken = read.end
         after = bisect_right(starts, max(each.match.end(), read.end) - 1)
-        is_told = is_meant(texts, each.first, after, each.form.action, floor, is_told)
+        is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
         floor = after
-        if is_told:
+        if is_said:
             reads.append((read, each))
     _attach(conditions, reads, text)
     _merge_levels(reads)
@@ -363,41 +363,41 @@ def _told(words: Words) -> Told:
         after = bisect_right(starts, read.end - 1)
         sure = min(words.confidences[first:after], default=1.0)
         instruction = replace(read.instruction, confidence=read.instruction.confidence * sure)
-        _add(told, instruction, is_doing=texts[each.first].endswith("ing"))
-    return told
+        _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
+    return content
 
 
-def _add(told: Told, instruction: Instruction, *, is_doing: bool) -> None:
-    """Add what is told, once: what is told again may say more of it."""
-    for index, before in enumerate(told.instructions):
+def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:
+    """Add an instruction, or replace one that has fewer of its details."""
+    for index, before in enumerate(content.instructions):
         if _says_all(before, instruction):
             return
         if _says_all(instruction, before):
-            told.instructions[index] = instruction
+            content.instructions[index] = instruction
             return
-    told.instructions.append(instruction)
-    told.doing.append(is_doing)
+    content.instructions.append(instruction)
+    content.doing.append(is_doing)
 
 
 def _says_all(full: Instruction, part: Instruction) -> bool:
-    """Return whether an instruction says all that another does."""
+    """Return whether an instruction has all details of another."""
     return full.action == part.action and all(
         getattr(part, slot) in (None, (), False, getattr(full, slot)) for slot in SLOTS
     )
 
 
 def _blank(text: str, span: Span) -> str:
-    """Return a text without the words of a span, the others where they are."""
+    """Return a text with the words of a span blanked, so that the others keep their places."""
     words = text[span.start : span.end].rstrip()
     return text[: span.start] + "#" * len(words) + text[span.start + len(words) :]
 
 
 def _scan(texts: list[str], text: str, starts: list[int]) -> tuple[list[Found], list[Span]]:
-    """Return the words of actions, and those about traffic and conditions, in their order."""
+    """Return the actions, and the spans of traffic and conditions, in their order."""
     found: list[Found] = []
     spans: list[Span] = []
     open_at: int | None = None
-    """Where the traffic or the condition begins that may still go on."""
+    """Begin of the traffic or the condition that may still go on."""
     is_traffic = False
     free = 0
     for index, word in enumerate(texts):
@@ -432,8 +432,8 @@ def _scan(texts: list[str], text: str, starts: list[int]) -> tuple[list[Found], 
             end = start
             if is_traffic:
                 ahead = re.search(rf"runway {RUNWAY}(?: at \S+)? $", text[open_at:start])
-                is_told = RUNWAY_NEXT.match(text, each.match.end())
-                end = open_at + ahead.start() if ahead and not is_told else start
+                is_said = RUNWAY_NEXT.match(text, each.match.end())
+                end = open_at + ahead.start() if ahead and not is_said else start
             spans.append(Span(open_at, end, is_traffic))
             open_at = None
         found.append(each)
@@ -444,7 +444,7 @@ def _scan(texts: list[str], text: str, starts: list[int]) -> tuple[list[Found], 
 
 
 def _is_traffic(texts: list[str], index: int) -> bool:
-    """Return whether the word "traffic" here is about somebody, and not a circuit."""
+    """Return whether the word "traffic" here means aircraft, not a traffic circuit."""
     return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
         _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
     )
@@ -472,9 +472,10 @@ def _belongs_to(last: Found, each: Found) -> bool:
 
 
 def _attach(conditions: list[Span], reads: list[tuple[Read, Found]], text: str) -> None:
-    """Tell each condition to the action that it belongs to.
+    """Attach each condition to its action.
 
-    That is the next one; of "until", and of a "behind" that ends the call, the one before.
+    That is the next action, or the one before if the condition begins with "until", or with
+    "behind" at the end of the call.
     """
     for span in conditions:
         words = text[span.start : span.end].strip()
@@ -497,12 +498,12 @@ def _attach(conditions: list[Span], reads: list[tuple[Read, Found]], text: str) 
         else:
             continue
         read, each = reads[index]
-        told = replace(read.instruction, condition=words)
-        reads[index] = read._replace(instruction=told), each
+        conditional = replace(read.instruction, condition=words)
+        reads[index] = read._replace(instruction=conditional), each
 
 
 def _merge_levels(reads: list[tuple[Read, Found]]) -> None:
-    """Make one of "climb now, maintain flight level 330"."""
+    """Merge two instructions such as "climb now, maintain flight level 330"."""
     for index in range(len(reads) - 1, 0, -1):
         first, second = reads[index - 1][0].instruction, reads[index][0].instruction
         if (
@@ -511,14 +512,14 @@ def _merge_levels(reads: list[tuple[Read, Found]]) -> None:
             and second.altitude_ft is not None
             and (second.sense == "maintain" or second.sense == first.sense)
         ):
-            told = replace(
+            merged = replace(
                 first,
                 altitude_ft=second.altitude_ft,
                 condition=first.condition or second.condition,
                 immediate=first.immediate or second.immediate,
                 confidence=second.confidence,
             )
-            read = reads[index - 1][0]._replace(instruction=told, end=reads[index][0].end)
+            read = reads[index - 1][0]._replace(instruction=merged, end=reads[index][0].end)
             reads[index - 1 : index + 1] = [(read, reads[index - 1][1])]
 
 

@@ -1,6 +1,6 @@
-"""From what is meant to the words of a call, in the phraseology of the FAA or of ICAO.
+"""The words of a call for its meaning, in the phraseology of the FAA or of ICAO.
 
-What these functions say, `parse_call` reads as the same. FAA: Order JO 7110.65. ICAO: Annex 10
+`parse_call` finds the same meaning in these words. FAA: Order JO 7110.65. ICAO: Annex 10
 volume II, 5.2.1, and Doc 4444, chapter 12.
 """
 
@@ -26,7 +26,7 @@ _APPROACHES = {"ils": "i l s", "rnav": "r nav", "rnp": "r n p", "vor": "v o r", 
 def speak_callsign(callsign: str, style: Style) -> str:
     """Return a callsign in full.
 
-    The number of a flight is told in group form by the FAA (2-4-15 a), digit by digit by ICAO.
+    The FAA says the number of a flight in group form (2-4-15 a), ICAO digit by digit.
     """
     airline = re.fullmatch(r"([A-Z]{3})([0-9]+)([A-Z]*)", callsign)
     if airline and airline[1] in TELEPHONY:
@@ -95,7 +95,7 @@ def speak_speed(speed_kt: float, style: Style) -> str:
 def speak_frequency(frequency_khz: int, style: Style) -> str:
     """Return a frequency.
 
-    ICAO tells six digits, four if the last two are zero (Annex 10 volume II, 5.2.1.7.3.4.3); the
+    ICAO says six digits, or four if the last two are zero (Annex 10 volume II, 5.2.1.7.3.4.3); the
     FAA at most two after the point (7110.65, 2-4-17 i), so only channels of 25 kHz.
     """
     mhz, khz = divmod(frequency_khz, 1000)
@@ -136,9 +136,9 @@ def speak_pressure(hpa: float, style: Style) -> str:
 def speak_instruction(
     callsign: str, instructions: Instruction | Sequence[Instruction], style: Style
 ) -> str:
-    """Return a call that tells somebody to do something."""
-    told = (instructions,) if isinstance(instructions, Instruction) else instructions
-    parts = [_told(each, style, readback=False) for each in told]
+    """Return a call with instructions for an actor."""
+    several = (instructions,) if isinstance(instructions, Instruction) else instructions
+    parts = [_phrase_of(each, style, readback=False) for each in several]
     return _sentence(speak_callsign(callsign, style), *parts)
 
 
@@ -146,21 +146,23 @@ def speak_readback(
     callsign: str, instructions: Instruction | Sequence[Instruction], style: Style
 ) -> str:
     """Return the readback of instructions, or "roger" if there are none."""
-    told = (instructions,) if isinstance(instructions, Instruction) else instructions
-    parts = [_told(each, style, readback=True) for each in told] or ["roger"]
+    several = (instructions,) if isinstance(instructions, Instruction) else instructions
+    parts = [_phrase_of(each, style, readback=True) for each in several] or ["roger"]
     return _sentence(*parts, speak_callsign(callsign, style))
 
 
 def speak_say_again(callsign: str, style: Style = "faa") -> str:
-    """Return the question of somebody who did not understand a call."""
+    """Return the request to repeat a call."""
     return _sentence("say again", speak_callsign(callsign, style))
 
 
-def _told(told: Instruction, style: Style, *, readback: bool) -> str:
-    words = _FORMS[told.action](told, style, readback)
-    if told.condition is None:
+def _phrase_of(instruction: Instruction, style: Style, *, readback: bool) -> str:
+    words = _FORMS[instruction.action](instruction, style, readback)
+    if instruction.condition is None:
         return words
-    condition = re.sub(r"[0-9]+", lambda found: speak_digits(found[0], style), told.condition)
+    condition = re.sub(
+        r"[0-9]+", lambda found: speak_digits(found[0], style), instruction.condition
+    )
     if condition.startswith("until"):
         return f"{words} {condition}"
     return f"{condition}, {words}"
@@ -170,12 +172,12 @@ Speak = Callable[[Instruction, Style, bool], str]
 
 
 def _on_runway(words: str, immediate: str = "") -> Speak:
-    """Return how to tell words about a runway: before them, or after them in a readback."""
+    """Return a form with the runway before its words, or after them in a readback."""
 
-    def speak(told: Instruction, style: Style, readback: bool) -> str:
-        runway = _join(_runway(told, style), _at(told, style))
-        text = (immediate if told.immediate and immediate else words).strip()
-        if readback or not told.runway:
+    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
+        runway = _join(_runway(instruction, style), _at(instruction, style))
+        text = (immediate if instruction.immediate and immediate else words).strip()
+        if readback or not instruction.runway:
             return _join(text, runway)
         return _join(f"{runway},", text)
 
@@ -183,122 +185,138 @@ def _on_runway(words: str, immediate: str = "") -> Speak:
 
 
 def _then_runway(words: str) -> Speak:
-    """Return how to tell words with the runway after them."""
+    """Return a form with the runway after its words."""
 
-    def speak(told: Instruction, style: Style, readback: bool) -> str:
+    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
         del readback
-        delay = "without delay" if told.immediate else ""
-        return _join(words, _runway(told, style), _at(told, style), delay)
+        delay = "without delay" if instruction.immediate else ""
+        return _join(words, _runway(instruction, style), _at(instruction, style), delay)
 
     return speak
 
 
 def _alone(words: str, icao: str | None = None, readback: str | None = None) -> Speak:
-    """Return how to tell words that say everything."""
+    """Return a form that needs no details."""
 
-    def speak(told: Instruction, style: Style, is_readback: bool) -> str:
+    def speak(instruction: Instruction, style: Style, is_readback: bool) -> str:
         text = icao if icao and style == "icao" else words
-        return _join(readback if readback and is_readback else text, _runway(told, style))
+        return _join(readback if readback and is_readback else text, _runway(instruction, style))
 
     return speak
 
 
-def _hold_short(told: Instruction, style: Style, readback: bool) -> str:
+def _hold_short(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    point = _runway(told, style) or (_spell(told.hold_short, style) if told.hold_short else "")
-    return _join("hold short", f"of {point}" if point else "", _at(told, style))
+    point = _runway(instruction, style) or (
+        _spell(instruction.hold_short, style) if instruction.hold_short else ""
+    )
+    return _join("hold short", f"of {point}" if point else "", _at(instruction, style))
 
 
-def _taxi(told: Instruction, style: Style, readback: bool) -> str:
+def _taxi(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    to = _runway(told, style) or (_place(told.position, style) if told.position else "")
-    via = ", ".join(_spell(each, style) for each in told.via)
+    to = _runway(instruction, style) or (
+        _place(instruction.position, style) if instruction.position else ""
+    )
+    via = ", ".join(_spell(each, style) for each in instruction.via)
     return _join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
 
 
-def _vacate(told: Instruction, style: Style, readback: bool) -> str:
+def _vacate(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    if told.immediate:
+    if instruction.immediate:
         verb = "expedite exiting" if style == "faa" else "expedite vacating"
     else:
         verb = "exit" if style == "faa" else "vacate"
-    side = f"to the {told.turn}" if told.turn and told.runway else told.turn or ""
-    return _join(verb, _runway(told, style), side, _at(told, style))
+    side = (
+        f"to the {instruction.turn}"
+        if instruction.turn and instruction.runway
+        else instruction.turn or ""
+    )
+    return _join(verb, _runway(instruction, style), side, _at(instruction, style))
 
 
-def _altitude(told: Instruction, style: Style, readback: bool) -> str:
+def _altitude(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    level = speak_altitude(told.altitude_ft, style) if told.altitude_ft is not None else ""
-    if told.sense in (None, "maintain"):
-        return _join("maintain", level, "immediately" if told.immediate else "")
-    verb = "climb" if told.sense == "climb" else "descend"
-    if told.immediate:
-        verb = "expedite climb" if told.sense == "climb" else "expedite descent"
+    level = (
+        speak_altitude(instruction.altitude_ft, style)
+        if instruction.altitude_ft is not None
+        else ""
+    )
+    if instruction.sense in (None, "maintain"):
+        return _join("maintain", level, "immediately" if instruction.immediate else "")
+    verb = "climb" if instruction.sense == "climb" else "descend"
+    if instruction.immediate:
+        verb = "expedite climb" if instruction.sense == "climb" else "expedite descent"
     return _join(verb, ("and maintain" if style == "faa" else "to") if level else "", level)
 
 
-def _heading(told: Instruction, style: Style, readback: bool) -> str:
+def _heading(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    if told.heading_deg is None:
-        if told.turn:
-            now = "immediately" if told.immediate else ""
-            return _join(f"turn {told.turn}", now, _at(told, style))
-        verb = "maintain" if told.position == "present heading" else "fly"
-        return _join(verb, told.position or "runway heading")
-    heading = f"heading {speak_heading(told.heading_deg, style)}"
-    now = "immediately" if told.immediate else ""
-    return _join(f"turn {told.turn}", now, heading) if told.turn else _join("fly", heading, now)
+    if instruction.heading_deg is None:
+        if instruction.turn:
+            now = "immediately" if instruction.immediate else ""
+            return _join(f"turn {instruction.turn}", now, _at(instruction, style))
+        verb = "maintain" if instruction.position == "present heading" else "fly"
+        return _join(verb, instruction.position or "runway heading")
+    heading = f"heading {speak_heading(instruction.heading_deg, style)}"
+    now = "immediately" if instruction.immediate else ""
+    return (
+        _join(f"turn {instruction.turn}", now, heading)
+        if instruction.turn
+        else _join("fly", heading, now)
+    )
 
 
-def _speed(told: Instruction, style: Style, readback: bool) -> str:
+def _speed(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    if told.speed_kt is None:
+    if instruction.speed_kt is None:
         return "resume normal speed"
-    return f"maintain {speak_speed(told.speed_kt, style)}"
+    return f"maintain {speak_speed(instruction.speed_kt, style)}"
 
 
-def _squawk(told: Instruction, style: Style, readback: bool) -> str:
+def _squawk(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    return _join("squawk", speak_digits(told.squawk or "", style))
+    return _join("squawk", speak_digits(instruction.squawk or "", style))
 
 
 def _station(verb: str) -> Speak:
-    def speak(told: Instruction, style: Style, readback: bool) -> str:
+    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
         del readback
-        khz = told.frequency_khz
+        khz = instruction.frequency_khz
         frequency = speak_frequency(khz, style) if khz is not None else ""
-        return _join(verb, told.position or "", frequency)
+        return _join(verb, instruction.position or "", frequency)
 
     return speak
 
 
-def _approach(told: Instruction, style: Style, readback: bool) -> str:
+def _approach(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    kind = _APPROACHES.get(told.approach or "", told.approach or "")
-    runway = _runway(told, style)
+    kind = _APPROACHES.get(instruction.approach or "", instruction.approach or "")
+    runway = _runway(instruction, style)
     if style == "faa":
         return _join("cleared", kind, runway, "approach")
     return _join("cleared", kind, "approach", runway)
 
 
 def _about(verb: str) -> Speak:
-    def speak(told: Instruction, style: Style, readback: bool) -> str:
+    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
         del readback
-        return _join(verb, _place(told.position, style) if told.position else "")
+        return _join(verb, _place(instruction.position, style) if instruction.position else "")
 
     return speak
 
 
-def _wildlife(told: Instruction, style: Style, readback: bool) -> str:
+def _wildlife(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    where = f"on {_runway(told, style)}" if told.runway else "reported"
-    return _join("wildlife", where, _at(told, style))
+    where = f"on {_runway(instruction, style)}" if instruction.runway else "reported"
+    return _join("wildlife", where, _at(instruction, style))
 
 
-def _wildlife_gone(told: Instruction, style: Style, readback: bool) -> str:
+def _wildlife_gone(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
-    runway = _runway(told, style) or "the runway"
-    return _join("wildlife has left", runway, _at(told, style))
+    runway = _runway(instruction, style) or "the runway"
+    return _join("wildlife has left", runway, _at(instruction, style))
 
 
 _FORMS: dict[Action, Speak] = {
@@ -354,16 +372,16 @@ def _spell(signs: str, style: Style) -> str:
     return " ".join(words)
 
 
-def _runway(told: Instruction, style: Style) -> str:
-    return speak_runway(told.runway, style) if told.runway else ""
+def _runway(instruction: Instruction, style: Style) -> str:
+    return speak_runway(instruction.runway, style) if instruction.runway else ""
 
 
-def _at(told: Instruction, style: Style) -> str:
-    return f"at {_place(told.position, style)}" if told.position else ""
+def _at(instruction: Instruction, style: Style) -> str:
+    return f"at {_place(instruction.position, style)}" if instruction.position else ""
 
 
 def _place(place: str, style: Style) -> str:
-    """Return a taxiway spelled, or a place in words as it is."""
+    """Return a taxiway spelled, or a place in words unchanged."""
     if re.fullmatch(r"[A-Z][0-9]{0,2}", place):
         return _spell(place, style)
     return re.sub(r"[0-9]+", lambda found: speak_digits(found[0], style), place)

@@ -13,25 +13,25 @@ from airhilt.phraseology.call import Wind
 HPA_PER_INHG = 33.8639
 """A conventional inch of mercury (ICAO Annex 5, table 3-3, gives 33.8639 hPa)."""
 GROUND_MHZ = "121"
-"""What may be left out of a frequency of ground control (FAA AIM 4-3-14 b)."""
+"""MHz of ground control, which may be left out of its frequency (FAA AIM 4-3-14 b)."""
 HIGHEST_LEVEL = 660
 SHORTENED = 0.75
-"""Confidence in a number that may be the rest of a longer one: a runway or level of which a digit
-was lost is one, too."""
+"""Confidence in a number that may be part of a longer one. A runway or level that has lost a digit
+is still a runway or level."""
 HIGHEST_FT = 60_000
 TRANSITION_FT = 18_000.0
-"""From here on, levels are flight levels in the United States (14 CFR 91.121); elsewhere each
-state has its own transition altitude (ICAO Doc 8168 volume III, section 2, chapter 1)."""
+"""Transition altitude of the United States, in ft (14 CFR 91.121). Each other state has its own
+(ICAO Doc 8168 volume III, section 2, chapter 1)."""
 TOO_HIGH = 0.6
-"""Confidence in a level from there on in feet: "to four thousand" sounds like 24,000."""
+"""Confidence in a level in feet from `TRANSITION_FT` on: "to four thousand" sounds like 24,000."""
 
 NUMBER_ENDS = r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes))"
-"""A number that something else belongs to is no runway."""
+"""Pattern after a number that is not followed by a unit, and so may be a runway."""
 SIDE = (
     r"(?: (left|right|centre|l|r|c)(?!\S)"
     r"(?! (?:downwind|base|crosswind|closed|pattern|heading|turn(?! (?:left|right)))))"
 )
-"""Of a parallel runway; but "runway 01 left downwind" is about the circuit."""
+"""Pattern of the side of a parallel runway; "runway 01 left downwind" is about the circuit."""
 RUNWAY = rf"(0?[1-9]|[12][0-9]|3[0-6])(?!\S){NUMBER_ENDS}{SIDE}?"
 NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
 
@@ -65,19 +65,19 @@ def designator(number: str, side: str | None) -> str:
 
 
 def runway_confidence(number: str) -> float:
-    """Return how sure a runway is by its number: one digit may be the rest of two."""
+    """Return the confidence in a runway by its number: one digit may be part of two."""
     return 1.0 if len(number) == 2 else SHORTENED
 
 
 def level_confidence(found: re.Match[str]) -> float:
-    """Return how sure a `LEVEL` is: two digits of a flight level may be the rest of three."""
+    """Return the confidence in a `LEVEL`: two digits of a flight level may be part of three."""
     if found[1]:
         return SHORTENED if len(found[1]) == 2 else 1.0
     return feet_confidence(level_ft(found) or 0.0)
 
 
 def feet_confidence(feet: float) -> float:
-    """Return how sure a level is that was told in feet."""
+    """Return the confidence in a level that was given in feet."""
     return 1.0 if feet < TRANSITION_FT else TOO_HIGH
 
 
@@ -100,8 +100,7 @@ def level_ft(found: re.Match[str]) -> float | None:
 def frequency_khz(mhz: str, fraction: str) -> int | None:
     """Return a frequency of the aeronautical VHF band.
 
-    Of two decimals that end in 2 or 7, the last is a 5 that was left out (FAA Order JO 7110.65,
-    2-4-17 i).
+    After two decimals that end in 2 or 7, a 5 was left out (FAA Order JO 7110.65, 2-4-17 i).
     """
     if len(fraction) == 2 and fraction[1] in "27":
         fraction += "5"
@@ -110,7 +109,7 @@ def frequency_khz(mhz: str, fraction: str) -> int | None:
 
 
 def wind_of(text: str) -> Wind | None:
-    """Return the wind that a call tells."""
+    """Return the wind in a call."""
     found = WIND.search(text)
     if not found:
         return None
@@ -124,7 +123,7 @@ def wind_of(text: str) -> Wind | None:
 
 
 def pressure_of(text: str) -> float | None:
-    """Return the altimeter setting that a call tells, from inches of mercury or hectopascals."""
+    """Return the altimeter setting in a call, given in inches of mercury or hectopascals."""
     found = PRESSURE.search(text)
     if not found:
         return None

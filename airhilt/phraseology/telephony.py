@@ -1,4 +1,4 @@
-"""What airlines are called on the radio (telephony designators of ICAO Doc 8585)."""
+"""Names of airlines on the radio (telephony designators of ICAO Doc 8585)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Airline(NamedTuple):
-    """An airline, as on the radio and in the register."""
+    """An airline: its names on the radio and in the register."""
 
     designator: str
     telephony: str
@@ -22,9 +22,9 @@ def _load() -> dict[str, Airline]:
 
 
 AIRLINES = _load()
-"""By ICAO designator."""
+"""Airlines by ICAO designator."""
 TELEPHONY = {designator: airline.telephony for designator, airline in AIRLINES.items()}
-"""What an airline is called, by ICAO designator."""
+"""Telephony designators by ICAO designator."""
 ALSO_CALLED = {
     "AFR": ("air france",), "ANA": ("all nippon airways",), "CES": ("china eastern airlines",),
     "CPA": ("cathay pacific",), "EJA": ("exec jet",), "JAL": ("japan air",),
@@ -32,9 +32,9 @@ ALSO_CALLED = {
     "QTR": ("qatar",), "SVA": ("saudi",),
     "TAP": ("tap", "tap portugal"), "TUI": ("tui fly",), "UPS": ("ups",), "WZZ": ("wizz air",),
 }  # fmt: skip
-"""What people say for it instead, though the register does not have it."""
+"""Names that people use although the register does not have them, by ICAO designator."""
 
 
 def names(designator: str) -> tuple[str, ...]:
-    """Return what the flights of an airline may be called, the registered name first."""
+    """Return the names of an airline on the radio, the registered one first."""
     return (TELEPHONY[designator], *ALSO_CALLED.get(designator, ()))

@@ -1,4 +1,4 @@
-"""From what a transcript has to words: fillers left out, sounds mended, digits joined to numbers.
+"""Words of a transcript, without fillers, with misheard words mended and numbers in digits.
 
 The same call may come as ``Runway 01L``, ``runway zero one left`` or ``run way o one left``; its
 words are ``runway 01 left`` here, or ``runway 01 l``.
@@ -15,7 +15,7 @@ from airhilt.phraseology.alphabet import LETTER_VARIANTS
 from airhilt.phraseology.numbers import DIGITS, SOUNDS, TEENS, TENS
 
 MENDED = 0.9
-"""Confidence in a word that was put for one that sounds like it."""
+"""Factor on the confidence in a word that replaces one that sounds like it."""
 
 FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uhm", "please"})
 
@@ -38,7 +38,7 @@ SPELLINGS: dict[str, tuple[str, ...]] = {
     "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
     "ft": ("feet",), "rwy": ("runway",), "hdg": ("heading",),
 }  # fmt: skip
-"""Other ways to write words, as good as these."""
+"""Other spellings of words, with the same confidence."""
 SOUNDALIKES: dict[str, tuple[str, ...]] = {
     "write": ("right",), "rite": ("right",), "wright": ("right",), "runaway": ("runway",),
     "runways": ("runway",), "decent": ("descent",), "decend": ("descend",), "clime": ("climb",),
@@ -47,7 +47,7 @@ SOUNDALIKES: dict[str, tuple[str, ...]] = {
     "maintane": ("maintain",), "disreguard": ("disregard",), "nein": ("niner",),
     "niners": ("niner",), "wun": ("one",), "ait": ("eight",), "mayday's": ("mayday",),
 }  # fmt: skip
-"""What recognisers write for words that sound like it."""
+"""Words that recognisers write for others that sound like them."""
 PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "take": {"off": ("takeoff",)},
     "run": {"way": ("runway",)},
@@ -72,17 +72,17 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "start": {"up": ("startup",)},
     "back": {"track": ("backtrack",)},
 }  # fmt: skip
-"""Likewise for two words, of which the first is the key."""
+"""The same for two words; the key is the first."""
 _SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "read", "push", "start", "back"})
-"""First words of pairs that are only written otherwise, not heard wrongly."""
+"""First words of pairs that are only spelled differently, not misheard."""
 
 UNITS = frozenset(
     {"thousand", "hundred", "mile", "miles", "knots", "feet", "degrees", "oclock", "minutes",
      "nautical"}
 )  # fmt: skip
-"""Words that make what stands before them a number of its own."""
+"""Words before which a number ends."""
 WIDTHS = {"runway": 2, "heading": 3, "level": 3, "decimal": 3}
-"""How many digits follow a word."""
+"""Number of digits that follow a word."""
 _AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clear", "line"})
 
 
@@ -95,18 +95,18 @@ class Raw(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """The words of a call, and how sure each is in [0, 1]."""
+    """The words of a call, with a confidence in [0, 1] for each."""
 
     texts: list[str] = field(default_factory=list)
     confidences: list[float] = field(default_factory=list)
 
     def add(self, text: str, confidence: float) -> None:
-        """Add a word."""
+        """Append a word."""
         self.texts.append(text)
         self.confidences.append(confidence)
 
     def take(self, others: Words, start: int, end: int) -> None:
-        """Add some of other words."""
+        """Append a range of other words."""
         self.texts.extend(others.texts[start:end])
         self.confidences.extend(others.confidences[start:end])
 
@@ -117,7 +117,7 @@ class Words:
 
 
 def tokens(text: str) -> list[str]:
-    """Return the lower-case words of a call with spoken digits as digits, joined to numbers.
+    """Return the lower-case words of a call, with spoken numbers in digits.
 
     ``flight level three five zero`` gives ``flight level 350``. A comma ends a number.
     """
@@ -125,12 +125,12 @@ def tokens(text: str) -> list[str]:
 
 
 def words_of(text: str, confidences: Sequence[float] | None = None) -> Words:
-    """Return the words of a call, with the confidence of the words that each is made of.
+    """Return the words of a call, each with the least confidence of the words that it replaces.
 
     Raises
     ------
     ValueError
-        There is not one confidence for each word.
+        The number of confidences is not that of the words.
     """
     return _join(_mend(_split(text, confidences)))
 
@@ -160,7 +160,7 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
 
 
 def _mend(raw: list[Raw]) -> list[Raw]:
-    """Leave out fillers and mend what is written otherwise or heard as something else."""
+    """Leave out fillers, unify spellings, and mend words that were misheard."""
     mended: list[Raw] = []
     raw = [each for each in raw if each.text not in FILLERS]
     at, size = 0, len(raw)
@@ -231,7 +231,7 @@ def _join(raw: list[Raw]) -> Words:
 
 
 def _add_below_hundred(words: Words, raw: list[Raw], at: int) -> int:
-    """Take the tens after "hundred" into the number; return where it ends."""
+    """Add the tens after "hundred" to the number, and return the index after it."""
     if at == len(raw):
         return at
     word, confidence = raw[at]
@@ -249,15 +249,15 @@ def _add_below_hundred(words: Words, raw: list[Raw], at: int) -> int:
 
 
 def _is_long_literal(raw: list[Raw], at: int) -> bool:
-    """Return whether a number was written here that is complete."""
+    """Return whether a complete number was written here."""
     return at >= 0 and raw[at].text[0].isdigit() and len(raw[at].text) >= 3
 
 
 def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool:
     """Return whether a word before ``at`` that sounds like a digit is one.
 
-    It is one between two digits, and after "runway" and the like if as many digits as belong
-    there follow it; but not before a number that has its unit, as in "180 to 4 miles".
+    It is a digit between two digits, and after "runway" and the like if it completes the usual
+    number of digits there. It is none before a number with a unit, as in "180 to 4 miles".
     """
     sound = raw[at - 1].text
     following = raw[at].text if at < len(raw) else ""
@@ -281,7 +281,7 @@ def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool
 
 
 def _digits_from(raw: list[Raw], at: int) -> tuple[int, str]:
-    """Return how many digits follow, and the word after them."""
+    """Return the number of digits that follow, and the word after them."""
     count = 0
     while at < len(raw):
         word = raw[at].text
