@@ -15,6 +15,7 @@ from airhilt.report import write_report
 from airhilt.report.page import _inline
 from airhilt.report.sections import load_sections
 from engine_package import installed
+from paths import DOCS
 from radio_folder import RadioFolder
 
 HOSTILE = "</script><script>alert(1)</script><!-- <img src=x onerror=alert(2)>"
@@ -116,6 +117,21 @@ def test_a_section_that_cannot_be_loaded_is_named_and_the_rest_is_shown(
     page = data(write_report(run_folder))
     assert any("'speakers' cannot be shown" in note for note in page["notes"])
     assert len(page["sections"]["radio"]["calls"]) == 1
+
+
+def test_the_example_of_the_documentation_is_a_section(
+    run_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = (DOCS / "report.md").read_text("utf-8")
+    blocks = dict(re.findall(r"```(python|html|js)\n(.*?)```", text, re.DOTALL))
+    source = blocks["python"] + "\nENGINE = SECTION\n"
+    group = "airhilt.report_sections"
+    with installed(tmp_path, monkeypatch, group, "speakers", source) as package:
+        (tmp_path / f"{package}.html").write_text(blocks["html"])
+        (tmp_path / f"{package}.js").write_text(blocks["js"])
+        html = write_report(run_folder).read_text()
+    assert "<p>Tower: 1 calls</p>" in html
+    assert 'byId("last-speaker")' in html
 
 
 def test_a_script_cannot_end_its_element() -> None:
