@@ -11,18 +11,15 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 
-from airhilt.cosim.recorded import Recorded
+import airhilt
 from airhilt.cosim.replay import replay
-from airhilt.cosim.simulation import run
 from airhilt.errors import ScenarioError, SensorError
 from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
-from airhilt.options import Options
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.base import FAMILY, RESERVED, sensor_messages
 from airhilt.sim.worker import Input
-from airhilt.workers import LocalWorker, Step
-from airhilt.workers.pool import Participant
+from airhilt.workers import Step
 from airhilt.world.loading import load_text
 from paths import ROOT
 
@@ -79,17 +76,11 @@ class Subscriber:
 
 
 def go(
-    scenario: Scenario, folder: Path, worker: Subscriber | None = None, **options: object
+    scenario: Scenario, folder: Path, worker: Subscriber | None = None
 ) -> list[tuple[str, dict[str, object]]]:
     """Run, and return the messages on ``loop/...``."""
-    workers = (
-        () if worker is None else (Participant(worker.description, LocalWorker(worker), False),)
-    )
-    run(
-        scenario,
-        Options(out=folder, latency="fixed", cameras=False, speech=False, **options),  # type: ignore[arg-type]
-        recorded=Recorded(workers=workers),
-    )
+    workers = [] if worker is None else [worker]
+    airhilt.run(scenario, out=folder, latency="fixed", cameras=False, speech=False, workers=workers)
     log = read_log(folder / "log.mcap")
     return [(m.key, json.loads(m.data)) for m in log if m.key.startswith("loop/")]
 
