@@ -38,7 +38,7 @@ from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import WildlifeSpec
-from airhilt.sensors.base import SensorContext, start_sensors
+from airhilt.sensors.base import Sensor, SensorContext, start_sensors
 from airhilt.sensors.radio.backends import FallbackRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
@@ -173,7 +173,7 @@ class Simulation:
         self._router.listen(self._pool.offer)
         self._router.listen(self._radio.take)
         self._router.listen(self._advisories.take)
-        self._sensors = start_sensors(setup.sensor_types, self._sensor_context())
+        self._sensors: list[Sensor] = []
         vision.mount(
             self._director,
             self._router,
@@ -267,6 +267,7 @@ class Simulation:
         try:
             self._set_modalities()
             self._brief()
+            self._sensors += start_sensors(self._setup.sensor_types, self._sensor_context())
             self._vision.start()
             self._director.run()
         except BaseException as error:

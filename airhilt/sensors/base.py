@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, runtime_checkable
 
-from airhilt.errors import ScenarioError, SensorError
+from airhilt.errors import AirhiltError, ScenarioError, SensorError
 from airhilt.library import nearest
 from airhilt.messages import WORKER_OUTPUTS, Message
 from airhilt.plugins import Family
@@ -159,18 +159,26 @@ def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[S
     """
     sensors = []
     for sensor_type in types:
-        name = sensor_type.name
-        sensor = sensor_type.create(
-            replace(
-                context,
-                publish=_publish_below(name, context.publish),
-                settings=context.scenario.sensors.get(name),
-            )
-        )
+        sensor = _create(sensor_type, context)
         if sensor is not None:
             sensor.start()
             sensors.append(sensor)
     return sensors
+
+
+def _create(sensor_type: SensorType, context: SensorContext) -> Sensor | None:
+    name = sensor_type.name
+    settings = context.scenario.sensors.get(name)
+    publish = _publish_below(name, context.publish)
+    try:
+        return sensor_type.create(replace(context, publish=publish, settings=settings))
+    except AirhiltError:
+        raise
+    except Exception as error:
+        raise SensorError(
+            f"sensor {name!r} cannot be made with the settings {settings!r}: "
+            f"{type(error).__name__}: {error}; see sensors/{name} in the scenario"
+        ) from error
 
 
 def _load(name: str) -> SensorType:

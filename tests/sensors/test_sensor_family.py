@@ -145,6 +145,14 @@ def test_settings_for_a_sensor_that_is_not_installed_are_refused(
         go(asking, tmp_path / "run")
 
 
+def test_settings_that_the_sensor_does_not_take_are_named(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    asking = scenario.model_copy(update={"sensors": {"loop": {"lat": 38.85}}})
+    with pytest.raises(SensorError, match=r"'loop' cannot be made .* KeyError: 'lat_deg'"):
+        go(asking, tmp_path / "run")
+
+
 def test_a_sensor_publishes_on_no_key_but_its_own(
     installed: Path, scenario: Scenario, tmp_path: Path
 ) -> None:
