@@ -3,12 +3,14 @@
     airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach plain
     python examples/plain_zenoh_worker.py tcp/127.0.0.1:7447
 
-Because it takes no grants the run goes by the wall clock, and what it says counts when it arrives.
-It warns the controller as soon as two aircraft are at one level.
+The two may be started in either order. Because the program takes no grants, the run goes by the
+wall clock, and an advisory counts when it arrives. The program warns the controller as soon as two
+aircraft are at one level.
 """
 
 import json
 import sys
+import time
 from typing import Any
 
 import zenoh
@@ -16,10 +18,12 @@ import zenoh
 config = zenoh.Config()
 config.insert_json5("mode", '"client"')
 config.insert_json5("connect/endpoints", json.dumps([sys.argv[1]]))
+config.insert_json5("connect/timeout_ms", "60000")  # wait a minute for the run to come up
 config.insert_json5("scouting/multicast/enabled", "false")
 session = zenoh.open(config)
-answer = next(iter(session.get("airhilt/*/clock"))).ok
-assert answer is not None, "the run answered with an error"
+while not (answers := [reply.ok for reply in session.get("airhilt/*/clock") if reply.ok]):
+    time.sleep(0.1)
+answer = answers[0]
 prefix = str(answer.key_expr).removesuffix("/clock")
 reports: dict[str, dict[str, Any]] = {}
 
@@ -48,4 +52,4 @@ token = session.liveliness().declare_token(f"{prefix}/worker/plain")
 for sample in clock:
     if json.loads(sample.payload.to_bytes())["phase"] in ("finished", "stopped"):
         break
-session.close()  # type: ignore[no-untyped-call]
+session.close()  # type: ignore[no-untyped-call]  # without it the process hangs at its exit

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
-import textwrap
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
@@ -96,7 +95,7 @@ def test_a_program_without_grants_that_dies_is_noticed_too(
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
     options = {"listen": endpoint, "attach": ("plain",), "strict": strict, "observer": Kills()}
-    with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
+    with process(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
         if strict:
             with pytest.raises(RunStopped, match="plain"):
                 run(short, out=tmp_path / "run", **options)
@@ -166,39 +165,12 @@ def test_the_example_in_plain_zenoh_makes_the_run_real_time_and_counts(
 ) -> None:
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
-    with Retrying(EXAMPLES / "plain_zenoh_worker.py", endpoint):
+    with process(EXAMPLES / "plain_zenoh_worker.py", endpoint):
         result = run(short, out=tmp_path / "run", listen=endpoint, attach=("plain",))
     assert RunFolder(result.folder).info().pace == "realtime"
     assert RunFolder(result.folder).info().unregistered_programs
     assert [told.id for told in result.summary.advisories] == ["plain-1"]
     assert replay(result.folder).identical
-
-
-class Retrying:
-    """Starts a program once a run listens: plain programs do not wait for it."""
-
-    def __init__(self, program: Path, endpoint: str) -> None:
-        wait = textwrap.dedent(
-            f"""
-            import runpy, socket, sys, time
-            host, port = {endpoint.removeprefix("tcp/")!r}.split(":")
-            while True:
-                try:
-                    socket.create_connection((host, int(port))).close()
-                    break
-                except OSError:
-                    time.sleep(0.05)
-            sys.argv = ["program", {endpoint!r}]
-            runpy.run_path({str(program)!r}, run_name="__main__")
-            """
-        )
-        self._process = process("-c", wait)
-
-    def __enter__(self) -> subprocess.Popen[bytes]:
-        return self._process.__enter__()
-
-    def __exit__(self, *error: object) -> None:
-        self._process.__exit__(None, None, None)
 
 
 BAD_WORKER = """
