@@ -1,7 +1,7 @@
-"""``audio/``: what was on the air and what the assistant said, a WAV file each.
+"""``audio/``: the sound of each transmission and spoken advisory, a WAV file each.
 
-The files are named after the messages that they belong to, whose SHA-256 is in the log, so that
-the log vouches for them.
+The files are named after their messages. The log has the SHA-256 of the samples, so that a file can
+be checked against it.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def recorded_pcm(folder: Path, message: Recorded) -> bytes:
     Raises
     ------
     RunFolderError
-        Its file is missing, or holds something else than the message vouches for.
+        Its file is missing, or has other samples than the message says.
     """
     path = audio_file(folder, message)
     try:

@@ -40,11 +40,11 @@ OF_EXTRAS = (
     "faster-whisper",
     "coqui-tts",
 )
-"""Recorded where they are installed."""
+"""Packages of extras, whose versions are recorded where they are installed."""
 
 
 class WorkerRecord(BaseModel):
-    """A worker that took part."""
+    """A worker that took part in the run."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     description: WorkerDescription
@@ -53,7 +53,7 @@ class WorkerRecord(BaseModel):
 
 
 class RunInfo(BaseModel):
-    """``run.json``: all that it takes to run it again, and how it went."""
+    """``run.json``: everything needed to run it again, and how it ended."""
 
     model_config = ConfigDict(extra="forbid")
     format: int = FORMAT
@@ -94,7 +94,7 @@ class RunInfo(BaseModel):
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of AIRHILT and of what decides its results."""
+    """Return the versions of AIRHILT and of the packages that decide its results."""
     found = {name: importlib.metadata.version(name) for name in RECORDED_VERSIONS}
     for name in OF_EXTRAS:
         with suppress(importlib.metadata.PackageNotFoundError):
@@ -103,7 +103,7 @@ def versions() -> dict[str, str]:
 
 
 def machine() -> dict[str, str]:
-    """Return what machine this is."""
+    """Return the operating system and the machine."""
     return {
         "system": platform.system(),
         "release": platform.release(),
@@ -113,7 +113,7 @@ def machine() -> dict[str, str]:
 
 
 class RunFolder:
-    """Paths in a run folder, and `RunInfo` in and out of it."""
+    """The paths in a run folder; reads and writes its `RunInfo`."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -127,7 +127,7 @@ class RunFolder:
         self.video_path = path / "video"
 
     def require_free(self, overwrite: bool = False) -> None:
-        """Check that a run can be written here, without writing anything.
+        """Check that a run can be written here; nothing is written.
 
         Raises
         ------
@@ -156,12 +156,12 @@ class RunFolder:
             )
 
     def create(self, overwrite: bool = False) -> None:
-        """Make the folder, or empty it of an earlier run; other files in it stay.
+        """Make the folder, or delete the files of an earlier run in it; other files stay.
 
         Raises
         ------
         RunFolderError
-            As `require_free`.
+            As for `require_free`.
         """
         self.require_free(overwrite)
         try:
@@ -176,7 +176,7 @@ class RunFolder:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """All that a run has written or will write."""
+        """All files that a run has written or will write."""
         return (
             *sorted(self.audio_path.glob("*.wav")),
             *sorted(self.pictures_path.glob("*.png")),
@@ -222,7 +222,7 @@ class RunFolder:
             raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
 
     def info(self) -> RunInfo:
-        """Return what ``run.json`` says.
+        """Return the content of ``run.json``.
 
         Raises
         ------
@@ -239,7 +239,7 @@ class RunFolder:
             ) from None
 
     def summary(self) -> dict[str, Any] | None:
-        """Return ``summary.json``, or None where the run did not come to write it."""
+        """Return ``summary.json``, or None if the run did not write it."""
         try:
             loaded: dict[str, Any] = json.loads(self.summary_path.read_text(encoding="utf-8"))
         except (OSError, json.JSONDecodeError):

@@ -11,7 +11,7 @@ from airhilt.sim import StepRecord
 
 
 class LatencyLog:
-    """Writes one line a step; each is with the operating system as soon as it is written."""
+    """Writes one line for each step; the operating system has it at once."""
 
     def __init__(self, path: Path) -> None:
         self._stream = path.open("w", encoding="utf-8", buffering=1)
@@ -22,7 +22,7 @@ class LatencyLog:
         Raises
         ------
         RunFolderError
-            The disk is full or gone; so in the other methods.
+            The disk is full or gone. The other methods raise the same.
         """
         self._write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
@@ -33,7 +33,7 @@ class LatencyLog:
         )
 
     def lost(self, worker: str, t_ns: int, cause: str) -> None:
-        """Write that a worker was lost."""
+        """Write the loss of a worker."""
         row = {"worker": worker, "t_ns": t_ns, "lost": cause}
         self._write(json.dumps(row) + "\n")
 
@@ -53,7 +53,7 @@ class LatencyLog:
 
 @dataclass
 class Loss:
-    """When and why a worker was lost."""
+    """The loss of a worker: when, and why."""
 
     t_ns: int
     cause: str
@@ -61,7 +61,7 @@ class Loss:
 
 @dataclass
 class UnfinishedStep:
-    """A step that did not come to its end, and when it would have been due."""
+    """A step that did not end, and when it would have."""
 
     seq: int
     due_ns: int
@@ -69,14 +69,14 @@ class UnfinishedStep:
 
 @dataclass
 class RecordedLatencies:
-    """What a latency log says."""
+    """The content of a latency log."""
 
     latencies_ns: dict[str, dict[int, int]] = field(default_factory=dict)
     outputs: dict[str, dict[int, int]] = field(default_factory=dict)
     wakes_ns: dict[str, dict[int, int | None]] = field(default_factory=dict)
     losses: dict[str, Loss] = field(default_factory=dict)
     unfinished: dict[str, UnfinishedStep] = field(default_factory=dict)
-    """What each worker had in hand when it was lost, or when the run ended."""
+    """The step that each worker had begun when it was lost, or when the run ended."""
 
 
 def read_latencies(path: Path) -> RecordedLatencies:

@@ -22,9 +22,9 @@ from pydantic import BaseModel
 from airhilt.errors import RunFolderError, disk_failed
 
 BROKEN = (McapError, struct.error, zstandard.ZstdError, KeyError, UnicodeDecodeError)
-"""What reading a log raises where it breaks off or is damaged."""
+"""Exceptions of a log that breaks off or is damaged."""
 CHUNK_BYTES = 4_000_000
-"""Larger than a second of any run: chunks end at the flushes."""
+"""Size of a chunk of the file, in bytes: more than a second of any run has, so flushes end chunks."""
 
 
 class Logged(NamedTuple):
@@ -52,7 +52,7 @@ class LogWriter:
     def write(
         self, key: str, publisher: str, model: type[BaseModel], t_ns: int, data: bytes
     ) -> None:
-        """Write one message, serialised as JSON already."""
+        """Write one message, which is JSON already."""
         channel = self._channels.get((key, publisher, model))
         if channel is None:
             channel = self._register(key, publisher, model)
@@ -72,7 +72,7 @@ class LogWriter:
         return channel
 
     def flush(self) -> None:
-        """Hand everything to the operating system, where it outlives this process.
+        """Hand all messages to the operating system, so that they outlive this process.
 
         Raises
         ------

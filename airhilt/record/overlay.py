@@ -1,4 +1,4 @@
-"""What is put on the pictures of a video: boxes, the clock, the advisory that stands."""
+"""Draws boxes, the clock and the active advisory on the pictures of a video."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ SEVERITY_COLOURS: dict[Severity, Colour] = {
 WHITE: Colour = (255, 255, 255)
 BLACK: Colour = (0, 0, 0)
 PALE = 0.65
-"""Of its colour, that a box of an earlier picture keeps."""
+"""Strength of the colour of a box of an earlier picture."""
 ROWS_OF_TEXT = 24
-"""Into the height of a picture."""
+"""Rows of text that would fill the height of a picture."""
 LEAST_TEXT_PX = 12
 AROUND_PX = 3
-"""Between an object and its box, so that the box does not hide what is small."""
+"""Distance of a box from its object, in px, so that it does not hide small objects."""
 MOST_LINES = 2
-"""Of an advisory."""
+"""Largest number of lines of an advisory."""
 
 
 def clock(t_ns: int) -> str:
@@ -51,14 +51,14 @@ def clock(t_ns: int) -> str:
 class Overlay:
     """Draws on pictures of one size, with a bar above for the clock and one below for advisories.
 
-    Boxes are those of the picture itself, in full colour: two pixels wide once confirmed, one
-    before. A picture that nobody looked at has those of the last one before it that somebody
-    did, paler, and says of when they are. Nothing that is only true is drawn.
+    The boxes are those of the picture itself, in full colour: two pixels wide once confirmed, one
+    before. A picture that no detector looked at has the boxes of the last one before it, paler,
+    with their time. Nothing is drawn that is only true.
 
     Attributes
     ----------
     size
-        Width and height of what is returned, both even.
+        Width and height of the images returned, in px, both even.
     """
 
     def __init__(self, width_px: int, height_px: int) -> None:
@@ -79,14 +79,14 @@ class Overlay:
         seen: Detections | None,
         advisory: Advisory | None,
     ) -> Image.Image:
-        """Return a picture with all that belongs on it.
+        """Return a picture with its boxes, clock and advisory.
 
         Parameters
         ----------
         seen
-            What was seen in it, or in the last picture before it that was looked at.
+            Detections in it, or in the last picture before it that a detector looked at.
         advisory
-            What stands at its time.
+            The advisory to show, None for none.
         """
         from PIL import Image, ImageDraw
 

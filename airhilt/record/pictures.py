@@ -1,8 +1,8 @@
-"""``pictures/``: the few pictures of a run that a person will ask for.
+"""``pictures/``: the key pictures of a run.
 
-One of each camera at the start, small, and one of the first detection, of the first warning, and
-of the closest approach. A file is named after its occasion, camera and picture; what was seen
-in it, and what was true of it, is in the log.
+There is a small one of each camera at the start, and one of the first detection, of the first
+warning and of the closest approach. A file is named after its occasion, camera and picture. The log
+has the detections and the truth of it.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from airhilt.units import SECOND_NS
 Occasion = Literal["start", "first_detection", "first_warning", "closest_approach"]
 OCCASIONS: tuple[Occasion, ...] = get_args(Occasion)
 START_WIDTH_PX = 320
-"""Pictures of the start are made as small as this."""
+"""Width of the pictures of the start, in px."""
 MOST_WAITING_BYTES = 64_000_000
-"""Pictures that wait for their detections, of all cameras together."""
+"""Largest size of all pictures that wait for their detections, in bytes."""
 NAME = re.compile(rf"({'|'.join(OCCASIONS)})-(.+)-([0-9]+)\.(?:png|jpg)")
 
 
 class PictureName(NamedTuple):
-    """What a file of ``pictures/`` is of."""
+    """The occasion, camera and number of a file in ``pictures/``."""
 
     occasion: Occasion
     camera: str
@@ -47,7 +47,7 @@ class PictureName(NamedTuple):
 
     @classmethod
     def of(cls, path: Path) -> PictureName | None:
-        """Return what a file is of, None if it is none of these."""
+        """Return the name that a file has, None if it is no picture of a run."""
         found = NAME.fullmatch(path.name)
         if found is None:
             return None
@@ -55,13 +55,13 @@ class PictureName(NamedTuple):
         return cls(occasion, found[2], int(found[3]))
 
     def path(self, folder: Path) -> Path:
-        """Return where the file lies."""
+        """Return the path of the file."""
         suffix = "jpg" if self.occasion == "start" else "png"
         return folder / f"{self.occasion}-{self.camera}-{self.seq}.{suffix}"
 
 
 class Picture(NamedTuple):
-    """One picture, and who is really in it."""
+    """One picture, and the actors that are really in it."""
 
     header: CameraFrame
     pixels: bytes
@@ -79,7 +79,7 @@ class _HasHeader(Protocol):
 T = TypeVar("T", bound=_HasHeader)
 
 
-class Waiting(Generic[T]):
+class WaitingPictures(Generic[T]):
     """Pictures that wait for their detections, the oldest first."""
 
     def __init__(self) -> None:
@@ -87,7 +87,7 @@ class Waiting(Generic[T]):
         self._bytes = 0
 
     def add(self, picture: T) -> list[T]:
-        """Let a picture wait, and return those that have no room any more."""
+        """Add a picture, and return those that have no room any more."""
         self._pictures.append(picture)
         self._bytes += len(picture.pixels)
         crowded_out = []
@@ -96,7 +96,7 @@ class Waiting(Generic[T]):
         return crowded_out
 
     def up_to(self, camera: str, seq: int) -> list[T]:
-        """Take out a camera's pictures up to one: those before it will never be looked at."""
+        """Take out a camera's pictures up to one; no detector will look at those before it."""
         taken: list[T] = []
         for picture in self.everything():
             header = picture.header
@@ -117,22 +117,21 @@ class Waiting(Generic[T]):
 
 
 class KeyPictures:
-    """Writes the pictures of a run that matter, as soon as it is known that they do.
+    """Writes the key pictures of a run, each as soon as it is known.
 
-    The first detection is the first that is about one of the `actors`, as `matches` tells. The
-    first warning is the first advisory of CAUTION or above; its picture is the newest that had been
-    looked at, of the camera that shows one of the actors largest. The closest approach is over
-    when the run is: until then the picture nearest to it in time is kept, of each camera
-    that has one of them in view.
+    The first detection is the first one that matches one of the `actors`. The first warning is the
+    first advisory of CAUTION or above. Its picture is the newest that a detector had looked at,
+    from the camera that shows one of the actors largest. The closest approach is known at the end of the
+    run. Until then each camera that has an actor in view keeps its picture nearest to it in time.
 
     Parameters
     ----------
     folder
-        Where to write; made with the first picture.
+        Folder to write into; it is made with the first picture.
     actors
-        The pair of the conflict, or everybody.
+        Callsigns of the pair of the conflict, or of all actors.
     closest_ns
-        Returns when the pair was nearest up to now; None if there is no pair.
+        Returns the time of the pair's closest approach up to now, None without a pair.
     """
 
     def __init__(
@@ -142,7 +141,7 @@ class KeyPictures:
         self._actors = frozenset(actors)
         self._closest_ns = closest_ns
         self._sightings: dict[str, tuple[SightingTruth, ...]] = {}
-        self._waiting: Waiting[Picture] = Waiting()
+        self._waiting: WaitingPictures[Picture] = WaitingPictures()
         self._is_watched = False
         self._newest: dict[str, Picture] = {}
         self._looked_at: dict[str, Picture] = {}
@@ -151,12 +150,12 @@ class KeyPictures:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
-        """Take in a published message, truth too.
+        """Receive a published message, truth too.
 
         Raises
         ------
         RunFolderError
-            The disk takes no more.
+            The disk is full or gone.
         """
         match message:
             case CameraTruth(camera=name):
@@ -178,7 +177,7 @@ class KeyPictures:
         Raises
         ------
         RunFolderError
-            The disk takes no more.
+            The disk is full or gone.
         """
         closest_ns = self._closest_ns()
         if closest_ns is None or not self._nearest or self._is_full:
@@ -225,7 +224,7 @@ class KeyPictures:
             self._write("first_warning", max(able.values(), key=self._size_px))
 
     def _size_px(self, picture: Picture) -> float:
-        """Return how large the largest of the actors is in a picture; 0 if none is seen."""
+        """Return the size of the largest actor in a picture, in px; 0 if none is visible."""
         seen = (one for one in picture.sightings if one.actor in self._actors and one.pixels > 0.0)
         return max((size_px(one.box) for one in seen), default=0.0)
 

@@ -1,7 +1,7 @@
-"""``video/``: what each camera saw, and what was made of it, as MP4 with H.264.
+"""``video/``: the pictures of each camera with boxes and advisories, as MP4 with H.264.
 
-A picture waits for its detections, so that the boxes on it are its own, and not those of where
-things were one latency earlier; what people of the run saw live was that much later.
+A picture waits for its detections, so that the boxes on it are its own. In the run the boxes came
+later by the latency of vision.
 """
 
 from __future__ import annotations
@@ -25,22 +25,23 @@ from airhilt.messages import (
     Status,
 )
 from airhilt.record.overlay import Overlay
-from airhilt.record.pictures import Picture, Waiting
+from airhilt.record.pictures import Picture, WaitingPictures
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:
     from PIL import Image
 
 ENCODERS = ("libx264", "libopenh264")
-"""Of H.264 in FFmpeg, the first that is there."""
+"""H.264 encoders of FFmpeg; the first one installed is used."""
 QUALITY = {"preset": "veryfast", "crf": "21", "tune": "zerolatency"}
-"""Of x264; without latency it keeps no pictures waiting, and so little memory."""
+"""Options of x264; with zero latency it keeps no pictures waiting, which saves memory."""
 MOVIE = {"movflags": "hybrid_fragmented+frag_keyframe", "flush_packets": "1"}
-"""How FFmpeg writes the file: in parts, each of which is whole, and made one at the end."""
+"""Options of the MP4 file: it is written in complete parts, which are joined at the end."""
 TIME_BASE = Fraction(1, 90_000)
-"""Of MPEG."""
+"""Time base of MPEG, in s."""
 KEY_PICTURE_S = 2.0
-"""Between pictures from which a player can begin, and a killed run's file is whole up to one."""
+"""Time between two key pictures, in s: a player can begin at one, and the file of a killed run is
+whole up to one."""
 
 
 def require_video() -> None:
@@ -70,8 +71,8 @@ def _encoder() -> str:
     )
 
 
-class _Scene(NamedTuple):
-    """A picture, and what stood at its time."""
+class _AnnotatedPicture(NamedTuple):
+    """A picture, and the advisory that was active at its time."""
 
     picture: Picture
     advisory: Advisory | None
@@ -91,9 +92,9 @@ class VideoRecorder:
     Parameters
     ----------
     folder
-        Where to write; made with the first picture.
+        Folder to write into; it is made with the first picture.
     notice
-        Called with what a user is to know: of which camera there is no more video, and why.
+        Called with a sentence for the user when a camera's video cannot go on.
 
     Raises
     ------
@@ -106,20 +107,20 @@ class VideoRecorder:
         self._folder = folder
         self._notice = notice
         self._rates_hz: dict[str, float] = {}
-        self._films: dict[str, _Film] = {}
+        self._videos: dict[str, _CameraVideo] = {}
         self._failed: set[str] = set()
         self._advisories: dict[tuple[str, str], Advisory] = {}
-        """Those that stand, by id and recipient."""
+        """Active advisories by id and recipient."""
         self._is_watched = False
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
-        """Take in a published message; truth is left aside.
+        """Receive a published message; truth is ignored.
 
         Raises
         ------
         RunFolderError
-            The disk takes no more.
+            The disk is full or gone.
         """
         try:
             self._take(message, payload)
@@ -133,59 +134,59 @@ class VideoRecorder:
                 self._rates_hz[name] = rate_hz
             case CameraFrame():
                 self._take_picture(Picture(message, payload, ()))
-            case Detections(camera=name, missed="") if name in self._films:
-                with self._at_its_own_cost(name):
-                    self._films[name].look(message)
+            case Detections(camera=name, missed="") if name in self._videos:
+                with self._giving_up(name):
+                    self._videos[name].look(message)
             case Advisory():
                 self._advise(message)
             case Status(modality="vision", state=state):
                 self._is_watched = state == "on"
                 if not self._is_watched:
-                    for name, film in list(self._films.items()):
-                        with self._at_its_own_cost(name):
-                            film.wait_no_longer()
+                    for name, video in list(self._videos.items()):
+                        with self._giving_up(name):
+                            video.wait_no_longer()
 
     def close(self) -> None:
-        """Finish all videos; one whose disk was full stays as far as it goes.
+        """Finish all videos; one whose disk was full keeps what was written.
 
         Raises
         ------
         RunFolderError
-            The disk takes no more.
+            The disk is full or gone.
         """
         try:
-            for name, film in list(self._films.items()):
+            for name, video in list(self._videos.items()):
                 if not self._is_full:
-                    with self._at_its_own_cost(name):
-                        film.close()
+                    with self._giving_up(name):
+                        video.close()
         finally:
-            for film in self._films.values():
-                film.give_up()
-            self._films.clear()
+            for video in self._videos.values():
+                video.give_up()
+            self._videos.clear()
 
     @contextmanager
-    def _at_its_own_cost(self, name: str) -> Iterator[None]:
-        """Give up the video of a camera when it cannot go on; what there is of it stays."""
+    def _giving_up(self, name: str) -> Iterator[None]:
+        """Give up a camera's video when it cannot go on; what was written of it stays."""
         try:
             yield
         except VideoError as error:
             self._failed.add(name)
-            film = self._films.pop(name, None)
-            if film is not None:
-                film.give_up()
+            video = self._videos.pop(name, None)
+            if video is not None:
+                video.give_up()
             self._notice(f"no more video of camera {name}: {error}")
 
     def _take_picture(self, picture: Picture) -> None:
         name = picture.header.camera
         if name in self._failed:
             return
-        with self._at_its_own_cost(name):
-            if name not in self._films:
+        with self._giving_up(name):
+            if name not in self._videos:
                 path = self._folder / f"{name}.mp4"
-                self._films[name] = _Film(path, picture, self._rates_hz[name])
-            self._films[name].take(_Scene(picture, self._advisory_for(picture)))
+                self._videos[name] = _CameraVideo(path, picture, self._rates_hz[name])
+            self._videos[name].take(_AnnotatedPicture(picture, self._advisory_for(picture)))
             if not self._is_watched:
-                self._films[name].wait_no_longer()
+                self._videos[name].wait_no_longer()
 
     def _advise(self, advisory: Advisory) -> None:
         name = advisory.id, advisory.recipient
@@ -194,7 +195,7 @@ class VideoRecorder:
             self._advisories[name] = advisory
 
     def _advisory_for(self, picture: Picture) -> Advisory | None:
-        """Return the most severe advisory that stands, rather one to those who own the camera."""
+        """Return the most severe active advisory, preferably one to the owner of the camera."""
         owner = picture.header.view.carrier or CONTROLLER
         return max(
             self._advisories.values(),
@@ -203,7 +204,7 @@ class VideoRecorder:
         )
 
 
-class _Film:
+class _CameraVideo:
     """The video of one camera."""
 
     def __init__(self, path: Path, first: Picture, rate_hz: float) -> None:
@@ -211,7 +212,7 @@ class _Film:
 
         self._path = path
         self._begin_ns = first.header.t_frame_ns
-        self._waiting: Waiting[_Scene] = Waiting()
+        self._waiting: WaitingPictures[_AnnotatedPicture] = WaitingPictures()
         self._seen: Detections | None = None
         self._overlay = Overlay(first.header.view.width_px, first.header.view.height_px)
         rate = Fraction(rate_hz).limit_denominator(1000)
@@ -226,40 +227,40 @@ class _Film:
             stream.codec_context.gop_size = max(round(KEY_PICTURE_S * rate_hz), 1)
         self._stream = stream
 
-    def take(self, scene: _Scene) -> None:
-        """Let a picture wait for its detections."""
-        self._write(self._waiting.add(scene))
+    def take(self, picture: _AnnotatedPicture) -> None:
+        """Add a picture, which waits for its detections."""
+        self._write(self._waiting.add(picture))
 
     def look(self, seen: Detections) -> None:
-        """Write the picture that was looked at, and those before it that were not."""
-        scenes = self._waiting.up_to(seen.camera, seen.seq)
-        if scenes and scenes[-1].header.seq == seen.seq:
-            self._write(scenes[:-1])
+        """Write the picture with these detections, and those before it that have none."""
+        pictures = self._waiting.up_to(seen.camera, seen.seq)
+        if pictures and pictures[-1].header.seq == seen.seq:
+            self._write(pictures[:-1])
             self._seen = seen
-            self._write(scenes[-1:])
+            self._write(pictures[-1:])
         else:
-            self._write(scenes)
+            self._write(pictures)
 
     def wait_no_longer(self) -> None:
-        """Write all pictures that wait."""
+        """Write all waiting pictures."""
         self._write(self._waiting.everything())
 
     def close(self) -> None:
-        """Write all pictures that wait, and finish the file."""
+        """Write all waiting pictures, and finish the file."""
         self.wait_no_longer()
         with _writing(self._path):
             self._container.mux(self._stream.encode())
             self._container.close()
 
     def give_up(self) -> None:
-        """Close the file, whatever state it is in."""
+        """Close the file in whatever state it is."""
         with suppress(RunFolderError, VideoError), _writing(self._path):
             self._container.close()
 
-    def _write(self, scenes: list[_Scene]) -> None:
-        for scene in scenes:
-            image = self._overlay.image(scene.picture, self._seen, scene.advisory)
-            self._encode(image, scene.header.t_frame_ns - self._begin_ns)
+    def _write(self, pictures: list[_AnnotatedPicture]) -> None:
+        for annotated in pictures:
+            image = self._overlay.image(annotated.picture, self._seen, annotated.advisory)
+            self._encode(image, annotated.header.t_frame_ns - self._begin_ns)
 
     def _encode(self, image: Image.Image, t_ns: int) -> None:
         import av
@@ -272,12 +273,12 @@ class _Film:
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Name the file in whatever PyAV raises.
+    """Turn exceptions of PyAV into those of this package, with the name of the file.
 
     Raises
     ------
     RunFolderError
-        The disk takes no more.
+        The disk is full or gone.
     VideoError
         FFmpeg refuses.
     """

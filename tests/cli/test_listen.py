@@ -17,7 +17,7 @@ from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
 from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder, RunInfo
-from airhilt.record.tape import listen
+from airhilt.record.frequency import write_frequency
 
 TOWER_KHZ = 118_300
 SECOND = 1_000_000_000
@@ -93,10 +93,10 @@ def at(audio: np.ndarray, second: float) -> float:
 def test_calls_are_heard_at_their_times(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.5, 0.1)
     recording.call("2", 3.0, 0.2)
-    tape, wav, _ = listen(recording.close(), out=tmp_path / "tower.wav")
+    written, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.2, 1.0, 2.0, 3.5)] == [0.0, 0.1, 0.0, 0.2]
-    assert tape.duration_s == pytest.approx(4.0)
+    assert written.duration_s == pytest.approx(4.0)
 
 
 def test_calls_that_block_each_other_are_not_heard_twice(
@@ -104,7 +104,7 @@ def test_calls_that_block_each_other_are_not_heard_twice(
 ) -> None:
     recording.call("1", 0.0, 0.1, seconds=2.0)
     recording.call("2", 1.0, 0.2, seconds=2.0, blocked_by=("1",))
-    _, wav, text = listen(recording.close(), out=tmp_path / "tower.wav")
+    _, wav, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.5, 1.5, 2.5)] == [0.1, 0.1, 0.2]
     assert "blocked by 1" in text.read_text()
@@ -113,7 +113,7 @@ def test_calls_that_block_each_other_are_not_heard_twice(
 def test_a_call_cuts_off_the_squelch_tail_before_it(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.0, 0.1, tail_s=0.5)
     recording.call("2", 1.2, 0.2)
-    _, wav, _ = listen(recording.close(), out=tmp_path / "tower.wav")
+    _, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.9, 1.1, 1.3)] == [0.1, 0.1, 0.2]
 
@@ -121,7 +121,7 @@ def test_a_call_cuts_off_the_squelch_tail_before_it(recording: Recording, tmp_pa
 def test_a_call_within_another_one_is_heard_there(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.0, 0.1, seconds=4.0)
     recording.call("2", 1.0, 0.2, seconds=1.0)
-    _, wav, _ = listen(recording.close(), out=tmp_path / "tower.wav")
+    _, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
     assert set(read_wav(wav).round(2)) == {np.float32(0.1)}
 
 
@@ -129,7 +129,7 @@ def test_the_transcript_says_who_said_what_and_what_was_heard(
     recording: Recording, tmp_path: Path
 ) -> None:
     recording.call("r-1", 65.0, 0.1, heard="washington tower yellow")
-    _, wav, text = listen(recording.close(), out=tmp_path / "tower.wav")
+    _, wav, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
     assert text == wav.with_suffix(".txt")
     written = text.read_text()
     for part in (
@@ -146,16 +146,16 @@ def test_the_only_frequency_needs_no_naming_but_one_of_several_does(
     recording.call("2", 0.0, 0.2, frequency_khz=121_700)
     folder = recording.close()
     with pytest.raises(RunFolderError, match="--frequency: 118300, 121700"):
-        listen(folder)
-    tape, wav, _ = listen(folder, 121_700, tmp_path / "ground.wav")
-    assert [call.id for call in tape.calls] == ["2"]
+        write_frequency(folder)
+    written, wav, _ = write_frequency(folder, 121_700, tmp_path / "ground.wav")
+    assert [call.id for call in written.calls] == ["2"]
     assert at(read_wav(wav), 0.5) == 0.2
 
 
 def test_a_frequency_that_nobody_used_is_refused_with_those_in_use(recording: Recording) -> None:
     recording.call("1", 0.0, 0.1)
     with pytest.raises(RunFolderError, match="121500 kHz; expected one of 118300"):
-        listen(recording.close(), 121_500)
+        write_frequency(recording.close(), 121_500)
 
 
 def test_a_sound_file_that_was_exchanged_is_refused(recording: Recording) -> None:
@@ -163,7 +163,7 @@ def test_a_sound_file_that_was_exchanged_is_refused(recording: Recording) -> Non
     folder = recording.close()
     write_wav(folder / "audio" / "1.wav", np.full(16_000, 0.3, np.float32))
     with pytest.raises(RunFolderError, match=r"1\.wav: not the sound that the log vouches for"):
-        listen(folder)
+        write_frequency(folder)
 
 
 def test_a_sound_file_that_is_gone_is_named(recording: Recording) -> None:
@@ -171,18 +171,18 @@ def test_a_sound_file_that_is_gone_is_named(recording: Recording) -> None:
     folder = recording.close()
     (folder / "audio" / "1.wav").unlink()
     with pytest.raises(RunFolderError, match=r"1\.wav: cannot be read"):
-        listen(folder)
+        write_frequency(folder)
 
 
 def test_a_name_that_is_no_wav_is_refused(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.0, 0.1)
     with pytest.raises(SpeechError, match=r"ends with \.wav"):
-        listen(recording.close(), out=tmp_path / "tower.txt")
+        write_frequency(recording.close(), out=tmp_path / "tower.txt")
 
 
 def test_a_run_in_which_nobody_spoke_says_so(recording: Recording) -> None:
     with pytest.raises(RunFolderError, match="nobody said anything"):
-        listen(recording.close())
+        write_frequency(recording.close())
 
 
 def test_the_command_prints_one_json_object(
@@ -215,14 +215,14 @@ def test_a_disk_that_is_full_leaves_no_part_of_a_file_behind(
 ) -> None:
     recording.call("1", 0.0, 0.1)
     folder = recording.close()
-    tape = tmp_path / "tower.wav"
-    tape.write_bytes(b"an earlier tape")
+    wav = tmp_path / "tower.wav"
+    wav.write_bytes(b"an earlier recording")
     unlimited = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (1_000, unlimited[1]))
     try:
         with pytest.raises(SpeechError, match=r"tower\.wav: cannot be written"):
-            listen(folder, out=tape)
+            write_frequency(folder, out=wav)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
-    assert tape.read_bytes() == b"an earlier tape"
+    assert wav.read_bytes() == b"an earlier recording"
     assert {path.name for path in tmp_path.iterdir()} == {"run", "tower.wav"}

@@ -10,7 +10,7 @@ from PIL import Image
 
 from airhilt.errors import RunFolderError
 from airhilt.messages import CameraFrame, Message, SightingTruth
-from airhilt.record.pictures import KeyPictures, Picture, PictureName, Waiting
+from airhilt.record.pictures import KeyPictures, Picture, PictureName, WaitingPictures
 from sightings import advisory, found, frame, pixels, seen, sighting, time_ns, truth, vision
 
 FULL = Path("/dev/full")
@@ -188,8 +188,8 @@ def test_pictures_of_many_cameras_share_the_room_in_which_they_wait(
     assert len(run.pictures._waiting._pictures) == 7, "those of the tower still wait"
 
 
-def waiting_for(*seqs: int) -> tuple[Waiting[Picture], list[int]]:
-    waiting: Waiting[Picture] = Waiting()
+def waiting_for(*seqs: int) -> tuple[WaitingPictures[Picture], list[int]]:
+    waiting: WaitingPictures[Picture] = WaitingPictures()
     crowded_out = [
         picture.header.seq
         for seq in seqs
@@ -212,7 +212,7 @@ def test_pictures_wait_for_their_detections_as_long_as_there_is_room() -> None:
 
 
 def test_one_picture_waits_however_large_it_is() -> None:
-    waiting: Waiting[Picture] = Waiting()
+    waiting: WaitingPictures[Picture] = WaitingPictures()
     header: CameraFrame = frame(0)
     assert waiting.add(Picture(header, bytes(70_000_000), ())) == []
     assert numbers(waiting.everything()) == [0]

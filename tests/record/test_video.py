@@ -134,13 +134,13 @@ def test_each_class_has_its_colour(film: Film) -> None:
 
 def test_once_vision_is_lost_no_picture_waits(film: Film) -> None:
     film.shoot(0, 1).take(vision("lost", "gone")).shoot(2)
-    assert len(film.recorder._films["tower"]._waiting.everything()) == 0
+    assert len(film.recorder._videos["tower"]._waiting.everything()) == 0
     assert len(film.frames()) == 3
 
 
 def test_pictures_do_not_wait_where_nobody_looks(tmp_path: Path) -> None:
     film = Film(tmp_path).take(vision("off")).shoot(0, 1)
-    assert len(film.recorder._films["tower"]._waiting.everything()) == 0
+    assert len(film.recorder._videos["tower"]._waiting.everything()) == 0
 
 
 def test_an_advisory_stands_below_the_picture_while_it_is_active(film: Film) -> None:
@@ -256,7 +256,7 @@ def test_a_video_that_ffmpeg_refuses_costs_that_video_and_is_told_once(
     tmp_path: Path, error: Exception
 ) -> None:
     film = Film(tmp_path, "tower", "runway").shoot(0).shoot(0, camera="runway")
-    film.recorder._films["tower"]._stream = Refusing(error)
+    film.recorder._videos["tower"]._stream = Refusing(error)
     for seq in range(1, 5):
         film.shoot(seq).shoot(seq, camera="runway")
         film.take(seen(seq)).take(seen(seq, camera="runway"))
@@ -269,7 +269,7 @@ def test_a_video_that_ffmpeg_refuses_costs_that_video_and_is_told_once(
 def test_a_video_that_cannot_be_finished_is_told(tmp_path: Path) -> None:
     film = Film(tmp_path, "tower", "runway").shoot(0).shoot(0, camera="runway")
     film.take(seen(0)).take(seen(0, camera="runway"))
-    film.recorder._films["tower"]._stream = Refusing(ValueError("no end"))
+    film.recorder._videos["tower"]._stream = Refusing(ValueError("no end"))
     assert len(film.frames("runway")) == 1
     assert len(film.told) == 1
 
@@ -290,7 +290,7 @@ def test_pictures_that_wait_take_no_more_than_their_room(
     """A camera that nobody answers for."""
     monkeypatch.setattr("airhilt.record.pictures.MOST_WAITING_BYTES", 10 * 3 * SIZE[0] * SIZE[1])
     film.shoot(*range(50))
-    waiting = film.recorder._films["tower"]._waiting
+    waiting = film.recorder._videos["tower"]._waiting
     assert len(waiting._pictures) == 10
     assert time_ns(40) == waiting._pictures[0].header.t_frame_ns
     assert len(film.frames()) == 50

@@ -34,14 +34,14 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_json: bool) -> None:
     """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
-    from airhilt.record.tape import listen as write_tape
+    from airhilt.record.frequency import write_frequency
 
-    tape, wav, text = write_tape(run_folder, frequency_khz, out)
+    recording, wav, text = write_frequency(run_folder, frequency_khz, out)
     if as_json:
         files = {"wav": str(wav), "transcript": str(text)}
-        click.echo(json.dumps(tape.as_dict() | files, indent=2))
+        click.echo(json.dumps(recording.as_dict() | files, indent=2))
     else:
-        click.echo(tape.text())
+        click.echo(recording.text())
         click.echo(f"{wav}\n{text}")
 
 

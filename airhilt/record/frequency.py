@@ -1,4 +1,4 @@
-"""Writes one frequency of a run as sound, and beside it who said what and how it was heard."""
+"""Writes the sound of one frequency of a run, and its transcript beside it."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from airhilt.units import SECOND_NS
 
 
 @dataclass(frozen=True, slots=True)
-class Hearing:
+class Recognition:
     """One recogniser's transcript of a call."""
 
     text: str
     confidence: float
     engine: str
     after_end_s: float
-    """From the end of the call to its transcript."""
+    """Time from the end of the call to its transcript, in s."""
 
 
 @dataclass(frozen=True, slots=True)
-class HeardCall:
-    """One transmission of the frequency."""
+class RecordedCall:
+    """One transmission on the frequency, as it was said and recognised."""
 
     id: str
     t_tx_s: float
@@ -43,30 +43,30 @@ class HeardCall:
     addressed: str | None
     said: str
     blocked_by: tuple[str, ...]
-    heard: tuple[Hearing, ...]
+    heard: tuple[Recognition, ...]
 
 
 @dataclass(frozen=True)
-class Tape:
-    """One frequency of a run, from its start to its last call."""
+class FrequencyRecording:
+    """The calls and the sound of one frequency, from the start of the run to its last call."""
 
     run: str
     frequency_khz: int
-    calls: tuple[HeardCall, ...]
+    calls: tuple[RecordedCall, ...]
     audio: Audio = field(repr=False)
 
     @property
     def duration_s(self) -> float:
-        """Length of the sound."""
+        """Length of the sound, in s."""
         return len(self.audio) / SAMPLE_RATE_HZ
 
     def text(self) -> str:
-        """Return the transcript as people read it."""
+        """Return the transcript for people to read."""
         head = f"{self.run}, {_megahertz(self.frequency_khz)}, {len(self.calls)} calls"
         return "\n\n".join([head, *map(_paragraph, self.calls)]) + "\n"
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all but the sound, for JSON."""
+        """Return everything but the sound, for JSON."""
         return {
             "run": self.run,
             "frequency_khz": self.frequency_khz,
@@ -75,15 +75,15 @@ class Tape:
         }
 
 
-def listen(
+def write_frequency(
     run_folder: Path, frequency_khz: int | None = None, out: Path | None = None
-) -> tuple[Tape, Path, Path]:
-    """Write a frequency as a WAV file with the whole run's timing, and its transcript.
+) -> tuple[FrequencyRecording, Path, Path]:
+    """Write the sound of a frequency with the timing of the run, and its transcript.
 
     Parameters
     ----------
     frequency_khz
-        Which one; None takes the only one of the run.
+        The frequency; None takes the only one of the run.
     out
         The WAV file; the transcript has the same name with ``.txt``. None writes both into the
         run folder, under the name of the frequency.
@@ -91,7 +91,7 @@ def listen(
     Returns
     -------
     tuple
-        What was written, and the two files.
+        The recording, the WAV file and the transcript's file.
 
     Raises
     ------
@@ -102,20 +102,20 @@ def listen(
         The run has no sound.
     """
     folder = RunFolder.open(run_folder)
-    tape = _read(folder, frequency_khz)
-    wav = out or folder.path / f"frequency-{tape.frequency_khz}.wav"
+    recording = _read(folder, frequency_khz)
+    wav = out or folder.path / f"frequency-{recording.frequency_khz}.wav"
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
     text = wav.with_suffix(".txt")
-    write_wav(wav, tape.audio)
+    write_wav(wav, recording.audio)
     try:
-        replace_file(text, tape.text().encode())
+        replace_file(text, recording.text().encode())
     except OSError as error:
         raise SpeechError(f"{text}: cannot be written: {error.strerror}") from None
-    return tape, wav, text
+    return recording, wav, text
 
 
-def _read(folder: RunFolder, frequency_khz: int | None) -> Tape:
+def _read(folder: RunFolder, frequency_khz: int | None) -> FrequencyRecording:
     transmissions: list[Transmission] = []
     spoken: dict[str, SpokenTruth] = {}
     transcripts: dict[str, list[Transcript]] = {}
@@ -140,7 +140,7 @@ def _read(folder: RunFolder, frequency_khz: int | None) -> Tape:
         key=lambda tx: (tx.t_tx_ns, tx.id),
     )
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
-    return Tape(folder.info().run, chosen, calls, _splice(folder, tuned))
+    return FrequencyRecording(folder.info().run, chosen, calls, _splice(folder, tuned))
 
 
 def _choose(
@@ -166,8 +166,8 @@ def _choose(
 
 def _call(
     tx: Transmission, truth: SpokenTruth | None, transcripts: Sequence[Transcript]
-) -> HeardCall:
-    return HeardCall(
+) -> RecordedCall:
+    return RecordedCall(
         id=tx.id,
         t_tx_s=tx.t_tx_ns / SECOND_NS,
         t_end_s=tx.t_end_ns / SECOND_NS,
@@ -177,7 +177,7 @@ def _call(
         said=truth.text if truth else "",
         blocked_by=truth.blocked_by if truth else (),
         heard=tuple(
-            Hearing(
+            Recognition(
                 transcript.text,
                 transcript.confidence,
                 transcript.engine,
@@ -189,10 +189,10 @@ def _call(
 
 
 def _splice(folder: RunFolder, tuned: Sequence[Transmission]) -> Audio:
-    """Return all that was received, each at its time.
+    """Return the sound of all transmissions, each at its time.
 
-    Of two that blocked each other both were received mixed: the second is heard from where the
-    first ends. A call that begins during the squelch tail of the one before cuts it off.
+    Two transmissions that blocked each other were both received mixed: the second is taken from
+    where the first ends. A call that begins during the squelch tail of the one before cuts it off.
     """
     pieces: list[tuple[int, Audio]] = []
     free_at = 0
@@ -227,7 +227,7 @@ def _clock(seconds: float) -> str:
     return f"{int(minutes):02d}:{rest:04.1f}"
 
 
-def _paragraph(call: HeardCall) -> str:
+def _paragraph(call: RecordedCall) -> str:
     who = call.speaker or "somebody"
     notes = [f"{call.t_end_s - call.t_tx_s:.1f} s"]
     if call.snr_db is not None:
@@ -237,9 +237,9 @@ def _paragraph(call: HeardCall) -> str:
     to = f" to {call.addressed}" if call.addressed else ""
     lines = [f"{_clock(call.t_tx_s)}  {who}{to}  [{call.id}: {', '.join(notes)}]"]
     lines.append(f"         said   {call.said or '(nothing)'}")
-    for hearing in call.heard:
+    for one in call.heard:
         lines.append(
-            f"         heard  {hearing.text or '(nothing)'}  [{hearing.engine}, confidence "
-            f"{hearing.confidence:.2f}, {hearing.after_end_s:.2f} s after the call]"
+            f"         heard  {one.text or '(nothing)'}  [{one.engine}, confidence "
+            f"{one.confidence:.2f}, {one.after_end_s:.2f} s after the call]"
         )
     return "\n".join(lines)
