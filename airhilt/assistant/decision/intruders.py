@@ -133,31 +133,31 @@ class IntruderWatch:
         self.config = config
         self._visual_tracks = visual_tracks
         self._runway_of = runway_of
-        self._alerts: list[_Ongoing] = []
-        self._told = 0
+        self._ongoing: list[_Ongoing] = []
+        self._count = 0
 
     @property
-    def is_alert(self) -> bool:
+    def has_conflict(self) -> bool:
         """True if there is an encounter to be judged again even without news."""
-        return bool(self._alerts)
+        return bool(self._ongoing)
 
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
         told: list[Alert] = []
         threatened: set[str] = set()
         for encounter in self._encounters(t_ns):
-            alert = self._known(encounter)
-            if alert is not None and encounter.approach.closing > 0.0:
-                alert.past_ns = encounter.past_ns
+            ongoing = self._known(encounter)
+            if ongoing is not None and encounter.approach.closing > 0.0:
+                ongoing.past_ns = encounter.past_ns
             if encounter.severity is None:
                 continue
-            alert = alert or self._new(encounter)
-            if alert.id not in threatened:
-                threatened.add(alert.id)
-                alert.encounter = encounter
-                told += self._raise(t_ns, alert, encounter.severity)
-        for alert in [alert for alert in self._alerts if alert.id not in threatened]:
-            told += self._calm(t_ns, alert)
+            ongoing = ongoing or self._new(encounter)
+            if ongoing.id not in threatened:
+                threatened.add(ongoing.id)
+                ongoing.encounter = encounter
+                told += self._raise(t_ns, ongoing, encounter.severity)
+        for ongoing in [ongoing for ongoing in self._ongoing if ongoing.id not in threatened]:
+            told += self._calm(t_ns, ongoing)
         return told
 
     # --- what is seen -----------------------------------------------------------------------
@@ -210,42 +210,42 @@ class IntruderWatch:
 
     def _known(self, encounter: _Encounter) -> _Ongoing | None:
         """Return the encounter that is known already, None if there is none."""
-        for alert in self._alerts:
-            last = alert.encounter
-            if alert.carrier == encounter.carrier and (
+        for ongoing in self._ongoing:
+            last = ongoing.encounter
+            if ongoing.carrier == encounter.carrier and (
                 last.track is encounter.track
                 or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
             ):
-                return alert
+                return ongoing
         return None
 
     def _new(self, encounter: _Encounter) -> _Ongoing:
-        self._told += 1
-        alert = _Ongoing(f"intruder-{self._told}", encounter.carrier, encounter)
-        alert.past_ns = encounter.past_ns
-        self._alerts.append(alert)
-        return alert
+        self._count += 1
+        ongoing = _Ongoing(f"intruder-{self._count}", encounter.carrier, encounter)
+        ongoing.past_ns = encounter.past_ns
+        self._ongoing.append(ongoing)
+        return ongoing
 
-    def _raise(self, t_ns: int, alert: _Ongoing, severity: Severity) -> list[Alert]:
-        if not alert.escalation.rises(severity, t_ns, self.config.persistence_s):
+    def _raise(self, t_ns: int, ongoing: _Ongoing, severity: Severity) -> list[Alert]:
+        if not ongoing.escalation.rises(severity, t_ns, self.config.persistence_s):
             return []
-        if alert.escalation.severity is Severity.WARNING:
-            alert.recommendation = self._recommended(alert.encounter)
-        return [self._alert(t_ns, alert)]
+        if ongoing.escalation.severity is Severity.WARNING:
+            ongoing.recommendation = self._recommended(ongoing.encounter)
+        return [self._alert(t_ns, ongoing)]
 
-    def _calm(self, t_ns: int, alert: _Ongoing) -> list[Alert]:
+    def _calm(self, t_ns: int, ongoing: _Ongoing) -> list[Alert]:
         """End an encounter once it is past, so that nobody goes back before."""
-        if alert.escalation.severity is None:
-            if alert.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
-                self._alerts.remove(alert)
+        if ongoing.escalation.severity is None:
+            if ongoing.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
+                self._ongoing.remove(ongoing)
             return []
-        if t_ns < alert.past_ns:
-            alert.escalation.stays()
+        if t_ns < ongoing.past_ns:
+            ongoing.escalation.stays()
             return []
-        if not alert.escalation.is_over(t_ns, self.config.release_s):
+        if not ongoing.escalation.is_over(t_ns, self.config.release_s):
             return []
-        self._alerts.remove(alert)
-        return [self._alert(t_ns, alert, active=False)]
+        self._ongoing.remove(ongoing)
+        return [self._alert(t_ns, ongoing, active=False)]
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
         """Return how to stay clear: climb or descend away from it, or turn right.
@@ -271,38 +271,40 @@ class IntruderWatch:
             vertical_rate_fpm=STRONG_VERTICAL_RATE_FPM,
         )
 
-    def _alert(self, t_ns: int, alert: _Ongoing, active: bool = True) -> Alert:
+    def _alert(self, t_ns: int, ongoing: _Ongoing, active: bool = True) -> Alert:
         """Return the alert about an encounter; crews are told from CAUTION on."""
-        encounter = alert.encounter
-        severity = alert.escalation.severity or Severity.INFO
+        encounter = ongoing.encounter
+        severity = ongoing.escalation.severity or Severity.INFO
         to_crew = severity.rank >= Severity.CAUTION.rank
         track = encounter.track
         since_s = (t_ns - track.last.t_ns) / SECOND_NS
         left_s = min(max(encounter.approach.time_s - since_s, 0.0), UNRELIABLE_S)
-        advice = alert.recommendation if active else None
+        advice = ongoing.recommendation if active else None
         told = Alert(
-            id=alert.id,
-            revision=alert.revision,
+            id=ongoing.id,
+            revision=ongoing.revision,
             kind="loss_of_separation",
             severity=severity if active else Severity.INFO,
-            recipients=(alert.carrier, CONTROLLER) if to_crew else (CONTROLLER,),
-            traffic=(alert.carrier, track.explained_by) if track.explained_by else (alert.carrier,),
+            recipients=(ongoing.carrier, CONTROLLER) if to_crew else (CONTROLLER,),
+            traffic=(ongoing.carrier, track.explained_by)
+            if track.explained_by
+            else (ongoing.carrier,),
             evidence=Evidence(
                 sources=("vision", "adsb") if track.explained_by else ("vision",),
                 time_to_closest_approach_s=left_s,
                 note=_note(encounter),
             ),
             finding=Intruder(
-                carrier=alert.carrier,
+                carrier=ongoing.carrier,
                 is_birds=track.label == "bird",  # Nothing else flies, whatever it is taken for.
                 callsign=track.explained_by,
                 where=_where(encounter),
                 contact_s=left_s if left_s < UNRELIABLE_S else None,
             ),
-            recommendations={} if advice is None else {alert.carrier: advice},
+            recommendations={} if advice is None else {ongoing.carrier: advice},
             active=active,
         )
-        alert.revision += 1
+        ongoing.revision += 1
         return told
 
 

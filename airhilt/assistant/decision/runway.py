@@ -47,10 +47,10 @@ class RunwayWatch:
         self._visual_tracks = visual_tracks
         self._situation: Situation | None = None
         self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
-        self._told = 0
+        self._count = 0
 
     @property
-    def is_alert(self) -> bool:
+    def has_conflict(self) -> bool:
         """True if there is a conflict to be judged again even without news."""
         return bool(self._ongoing)
 
@@ -98,8 +98,8 @@ class RunwayWatch:
                 ongoing.escalation.stays()
             return []
         if ongoing is None:
-            self._told += 1
-            ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._told}", threat)
+            self._count += 1
+            ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._count}", threat)
         ongoing.threat = threat
         # Speech does not become more certain with time, and what is seen has lasted already.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0

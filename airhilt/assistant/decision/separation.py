@@ -58,10 +58,10 @@ class SeparationWatch:
         self._readbacks = LevelReadbacks(self._tracks)
         self._conflicts: dict[Pair, _Conflict] = {}
         self._misread: list[Alert] = []
-        self._told = 0
+        self._count = 0
 
     @property
-    def is_alert(self) -> bool:
+    def has_conflict(self) -> bool:
         """True if there is a conflict to be judged again even without news."""
         return bool(self._conflicts)
 
@@ -88,9 +88,9 @@ class SeparationWatch:
 
     def _misread_alert(self, misread: LevelMisread, t_in_ns: int) -> Alert:
         """Return the alert for a readback mismatch with activity (the ladder's step a)."""
-        self._told += 1
+        self._count += 1
         return Alert(
-            id=f"readback-{self._told}",
+            id=f"readback-{self._count}",
             revision=0,
             kind="readback_mismatch",
             severity=Severity.CAUTION,
@@ -124,8 +124,8 @@ class SeparationWatch:
         if conflict is None:
             if level is None:
                 return []
-            self._told += 1
-            conflict = _Conflict(f"separation-{self._told}", pair)
+            self._count += 1
+            conflict = _Conflict(f"separation-{self._count}", pair)
             self._conflicts[pair] = conflict
         if level is None:
             return self._calm(t_ns, conflict, prediction)

@@ -68,8 +68,8 @@ class ReferenceEngine:
         watches = (self.separation, self.runways, self.intruders)
         for watch in watches:
             alerts += watch.judge(t_ns)
-        is_alert = any(watch.is_alert for watch in watches)
-        return Decision(alerts, again_ns=t_ns + COASTING_NS if is_alert else None)
+        has_conflict = any(watch.has_conflict for watch in watches)
+        return Decision(alerts, again_ns=t_ns + COASTING_NS if has_conflict else None)
 
 
 ENGINE = Engine(
