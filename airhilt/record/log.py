@@ -24,7 +24,7 @@ from airhilt.errors import RunFolderError, disk_failed
 BROKEN = (McapError, struct.error, zstandard.ZstdError, KeyError, UnicodeDecodeError)
 """Exceptions of a log that breaks off or is damaged."""
 CHUNK_BYTES = 4_000_000
-"""Size of a chunk of the file, in bytes: more than a second of any run has, so flushes end chunks."""
+"""Size of a chunk of the file, in bytes: more than one second of any run."""
 
 
 class Logged(NamedTuple):

@@ -120,8 +120,8 @@ class KeyPictures:
     """Writes the key pictures of a run, each as soon as it is known.
 
     The first detection is the first one that matches one of the `actors`. The first warning is the
-    first advisory of CAUTION or above. Its picture is the newest that a detector had looked at,
-    from the camera that shows one of the actors largest. The closest approach is known at the end of the
+    first advisory of CAUTION or above. Its picture is the newest that a detector had looked at, of
+    the camera that shows one of the actors largest. The closest approach is known at the end of the
     run. Until then each camera that has an actor in view keeps its picture nearest to it in time.
 
     Parameters
