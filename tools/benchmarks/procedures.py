@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, onward
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
 from airhilt.world.flight import (
@@ -50,7 +50,7 @@ RUNWAY = RunwayEnd(
     displaced_m=0.0,
     course_rad=COURSE_RAD,
 )
-RUNWAY_PLANE = Plane(THRESHOLD, ELEVATION_M)
+RUNWAY_FRAME = LocalFrame(THRESHOLD, ELEVATION_M)
 
 
 def crosswind(from_left_kt: float, turbulence_kt: float = 0.0, severity: int = 0) -> Atmosphere:
@@ -226,11 +226,11 @@ def _taxi_track() -> list[Local]:
 
 def _place(point: Local) -> Place:
     sin, cos = math.sin(COURSE_RAD), math.cos(COURSE_RAD)
-    return RUNWAY_PLANE.to_place(point[0] * sin + point[1] * cos, point[0] * cos - point[1] * sin)
+    return RUNWAY_FRAME.to_place(point[0] * sin + point[1] * cos, point[0] * cos - point[1] * sin)
 
 
 def _ahead_and_right(state: AircraftState) -> Local:
-    east, north = RUNWAY_PLANE.to_local((state.latitude_rad, state.longitude_rad))
+    east, north = RUNWAY_FRAME.to_local((state.latitude_rad, state.longitude_rad))
     sin, cos = math.sin(COURSE_RAD), math.cos(COURSE_RAD)
     return east * sin + north * cos, east * cos - north * sin
 

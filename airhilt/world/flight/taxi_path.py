@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.flight.autopilot import within
@@ -58,9 +58,9 @@ class TaxiPath:
     def __init__(self, places: Sequence[Place], speed_m_s: float, look_ahead_m: float) -> None:
         if len(places) < 2:
             raise ValueError(f"the path has {len(places)} places; expected at least 2")
-        self._plane = Plane(places[0], 0.0)
+        self._local_frame = LocalFrame(places[0])
         self._look_ahead = look_ahead_m
-        corners = [self._plane.to_local(place) for place in places]
+        corners = [self._local_frame.to_local(place) for place in places]
         self._points = [corners[0]]
         for a, b in itertools.pairwise(corners):
             pieces = max(math.ceil(math.dist(a, b) / STEPS_M), 1)
@@ -87,7 +87,7 @@ class TaxiPath:
 
     def along_m(self, state: AircraftState) -> float:
         """Return how far along the path the aircraft is: before it, less than 0."""
-        x, y = self._plane.to_local((state.latitude_rad, state.longitude_rad))
+        x, y = self._local_frame.to_local((state.latitude_rad, state.longitude_rad))
         nearest = math.inf
         along = 0.0
         first, last = self._index, min(self._index + WINDOW, len(self._legs))
@@ -109,7 +109,7 @@ class TaxiPath:
         speed = state.ground_speed_m_s
         reach = max(self._look_ahead, LOOK_AHEAD_S * speed)
         east, north = self._at(along_m + reach)
-        here = self._plane.to_local((state.latitude_rad, state.longitude_rad))
+        here = self._local_frame.to_local((state.latitude_rad, state.longitude_rad))
         bearing = math.atan2(east - here[0], north - here[1])
         distance = max(math.dist(here, (east, north)), 1.0)
         aside = within(wrap_angle(bearing - state.heading_rad), math.pi / 2.0)

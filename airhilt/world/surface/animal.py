@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.shapes.sizes import Dimensions
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
+from airhilt.world.surface.reach import within_reach
 
 if TYPE_CHECKING:
     from airhilt.world.surface.animal_kind import AnimalKind, Flight
@@ -101,7 +102,7 @@ class AnimalBody:
         self.ended: str | None = None
         self._ground_m = ground_m
         self._tick_s = tick_s
-        self._plane = Plane(place, ground_m)
+        self._local_frame = LocalFrame(place, ground_m)
         self._east = self._north = 0.0
         self._heading = heading_rad % math.tau
         self._speed = 0.0
@@ -195,7 +196,7 @@ class AnimalBody:
         usual = self._flight.height_m
         transit = height_m or (self._height if self._height > 0.0 else usual)
         self._move_origin()
-        goal = self._plane.to_local(place)
+        goal = within_reach(self._local_frame, place)
         self._end_flight()
         self._begin("flying", goal, transit, lands=height_m == 0.0)
 
@@ -213,7 +214,7 @@ class AnimalBody:
         if self.startled:
             return
         self._move_origin()
-        east, north = self._plane.to_local(away_from)
+        east, north = within_reach(self._local_frame, away_from)
         delay = self.kind.reaction_s * math.exp(REACTION_SIGMA * self._fright_rng.standard_normal())
         spread = FLIGHT_SPREAD_RAD * self._fright_rng.standard_normal()
         away = math.atan2(-east, -north) if east or north else self._heading
@@ -253,7 +254,7 @@ class AnimalBody:
             self.fly_to(place, 0.0)
             return
         self._move_origin()
-        goal = self._plane.to_local(place)
+        goal = within_reach(self._local_frame, place)
         self._end_flight()
         self._begin(gait, goal, 0.0, lands=False)
 
@@ -281,11 +282,13 @@ class AnimalBody:
             self._begin("flying", (east, north), height, lands=self._height <= 0.0)
 
     def _move_origin(self) -> None:
-        """Begin a new plane here, so that it is never far from its origin."""
-        goal = None if self._goal is None else self._plane.to_place(*self._goal)
-        self._plane = Plane((self.state.latitude_rad, self.state.longitude_rad), self._ground_m)
+        """Begin a new local frame here, so that it is never far from its origin."""
+        goal = None if self._goal is None else self._local_frame.to_place(*self._goal)
+        self._local_frame = LocalFrame(
+            (self.state.latitude_rad, self.state.longitude_rad), self._ground_m
+        )
         self._east = self._north = 0.0
-        self._goal = None if goal is None else self._plane.to_local(goal)
+        self._goal = None if goal is None else self._local_frame.to_local(goal)
 
     def _draw_wander(self) -> None:
         fresh = math.sqrt(1.0 - WANDER_MEMORY * WANDER_MEMORY)
@@ -388,7 +391,7 @@ class AnimalBody:
         self._speed, self._heading = speed, turned % math.tau
 
     def _state(self) -> SurfaceState:
-        latitude, longitude = self._plane.to_place(self._east, self._north)
+        latitude, longitude = self._local_frame.to_place(self._east, self._north)
         return SurfaceState(
             latitude,
             longitude,

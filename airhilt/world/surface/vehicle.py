@@ -6,10 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
+from airhilt.world.surface.reach import within_reach
 
 if TYPE_CHECKING:
     from airhilt.world.surface.vehicle_kind import VehicleKind
@@ -86,7 +87,7 @@ class Vehicle:
         self.phase: VehiclePhase = "standing"
         self._ground_m = ground_m
         self._tick_s = tick_s
-        self._plane = Plane(place, ground_m)
+        self._local_frame = LocalFrame(place, ground_m)
         self._stages: list[_Stage] = []
         self._index = 0
         self._along = 0.0
@@ -125,9 +126,11 @@ class Vehicle:
         speed = self.kind.cruise_m_s if speed_m_s is None else speed_m_s
         if not speed > STANDING_M_S:
             raise ValueError(f"speed_m_s is {speed}; expected more than 0")
-        plane = Plane((self.state.latitude_rad, self.state.longitude_rad), self._ground_m)
-        self._stages = self._plan([plane.to_local(place) for place in path])
-        self._plane = plane
+        local_frame = LocalFrame(
+            (self.state.latitude_rad, self.state.longitude_rad), self._ground_m
+        )
+        self._stages = self._plan([within_reach(local_frame, place) for place in path])
+        self._local_frame = local_frame
         self._cruise = min(speed, self.kind.maximum_m_s)
         self._index, self._along = 0, 0.0
         self.phase = "driving" if self._stages else "standing"
@@ -230,7 +233,7 @@ class Vehicle:
         return min(braked, first.limit_m_s * first.limit_m_s)
 
     def _state(self, east: float, north: float, heading: float) -> SurfaceState:
-        latitude, longitude = self._plane.to_place(east, north)
+        latitude, longitude = self._local_frame.to_place(east, north)
         speed = self._speed
         return SurfaceState(
             latitude,

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from shapely import LineString, Point
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.state import AircraftState
@@ -39,9 +39,9 @@ def corner(place: Callable[..., Any]) -> list[tuple[float, float]]:
 
 def distances_to(path: list[tuple[float, float]], flown: Any) -> list[float]:
     """Return how far from the path each of the places is (m)."""
-    plane = Plane(path[0], 0.0)
-    line = LineString([plane.to_local(place) for place in path])
-    return [line.distance(Point(plane.to_local(place))) for place in flown]
+    local_frame = LocalFrame(path[0], 0.0)
+    line = LineString([local_frame.to_local(place) for place in path])
+    return [line.distance(Point(local_frame.to_local(place))) for place in flown]
 
 
 def place_of(state: AircraftState) -> tuple[float, float]:
@@ -72,11 +72,11 @@ def test_it_follows_the_path_and_stops_at_its_end(
     assert distances_to([path[-1]] * 2, [place_of(aircraft.state)])[0] < 0.5
     off = distances_to(path, map(place_of, flown))
     assert max(off) < 3.5
-    plane = Plane(path[0], 0.0)
+    local_frame = LocalFrame(path[0], 0.0)
     before_bend = [
         distance
         for distance, state in zip(off, flown, strict=True)
-        if math.hypot(*plane.to_local(place_of(state))) < BEND_AT_M
+        if math.hypot(*local_frame.to_local(place_of(state))) < BEND_AT_M
     ]
     assert max(before_bend) < 2.0
     assert max(off[-20:]) < 2.0

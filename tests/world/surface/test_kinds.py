@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.surface import kinds
 from airhilt.world.surface.kinds import kind_names, load_kind
@@ -19,7 +19,7 @@ from paths import DOCS
 
 GUIDE = DOCS / "actors.md"
 HERE = (math.radians(38.8521), math.radians(-77.0377))
-THERE = Plane(HERE, 0.0).to_place(60.0, 80.0)
+THERE = LocalFrame(HERE, 0.0).to_place(60.0, 80.0)
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
@@ -20,7 +20,7 @@ from airhilt.world.surface.vehicle_kind import VehicleKind
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6
-PLANE = Plane(HERE, GROUND_M)
+LOCAL_FRAME = LocalFrame(HERE, GROUND_M)
 TICK_S = 0.05
 Local = tuple[float, float]
 
@@ -36,11 +36,11 @@ def vehicle(kind: str = "follow_me", heading_rad: float = 0.0) -> Vehicle:
 
 
 def path(*points: Local) -> list[Place]:
-    return [PLANE.to_place(*point) for point in points]
+    return [LOCAL_FRAME.to_place(*point) for point in points]
 
 
 def where(state: SurfaceState) -> Local:
-    return PLANE.to_local((state.latitude_rad, state.longitude_rad))
+    return LOCAL_FRAME.to_local((state.latitude_rad, state.longitude_rad))
 
 
 def chain(steps: list[tuple[float, float]]) -> list[Local]:
@@ -322,7 +322,7 @@ def test_nothing_is_left_to_go_on_with_at_the_end() -> None:
 def test_places_come_out_of_the_plane_as_they_went_in(
     latitude: float, longitude: float, east: float, north: float
 ) -> None:
-    plane = Plane((latitude, longitude), 100.0)
-    place = plane.to_place(east, north)
+    local_frame = LocalFrame((latitude, longitude), 100.0)
+    place = local_frame.to_place(east, north)
     assert abs(place[1]) <= math.pi
-    assert plane.to_local(place) == pytest.approx((east, north), abs=1e-4)
+    assert local_frame.to_local(place) == pytest.approx((east, north), abs=1e-4)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from airhilt.geodesy.plane import Plane
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
@@ -20,7 +20,7 @@ from airhilt.world.surface.kinds import load_kind
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6
-PLANE = Plane(HERE, GROUND_M)
+LOCAL_FRAME = LocalFrame(HERE, GROUND_M)
 TICK_S = 0.05
 Local = tuple[float, float]
 
@@ -39,11 +39,11 @@ def animal(kind: str, seed: int = 1, height_m: float = 0.0, heading_rad: float =
 
 
 def at(spot: Local) -> Place:
-    return PLANE.to_place(*spot)
+    return LOCAL_FRAME.to_place(*spot)
 
 
 def where(state: SurfaceState) -> Local:
-    return PLANE.to_local((state.latitude_rad, state.longitude_rad))
+    return LOCAL_FRAME.to_local((state.latitude_rad, state.longitude_rad))
 
 
 def watch(
