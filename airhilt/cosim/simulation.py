@@ -21,6 +21,7 @@ from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer, Result, Snapshot
 from airhilt.cosim.participants import Participants, connect
+from airhilt.cosim.radio import Radio
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup, set_up
@@ -36,12 +37,8 @@ from airhilt.record import LatencyLog, LogWriter, RunInfo
 from airhilt.record.audio import AudioRecorder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sensors.base import Sensor, SensorContext, start_sensors
-from airhilt.sensors.radio.backends import FallbackRadio
-from airhilt.sensors.radio.conversation import RadioConversation
-from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
@@ -137,8 +134,6 @@ class Simulation:
             self._director, self._router, self._event, observer, is_strict=setup.options.strict
         )
         self._world = WorldLoop(self._director, setup, self._router, self._event)
-        self._radio = self._connect_radio()
-        self._radio.start()
         self._collector = Collector(
             setup.scenario,
             setup.site.ground_m,
@@ -146,32 +141,24 @@ class Simulation:
             self._world.runways,
             Plans(setup.lines, setup.ends_ns),
         )
-        self._pool = WorkerPool(
-            self._director,
-            participants.workers,
-            setup.latency,
-            setup.options.seed,
-            publish=self._router.publish,
-            done=self._worker_done,
-            lost=self._worker_lost,
-        )
-        self._programs = ExternalPrograms(
-            self._director,
-            self._router,
-            self._event,
-            self._modalities,
-            observer,
-            obey=self._world.obey,
-            has_decision=bool(participants.programs) or participants.does("decision"),
-            is_strict=setup.options.strict,
-        )
+        self._pool = self._connect_workers()
+        self._programs = self._connect_programs()
         self._advisories = AdvisoryDelivery(
             self._director, setup.actors, self._event, is_voiced=participants.does("tts")
         )
         self._router.listen(AudioRecorder(setup.folder.audio_path).take)
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
-        self._router.listen(self._radio.take)
+        self._radio = Radio(
+            self._director,
+            setup,
+            self._world,
+            self._router,
+            self._event,
+            self._modalities,
+            observer,
+        ).conversation
+        self._radio.start()
         self._router.listen(self._advisories.take)
         self._sensors: list[Sensor] = []
         vision.mount(
@@ -184,28 +171,28 @@ class Simulation:
         self._schedule()
         self._serve_bus()
 
-    def _connect_radio(self) -> RadioConversation:
-        setup, world = self._setup, self._world
-        radio = setup.scenario.radio
-        self._sound = FallbackRadio(
-            setup.sound,
-            radio.words_per_minute,
-            partial(self._modalities.lose, "radio", "radio_lost", "radio"),
-        )
-        return RadioConversation(
+    def _connect_workers(self) -> WorkerPool:
+        return WorkerPool(
             self._director,
-            setup.scenario,
-            setup.lines,
-            Stations(setup.actors, setup.site, radio.lines),
-            self._sound,
-            setup.options.seed,
-            world.ended_lines,
-            once=world.once,
+            self._participants.workers,
+            self._setup.latency,
+            self._setup.options.seed,
             publish=self._router.publish,
-            do=world.do,
-            failed=self._line_failed,
-            microphone_stuck=self._microphone_stuck,
-            microphones_free=self._microphones_free,
+            done=self._worker_done,
+            lost=self._worker_lost,
+        )
+
+    def _connect_programs(self) -> ExternalPrograms:
+        participants = self._participants
+        return ExternalPrograms(
+            self._director,
+            self._router,
+            self._event,
+            self._modalities,
+            self._observer,
+            obey=self._world.obey,
+            has_decision=bool(participants.programs) or participants.does("decision"),
+            is_strict=self._setup.options.strict,
         )
 
     def _sensor_context(self) -> SensorContext:
@@ -334,23 +321,6 @@ class Simulation:
         if self._world.has_ended():
             self._director.stop()
 
-    # --- radio ------------------------------------------------------------------------------
-
-    def _line_failed(self, line: EffectiveLine) -> None:
-        self._world.misled |= line.misled
-        for text in line.failures:
-            self._event("failure", line.declared.id, text)
-
-    def _microphone_stuck(self, callsign: str, text: str) -> None:
-        self._event("failure", callsign, text)
-        self._modalities.set("radio", "lost", f"{callsign}: {text}")
-        self._observer.notice(f"radio blocked at {self._now_s:.1f} s by {callsign}: {text}")
-
-    def _microphones_free(self) -> None:
-        if not self._sound.is_lost:
-            self._modalities.set("radio", "on")
-        self._observer.notice(f"radio free again at {self._now_s:.1f} s")
-
     # --- workers ----------------------------------------------------------------------------
 
     def _worker_done(self, record: StepRecord) -> None:
@@ -395,15 +365,11 @@ class Simulation:
     def _publish_clock(self) -> None:
         _tell_clock(self._bus, self._director.now_ns, self._phase, self._director.pace)
 
-    @property
-    def _now_s(self) -> float:
-        return self._director.now_ns / SECOND_NS
-
     def _tell_observer(self) -> None:
         horizontal_m, vertical_m = self._world.distances_m() or (None, None)
         self._observer.snapshot(
             Snapshot(
-                self._now_s,
+                self._director.now_ns / SECOND_NS,
                 self._setup.scenario.duration_s,
                 horizontal_m,
                 vertical_m,

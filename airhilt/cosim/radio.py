@@ -1,0 +1,85 @@
+"""The radio of a run: its conversation, and what the run says of radio failures."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from airhilt.cosim.events import EventPublisher
+from airhilt.cosim.modalities import Modalities
+from airhilt.cosim.observer import Observer
+from airhilt.cosim.router import MessageRouter
+from airhilt.cosim.setup import Setup
+from airhilt.cosim.world_loop import WorldLoop
+from airhilt.scenario.failures import EffectiveLine
+from airhilt.sensors.radio.backends import FallbackRadio
+from airhilt.sensors.radio.conversation import RadioConversation
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director
+from airhilt.units import SECOND_NS
+
+
+class Radio:
+    """Connects the radio conversation with the world, the log and the observer of a run.
+
+    Attributes
+    ----------
+    conversation
+        Makes the calls of the scenario, and lets people answer them.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        setup: Setup,
+        world: WorldLoop,
+        router: MessageRouter,
+        event: EventPublisher,
+        modalities: Modalities,
+        observer: Observer,
+    ) -> None:
+        radio = setup.scenario.radio
+        self._director = director
+        self._world = world
+        self._event = event
+        self._modalities = modalities
+        self._observer = observer
+        self._backend = FallbackRadio(
+            setup.sound,
+            radio.words_per_minute,
+            partial(modalities.lose, "radio", "radio_lost", "radio"),
+        )
+        self.conversation = RadioConversation(
+            director,
+            setup.scenario,
+            setup.lines,
+            Stations(setup.actors, setup.site, radio.lines),
+            self._backend,
+            setup.options.seed,
+            world.ended_lines,
+            once=world.once,
+            publish=router.publish,
+            do=world.do,
+            failed=self._line_failed,
+            microphone_stuck=self._microphone_stuck,
+            microphones_free=self._microphones_free,
+        )
+        router.listen(self.conversation.take)
+
+    def _line_failed(self, line: EffectiveLine) -> None:
+        self._world.misled |= line.misled
+        for text in line.failures:
+            self._event("failure", line.declared.id, text)
+
+    def _microphone_stuck(self, callsign: str, text: str) -> None:
+        self._event("failure", callsign, text)
+        self._modalities.set("radio", "lost", f"{callsign}: {text}")
+        self._observer.notice(f"radio blocked at {self._now_s:.1f} s by {callsign}: {text}")
+
+    def _microphones_free(self) -> None:
+        if not self._backend.is_lost:
+            self._modalities.set("radio", "on")
+        self._observer.notice(f"radio free again at {self._now_s:.1f} s")
+
+    @property
+    def _now_s(self) -> float:
+        return self._director.now_ns / SECOND_NS
