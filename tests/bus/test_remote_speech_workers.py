@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
+import re
 import signal
 import subprocess
 from collections.abc import Iterator
@@ -21,6 +23,7 @@ from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Message, Transcript, Transmission
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
+from paths import EXAMPLES
 from processes import ActsAt, process
 
 HASHING_RECOGNISER = """
@@ -99,6 +102,40 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
     assert [(one.id, one.engine) for one in heard] == [(one.id, "hashing") for one in sent]
     assert [one.text for one in heard] == [f"{one.sha256} AAL123 DAL456" for one in sent]
     assert result.summary.modalities["asr"] == "on"
+    assert replay(result.folder).identical
+
+
+def test_a_recogniser_may_take_a_call_chunk_by_chunk_while_it_lasts(
+    short: Scenario, tmp_path: Path
+) -> None:
+    endpoint = free_endpoint()
+    with process(EXAMPLES / "streaming_asr_worker.py", endpoint):
+        result = run(
+            short, out=tmp_path / "run", latency="fixed:0.1", listen=endpoint,
+            attach=("streaming",),
+        )  # fmt: skip
+    sent = logged(result.folder, "radio/", Transmission)
+    heard = logged(result.folder, "asr/", Transcript)
+    assert len(sent) == 2
+    for call, transcript in zip(sent, heard, strict=True):
+        assert isinstance(call, Transmission)
+        assert isinstance(transcript, Transcript)
+        seconds = call.samples / call.sample_rate_hz
+        chunks = math.ceil((call.t_end_ns - call.t_tx_ns) / 500_000_000)
+        assert transcript.id == call.id
+        assert transcript.engine == "streaming"
+        assert re.fullmatch(
+            rf"about {seconds:.0f} seconds in ({chunks}|{chunks + 1}) chunks", transcript.text
+        )
+        assert transcript.t_ns - call.t_end_ns <= 200_000_000
+    steps = [
+        json.loads(line)
+        for line in (result.folder / "latency.jsonl").read_text().splitlines()
+        if '"streaming"' in line
+    ]
+    first, second = (call.t_tx_ns for call in sent if isinstance(call, Transmission))
+    begun = [step["t_in_ns"] for step in steps]
+    assert {first, first + 500_000_000, second, second + 500_000_000} <= set(begun)
     assert replay(result.folder).identical
 
 
