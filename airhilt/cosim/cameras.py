@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from airhilt.cosim.participants import Participants
+from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.metrics.roster import pair_of
+from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
@@ -22,9 +24,10 @@ from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director
 
 if TYPE_CHECKING:
+    from airhilt.sensors.cameras.frame import Frame
+    from airhilt.sensors.cameras.renderer_link import RendererLink
     from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
-    from airhilt.sensors.cameras.scene_renderer import Frame
     from airhilt.sensors.cameras.sensor import CameraSensor
 
 
@@ -41,10 +44,10 @@ class Vision:
 
     Parameters
     ----------
-    studio
+    process
         What draws; None where nothing is to be drawn, or nothing can.
-    blindness
-        Why what was to be drawn cannot be; empty if that is not so.
+    unavailable_reason
+        Why pictures that somebody would look at cannot be drawn; empty if they can.
     is_watched
         Whether a worker looks at the pictures.
     notice
@@ -54,13 +57,13 @@ class Vision:
     def __init__(
         self,
         setup: Setup,
-        studio: RendererProcess | None,
+        process: RendererProcess | None,
         unavailable_reason: str,
         is_watched: bool,
         notice: Callable[[str], None],
     ) -> None:
         self._setup = setup
-        self._studio = studio
+        self._process = process
         self._unavailable_reason = unavailable_reason
         self._is_watched = is_watched
         self._notice = notice
@@ -70,14 +73,14 @@ class Vision:
     @property
     def renderer(self) -> str:
         """Name of the renderer that draws; empty if no pictures are drawn."""
-        return "" if self._studio is None else self._studio.renderer
+        return "" if self._process is None else self._process.renderer
 
     @property
     def state(self) -> tuple[ModalityState, str]:
         """How it stands with vision when the run begins, and why."""
         if self._unavailable_reason:
             return "not evaluated", self._unavailable_reason
-        return "on" if self._studio is not None and self._is_watched else "off", ""
+        return "on" if self._process is not None and self._is_watched else "off", ""
 
     def mount(
         self,
@@ -99,7 +102,7 @@ class Vision:
         lost
             Called with the cause when there will be no more pictures.
         """
-        if self._studio is None:
+        if self._process is None:
             return
         from airhilt.sensors.cameras.sensor import CameraSensor
 
@@ -114,7 +117,7 @@ class Vision:
         loss = setup.recorded.cameras_lost
         self._sensor = CameraSensor(
             director,
-            self._studio if loss is None else _UntilLost(self._studio, *loss),
+            self._process if loss is None else _UntilLost(self._process, *loss),
             setup.scenario.cameras,
             setup.site,
             setup.actors,
@@ -142,13 +145,47 @@ class Vision:
 
 
 @contextmanager
+def started_renderer(
+    scenario: Scenario, options: Options, recorded: Recorded, is_watched: bool
+) -> Iterator[RendererLink | None]:
+    """Start the process that draws while a run is set up, if somebody may look at its pictures.
+
+    Parameters
+    ----------
+    is_watched
+        Whether workers of this process may look.
+    """
+    may_look = (
+        is_watched
+        or options.video
+        or options.endpoint is not None
+        or bool(options.attach)
+        or (options.detector != "none" and options.assistant != "none")
+    )
+    link = None
+    if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
+        with suppress(OSError):  # It is started again when it is asked, which says what is wrong.
+            link = _start_renderer()
+    try:
+        yield link
+    finally:
+        if link is not None:
+            link.close()
+
+
+@contextmanager
 def open_vision(
-    setup: Setup, participants: Participants, notice: Callable[[str], None]
+    setup: Setup,
+    participants: Participants,
+    link: RendererLink | None,
+    notice: Callable[[str], None],
 ) -> Iterator[Vision]:
     """Let the renderer be there for the time of a run, if somebody might look at its pictures.
 
     Parameters
     ----------
+    link
+        A process that has been started to draw.
     notice
         Called with what a user should know at once, such as why nothing can be drawn.
 
@@ -162,7 +199,7 @@ def open_vision(
         Nothing can be drawn, and the run is strict.
     """
     options, recorded = setup.options, setup.recorded
-    studio, unavailable_reason = None, recorded.unavailable_reason
+    process, unavailable_reason = None, recorded.unavailable_reason
     if options.cameras and options.renderer != AUTO and recorded.latency is None:
         from airhilt.sensors.cameras.renderers import require_known
 
@@ -170,15 +207,15 @@ def open_vision(
     with ExitStack() as stack:
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
-                studio = stack.enter_context(
-                    _open_renderer_process(setup.scenario, options.renderer)
+                process = stack.enter_context(
+                    _open_renderer_process(setup.scenario, options.renderer, link)
                 )
             except RendererError as error:
                 if recorded.latency is not None:
                     raise RendererError(f"cannot be replayed here: {error}") from None
                 unavailable_reason = str(error)
                 _tell(f"vision is not evaluated: {unavailable_reason}", options.strict, notice)
-        yield Vision(setup, studio, unavailable_reason, participants.does("vision"), notice)
+        yield Vision(setup, process, unavailable_reason, participants.does("vision"), notice)
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:
@@ -190,11 +227,19 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _open_renderer_process(scenario: Scenario, renderer: str) -> RendererProcess:
+def _start_renderer() -> RendererLink:
+    from airhilt.sensors.cameras.renderer_link import RendererLink
+
+    return RendererLink()
+
+
+def _open_renderer_process(
+    scenario: Scenario, renderer: str, link: RendererLink | None
+) -> RendererProcess:
     # Not at the top: a run without cameras starts without the libraries behind them.
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
-    return RendererProcess(scenario, renderer=renderer)
+    return RendererProcess(scenario, renderer=renderer, link=link)
 
 
 def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
@@ -208,9 +253,9 @@ def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
 class _UntilLost:
     """Takes pictures up to the instant at which an earlier run could take no more."""
 
-    def __init__(self, studio: RendererProcess, lost_ns: int, cause: str) -> None:
-        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = studio.own_aircraft
-        self._studio = studio
+    def __init__(self, process: RendererProcess, lost_ns: int, cause: str) -> None:
+        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = process.own_aircraft
+        self._process = process
         self._lost_ns = lost_ns
         self._cause = cause
 
@@ -224,4 +269,4 @@ class _UntilLost:
         """
         if t_ns >= self._lost_ns:
             raise RendererError(self._cause)
-        return self._studio.shoot(names, bodies, t_ns)
+        return self._process.shoot(names, bodies, t_ns)

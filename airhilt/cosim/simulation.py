@@ -15,7 +15,7 @@ from typing import Literal
 
 from airhilt.bus.session import Bus
 from airhilt.cosim.briefing import briefing_of
-from airhilt.cosim.cameras import Vision, open_vision
+from airhilt.cosim.cameras import Vision, open_vision, started_renderer
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.modalities import Modalities
@@ -76,9 +76,11 @@ def run(
         Likewise.
     """
     observer = observer or Observer()
-    setup = set_up(scenario, options or Options(), recorded or Recorded())
-    options, pace = setup.options, setup.pace
+    options, recorded = options or Options(), recorded or Recorded()
     with ExitStack() as stack:
+        link = stack.enter_context(started_renderer(scenario, options, recorded, bool(workers)))
+        setup = set_up(scenario, options, recorded)
+        options, pace = setup.options, setup.pace
         bus = stack.enter_context(closing(Bus(setup.name, options.endpoint)))
         _tell_clock(bus, 0, "waiting", pace)
         participants = connect(
@@ -86,7 +88,7 @@ def run(
         )
         if participants.programs and options.pace is None and not setup.recorded.programs:
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, observer.notice))
+        vision = stack.enter_context(open_vision(setup, participants, link, observer.notice))
         setup.folder.create(options.overwrite)
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)

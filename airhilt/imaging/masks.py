@@ -41,3 +41,12 @@ def mask_of(runs: Sequence[int], rows: int, columns: int) -> Mask:
         )
     covered = np.arange(len(runs)) % 2 == 1
     return np.repeat(covered, runs).reshape(rows, columns)
+
+
+def grown(mask: Mask, margin_px: int) -> Mask:
+    """Return a mask and all pixels within a margin of it, along rows and columns."""
+    grown = np.pad(mask, margin_px)
+    for axis in (0, 1):
+        steps = range(-margin_px, margin_px + 1)
+        grown = np.logical_or.reduce([np.roll(grown, step, axis) for step in steps])
+    return grown[margin_px:-margin_px, margin_px:-margin_px]

@@ -1,6 +1,6 @@
 """How a camera, as its messages describe it, maps directions of the world to its picture.
 
-Whoever draws has `airhilt.sensors.cameras.view`; this is for all that has nothing but the messages.
+Whoever draws has `airhilt.imaging.view`; this is for all that has nothing but the messages.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.imaging.view import attitude
 from airhilt.messages import CameraView
-from airhilt.sensors.cameras.view import attitude
 from airhilt.units import DEGREE
 
 LEAST_AHEAD = 1e-3
@@ -22,7 +22,7 @@ LEAST_AHEAD = 1e-3
 class Pinhole:
     """A camera without distortion, with square pixels, its axis through the middle of the picture.
 
-    Its own axes are x to the right, y down and z ahead, as in `airhilt.sensors.cameras.view`.
+    Its own axes are x to the right, y down and z ahead, as in `airhilt.imaging.view`.
 
     Attributes
     ----------

@@ -76,7 +76,7 @@ def aircraft_lights(aircraft: AircraftShape, t_s: float, landing: bool) -> Itera
 
 
 def vehicle_lights(size: Size, t_s: float) -> Iterator[Light]:
-    """Yield the flashing beacon and the headlamps of a vehicle that are on at an instant."""
+    """Yield the flashing beacon and the headlights of a vehicle that are on at an instant."""
     if (t_s * ROOF_BEACON_HZ) % 1.0 < 0.35:
         yield Light((0.0, 0.1 * size.length_m, size.height_m + 0.1), AMBER, 120.0)
     for side in (-0.35, 0.35):

@@ -19,7 +19,7 @@ from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.scene_renderer import Frame
+from airhilt.sensors.cameras.frame import Frame
 from airhilt.units import SECOND_NS
 from camera_run import camera_run, passing
 from oracle import BlankSceneRenderer

@@ -110,15 +110,15 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     opened = []
     open_scene_renderer = vision._open_renderer_process
 
-    def opening(scenario: Scenario, renderer: str) -> object:
-        opened.append(open_scene_renderer(scenario, renderer))
+    def opening(*given: object) -> object:
+        opened.append(open_scene_renderer(*given))
         return opened[-1]
 
     class Killer(Observer):
         def snapshot(self, snapshot: Snapshot) -> None:
             if snapshot.t_s == 1.0:
                 os.kill(opened[0].process_id, signal.SIGKILL)
-                opened[0]._process.wait()
+                opened[0]._link._process.wait()
 
     monkeypatch.setattr(vision, "_open_renderer_process", opening)
     result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())

@@ -35,14 +35,15 @@ def camera_run(
     oracle = Oracle(None, 0, 8.0)
     reference = team.reference_workers
 
-    def open_scene_renderer(realised: Scenario, renderer: str) -> BlankSceneRenderer:
-        oracle._studio = BlankSceneRenderer(realised)
-        return oracle._studio
+    def open_scene_renderer(realised: Scenario, *_: Any) -> BlankSceneRenderer:
+        oracle._renderer = BlankSceneRenderer(realised)
+        return oracle._renderer
 
     def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> list[Any]:
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, oracle] if assistant != "none" else others
 
+    patch.setattr(vision, "_start_renderer", lambda: None)
     patch.setattr(vision, "_open_renderer_process", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     given = Options(**{"latency": "fixed", "speech": False, "out": out} | options)

@@ -36,10 +36,10 @@ from airhilt.messages import (
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import cameras_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, model_of
 from airhilt.sensors.cameras.scene.projected_box import Outline
-from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
@@ -117,14 +117,14 @@ class BlankSceneRenderer:
 class Oracle:
     """A vision worker that is told the truth, and errs a little."""
 
-    def __init__(self, studio: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
+    def __init__(self, renderer: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
         self.description = WorkerDescription(
             name="vision",
             modality="vision",
             inputs=(InputSpec(key="camera/*/frame", policy="latest"),),
             latency=DeclaredLatency(median_s=0.05),
         )
-        self._studio = studio
+        self._renderer = renderer
         self._smallest_px = smallest_px
         self._generator = np.random.default_rng((seed, 71))
         self._hits: dict[tuple[str, str], int] = {}
@@ -147,7 +147,7 @@ class Oracle:
 
     def _look(self, frame: CameraFrame) -> tuple[Detection, ...] | None:
         """Return what is in a picture; None if it was missed."""
-        seen = self._studio.sightings[frame.camera, frame.t_frame_ns]
+        seen = self._renderer.sightings[frame.camera, frame.t_frame_ns]
         return tuple(d for s in seen if (d := self._detect(frame.camera, s)))
 
     def _detect(self, camera: str, sighting: Sighting) -> Detection | None:
@@ -163,7 +163,7 @@ class Oracle:
         return Detection(
             label=sighting.label, confidence=0.8, hits=self._hits[key],
             box=(left, top, max(right, left + 1.0), max(bottom, top + 1.0)),
-            track_id=1 + sorted(self._studio._models).index(sighting.actor),
+            track_id=1 + sorted(self._renderer._models).index(sighting.actor),
         )  # fmt: skip
 
 
@@ -174,8 +174,8 @@ class Follower(Oracle):
     something is before the lens for longer than a track lives.
     """
 
-    def __init__(self, studio: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
-        super().__init__(studio, seed, smallest_px)
+    def __init__(self, renderer: BlankSceneRenderer, seed: int, smallest_px: float) -> None:
+        super().__init__(renderer, seed, smallest_px)
         self._errors = np.random.default_rng((seed, 72))
         self._trackers: dict[str, Tracker] = {}
         self.erred: Counter[str] = Counter()
@@ -227,10 +227,10 @@ def watched(
     """Run a scenario with its cameras, an oracle and the reference assistant."""
     made: list[Oracle] = []
 
-    def open_scene_renderer(realised: Scenario, renderer: str) -> BlankSceneRenderer:
-        studio = BlankSceneRenderer(realised)
-        made[0]._studio = studio
-        return studio
+    def open_scene_renderer(realised: Scenario, *_: object) -> BlankSceneRenderer:
+        renderer = BlankSceneRenderer(realised)
+        made[0]._renderer = renderer
+        return renderer
 
     reference = team.reference_workers
 
@@ -239,6 +239,7 @@ def watched(
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 
+    patch.setattr(vision, "_start_renderer", lambda: None)
     patch.setattr(vision, "_open_renderer_process", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     options = Options(seed=seed, out=out, latency="fixed")

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.messages import CameraView, Detection, Detections, VisibleClass
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.sim import Input
 from airhilt.units import DEGREE, SECOND_NS
 

@@ -6,12 +6,12 @@ import math
 
 from airhilt import load
 from airhilt.geodesy.positions import RunwayPosition
+from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
+from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, local_frame_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model, aircraft_model, kind_model
-from airhilt.sensors.cameras.scene.builder import light_of, world_of
+from airhilt.sensors.cameras.scene.builder import landscape_of, light_of
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
-from airhilt.sensors.cameras.view import Intrinsics, Pose
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.airport import load_airport
@@ -24,7 +24,7 @@ class LandingScene:
         scenario = load("s01b_nominal")
         self._site = ScenarioSite.of(scenario)
         self._light = light_of(scenario, self._site)
-        self._world = world_of(scenario, self._site, self._light)
+        self._landscape = landscape_of(scenario, self._site, self._light)
         self._models: dict[str, Model] = {
             "737": aircraft_model("737"),
             "B747": aircraft_model("B747"),
@@ -38,7 +38,7 @@ class LandingScene:
 
     def renderer(self, renderer: str) -> SceneRenderer:
         """Return a renderer with both cameras."""
-        return SceneRenderer(self._world, self._light, self._models, self._cameras, renderer)
+        return SceneRenderer(self._landscape, self._light, self._models, self._cameras, renderer)
 
     def bodies(self, turn_rad: float = 0.0) -> list[list[BodyState]]:
         """Return where all are in the pictures of a second, 70 m/s down a path of 3 degrees."""
@@ -57,7 +57,7 @@ class LandingScene:
         assert self._site.layout is not None
         course = self._site.layout.runway("01").course_rad
         place = RunwayPosition(type="runway", runway="01", along_m=along_m)
-        east, north = frame_of(self._site).to_local(self._site.place(place))
+        east, north = local_frame_of(self._site).to_local(self._site.place(place))
         return BodyState(actor, east, north, up_m, course + turned, 0.0, 0.0, shape, True)
 
 

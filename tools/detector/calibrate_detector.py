@@ -46,8 +46,9 @@ from airhilt.assistant.vision.tracker import Tracker
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import CONFIRMED_HITS, CameraView
-from airhilt.sensors.cameras.dataset.coco import studio_of
-from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting, cast
+from airhilt.sensors.cameras.dataset.coco import scene_renderer_of
+from airhilt.sensors.cameras.dataset.placement import cast
+from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.sensor import view_message
@@ -102,31 +103,38 @@ def runs(
     done = number = 0
     while done < count:
         sitting = casting.sitting(number, stream(seed, "minutes", number))
-        studio = studio_of(sitting, renderer)
+        drawing = scene_renderer_of(sitting, renderer)
         try:
             chosen = list(dict.fromkeys(sitting.order))[:MOST_RUNS_OF_A_SITTING]
             for camera in chosen[: count - done]:
                 draws = stream(seed, "minutes/run", number, done)
                 begin = cast(sitting, camera, draws, empty=1.0)
-                yield sitting.stations[camera], shots(sitting, studio, camera, begin, seconds)
+                yield (
+                    sitting.stations[camera],
+                    shots(sitting, drawing, camera, begin, seconds),
+                )
                 done += 1
         finally:
-            studio.close()
+            drawing.close()
         number += 1
 
 
 def shots(
-    sitting: Sitting, studio: SceneRenderer, camera: str, begin: Sequence[BodyState], seconds: float
+    sitting: Sitting,
+    drawing: SceneRenderer,
+    camera: str,
+    begin: Sequence[BodyState],
+    seconds: float,
 ) -> Iterator[Exposure]:
     """Yield the pictures of a camera while its aircraft, if it has one, goes on."""
     frame = sitting.layout.frame if sitting.layout is not None else LocalFrame((0.8, 0.0))
     carrier = sitting.cameras[camera].carrier
     for index in range(round(seconds * RATE_HZ)):
         t_s = index / RATE_HZ
-        taken = studio.shoot([camera], [gone_on(body, t_s) for body in begin], seconds_to_ns(t_s))[
+        taken = drawing.shoot([camera], [gone_on(body, t_s) for body in begin], seconds_to_ns(t_s))[
             0
         ]
-        number = studio.actors.index(carrier) + 1 if carrier is not None else -1
+        number = drawing.actors.index(carrier) + 1 if carrier is not None else -1
         yield Exposure(
             taken.t_ns,
             view_message(taken.view, frame, carrier),

@@ -278,12 +278,12 @@ def _shoot(
     from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
     models = {"737": aircraft_model("737"), "own": aircraft_model("737")}
-    studio = SceneRenderer(world, light, models, [camera], renderer)
+    scene_renderer = SceneRenderer(world, light, models, [camera], renderer)
     try:
         for index, away in enumerate(_steps()):
-            yield studio.shoot([camera.name], bodies(away), round(index / RATE_HZ * 1e9))[0]
+            yield scene_renderer.shoot([camera.name], bodies(away), round(index / RATE_HZ * 1e9))[0]
     finally:
-        studio.close()
+        scene_renderer.close()
 
 
 def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
@@ -296,10 +296,10 @@ def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
 
 def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     """Yield pictures of a camera beside the threshold of Zürich's runway 14."""
+    from airhilt.imaging.view import Intrinsics, Pose
     from airhilt.sensors.cameras.mounts import Camera
     from airhilt.sensors.cameras.scene.bodies import BodyState
-    from airhilt.sensors.cameras.scene.landscape import airport_world
-    from airhilt.sensors.cameras.view import Intrinsics, Pose
+    from airhilt.sensors.cameras.scene.landscape import airport_landscape
     from airhilt.world.surface.airport import load_airport
     from airhilt.world.surface.layout import Layout
 
@@ -318,15 +318,15 @@ def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
         shape = "gear" if up < 600.0 else "clean"
         return [BodyState("737", *place, end.course_rad, 0.03, 0.0, shape, True)]
 
-    yield from _shoot(renderer, airport_world(layout, light), light, camera, bodies)
+    yield from _shoot(renderer, airport_landscape(layout, light), light, camera, bodies)
 
 
 def _before_nose_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     """Yield pictures from the nose of an aircraft at 1000 m, above open country."""
+    from airhilt.imaging.view import Intrinsics
     from airhilt.sensors.cameras.mounts import Camera, station_mount
     from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
     from airhilt.sensors.cameras.scene.landscape import open_country
-    from airhilt.sensors.cameras.view import Intrinsics
 
     light = _light(math.radians(47.0), solar_time_h, True)
     mount = station_mount("nose", "own", "nose", {"own": aircraft_model("737")})

@@ -39,11 +39,11 @@ def render(
     The actors carry out what they are told at the start; nobody talks, and nobody warns.
     """
     from airhilt import load
-    from airhilt.sensors.cameras.snapshot import still, write_png
+    from airhilt.sensors.cameras.snapshot import snapshot, write_png
 
     if not (math.isfinite(at_s) and 0.0 <= at_s <= 86_400.0):
         raise CameraError(f"--at is {at_s} s; expected 0 to 86400")
-    frame = still(load(name), camera, at_s, seed, renderer)
+    frame = snapshot(load(name), camera, at_s, seed, renderer)
     path = out or Path(f"{Path(name).stem}-{camera}-{at_s:g}.png")
     write_png(frame, path, boxes)
     click.echo(path)

@@ -2,3 +2,5 @@
 
 AUTO = "auto"
 """Renderer: Open3D where it is installed, otherwise Embree."""
+STILL_SAMPLES = 3
+"""Samples along each side of a pixel of a background that is drawn once."""

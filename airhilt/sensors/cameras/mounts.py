@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from airhilt.errors import CameraError
 from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.library import nearest
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import ActorMount, FixedMount
 from airhilt.scenario.models import Camera as DeclaredCamera
-from airhilt.sensors.cameras.scene.bodies import BodyState, Model
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model, model_of
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.airport import Camera as AirportCamera
@@ -69,7 +69,7 @@ class Camera:
         return View(self.intrinsics, self.at.pose.on(carrier.pose))
 
 
-def frame_of(site: ScenarioSite) -> LocalFrame:
+def local_frame_of(site: ScenarioSite) -> LocalFrame:
     """Return the local frame in which a setting is drawn."""
     if site.layout is not None:
         return site.layout.frame
@@ -86,14 +86,30 @@ def cameras_of(
     CameraError
         One is none.
     """
-    frame = frame_of(site)
+    local_frame = local_frame_of(site)
     cameras: dict[str, Camera] = {}
     if site.layout is not None:
         for given in site.layout.airport.cameras:
-            cameras[given.name] = _of_airport(given, frame)
+            cameras[given.name] = _of_airport(given, local_frame)
     for declared in scenario.cameras:
-        cameras[declared.name] = _declared(declared, site, frame, models)
+        cameras[declared.name] = _declared(declared, site, local_frame, models)
     return cameras
+
+
+def cameras_named(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]:
+    """Return cameras of a scenario or of its airport by their names.
+
+    Raises
+    ------
+    CameraError
+        There is no camera of one of the names, or it is none.
+    """
+    carriers = {camera.carrier for camera in scenario.cameras}
+    models = {
+        actor.callsign: model_of(actor) for actor in scenario.actors if actor.callsign in carriers
+    }
+    known = cameras_of(scenario, ScenarioSite.of(scenario), models)
+    return {name: find_camera(known, name) for name in names}
 
 
 def find_camera(cameras: Mapping[str, Camera], name: str) -> Camera:
@@ -109,8 +125,8 @@ def find_camera(cameras: Mapping[str, Camera], name: str) -> Camera:
     return cameras[name]
 
 
-def _of_airport(given: AirportCamera, frame: LocalFrame) -> Camera:
-    east, north = frame.to_local(given.place)
+def _of_airport(given: AirportCamera, local_frame: LocalFrame) -> Camera:
+    east, north = local_frame.to_local(given.place)
     pose = Pose.of(
         (east, north, given.height_m), given.azimuth_deg * DEGREE, given.elevation_deg * DEGREE
     )
@@ -119,12 +135,15 @@ def _of_airport(given: AirportCamera, frame: LocalFrame) -> Camera:
 
 
 def _declared(
-    declared: DeclaredCamera, site: ScenarioSite, frame: LocalFrame, models: Mapping[str, Model]
+    declared: DeclaredCamera,
+    site: ScenarioSite,
+    local_frame: LocalFrame,
+    models: Mapping[str, Model],
 ) -> Camera:
     lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
     match declared.mount:
         case FixedMount() as fixed:
-            east, north = frame.to_local(site.place(fixed.position))
+            east, north = local_frame.to_local(site.place(fixed.position))
             pose = Pose.of(
                 (east, north, fixed.height_ft * FOOT),
                 fixed.azimuth_deg * DEGREE,

@@ -1,6 +1,6 @@
-"""Takes pictures: puts still world, bodies, shadows, lights and rain together, with the truth.
+"""Takes pictures: puts landscape, bodies, shadows, lights and rain together, with the truth.
 
-A picture is the world behind everything, and before it one layer for each body. Each body is
+A picture is the landscape behind everything, and before it one layer for each body. Each body is
 drawn alone in its own window, finer than the pixels the smaller it is, so that what a pixel shows
 of it, and how much of it others hide, are counted and not guessed.
 """
@@ -9,27 +9,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import CameraError
-from airhilt.imaging.masks import Mask
-from airhilt.messages import VisibleClass
-from airhilt.sensors.cameras import AUTO
+from airhilt.imaging.masks import Mask, grown
+from airhilt.imaging.view import Pose, View, Window
+from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
+from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
-from airhilt.sensors.cameras.scene.background import KEPT_PX, Background
+from airhilt.sensors.cameras.scene.background import Background
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.landscape import World
+from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
 from airhilt.sensors.cameras.scene.projected_box import Box, Outline
 from airhilt.sensors.cameras.scene.rain import Streaks
-from airhilt.sensors.cameras.view import Pose, View, Window
+from airhilt.sensors.cameras.scene.shadows import darken
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
 
@@ -37,13 +38,10 @@ FINENESS = ((900, 4), (2500, 3), (16_000, 2))
 """Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """That the numbers of ``Frame.instance`` tell apart."""
-STILL_SAMPLES = 3
-"""Along each side of a pixel of a background that is drawn once."""
 FAINTEST = 1.0 / 512.0
 """Pixels, times what the air leaves of their contrast: less changes no level of any pixel."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
-ON_GROUND_M = 0.3
 SMALL_PX = 4000
 """Area of a window in which a body may be coarse."""
 OWN_SAMPLES = 2
@@ -53,76 +51,6 @@ AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """A picture of the own aircraft is kept while the light turns less than a step of this part of
 a radian."""
-
-
-@dataclass(frozen=True)
-class Sighting:
-    """What is true of a body in a picture.
-
-    Attributes
-    ----------
-    box
-        About all of the body that is within the picture, whether hidden or not; pixels.
-    pixels
-        Area that is seen; 0 also of what is too small, or too far in the haze, to change any
-        pixel.
-    visible_fraction
-        Of the body's area within the picture, that nothing hides; 0 where ``pixels`` is 0.
-    truncation
-        Part of the box about the whole body that lies outside of the picture.
-    range_m
-        From the camera to the body's reference point.
-    transmission
-        Part of the body's contrast that the air leaves.
-    """
-
-    actor: str
-    label: VisibleClass
-    box: Box
-    pixels: float
-    visible_fraction: float
-    truncation: float
-    range_m: float
-    transmission: float
-
-    @property
-    def occlusion(self) -> float:
-        """Part of the body's area within the picture that something hides."""
-        return 1.0 - self.visible_fraction
-
-
-@dataclass(frozen=True)
-class Frame:
-    """A picture and what is true of it; its arrays cannot be written to.
-
-    Attributes
-    ----------
-    colour
-        8-bit sRGB, shape (rows, columns, 3).
-    distance_m
-        From the camera along the ray, infinite in the sky. Of the still world before a camera
-        that moves it may be that of some pictures before: see
-        `airhilt.sensors.cameras.scene.background`.
-    instance
-        0 where no body fills the pixel, else the number of the actor in the studio, from 1.
-    unchanged
-        The picture is the camera's last one again: colours, distances and instances.
-    """
-
-    camera: str
-    t_ns: int
-    view: View
-    colour: npt.NDArray[np.uint8]
-    distance_m: Floats
-    instance: npt.NDArray[np.uint8]
-    sightings: tuple[Sighting, ...]
-    unchanged: bool = False
-
-    def sealed(self) -> Frame:
-        """Return it, its arrays being safe from writing: several frames may have them."""
-        for plane in (self.colour, self.distance_m, self.instance):
-            plane.flags.writeable = False
-        return self
 
 
 class _Seen(NamedTuple):
@@ -143,7 +71,7 @@ class _Seen(NamedTuple):
 
 
 class _Plain(NamedTuple):
-    """A picture of the world with at most the own aircraft before it, and what it shows."""
+    """A picture of the landscape with at most the own aircraft before it, and what it shows."""
 
     drawn: int
     own: Layer | None
@@ -177,7 +105,7 @@ class SceneRenderer:
 
     def __init__(
         self,
-        world: World,
+        landscape: Landscape,
         light: Illumination,
         models: Mapping[str, Model],
         cameras: Iterable[Camera],
@@ -185,7 +113,6 @@ class SceneRenderer:
         rain_mm_h: float = 0.0,
         supersampling: int = 1,
     ) -> None:
-        self._world = world
         self._light = light
         self._models = dict(models)
         if len(self._models) > MOST_ACTORS:
@@ -197,7 +124,7 @@ class SceneRenderer:
         self._cameras = {camera.name: camera for camera in cameras}
         for camera in self._cameras.values():
             if isinstance(camera.at, Pose):
-                world.require_free(camera.name, camera.at.position_m)
+                landscape.require_free(camera.name, camera.at.position_m)
         shapes = {
             f"{model.kind}/{name}": mesh
             for model in self._models.values()
@@ -209,10 +136,10 @@ class SceneRenderer:
             for model in self._models.values()
             for name, mesh in model.far.items()
         }
-        self.renderer, self._renderer = open_renderer(renderer, world.mesh, shapes | far, light)
+        self.renderer, self._renderer = open_renderer(renderer, landscape.mesh, shapes | far, light)
         self._far = frozenset(far)
         self._supersampling = supersampling
-        self._fixed_lights = Lights.of(world.lights)
+        self._fixed_lights = Lights.of(landscape.lights)
         self._backgrounds = {
             camera.name: self._background(camera) for camera in self._cameras.values()
         }
@@ -276,7 +203,7 @@ class SceneRenderer:
             part = Part(shape, AT_ORIGIN, window, OWN_SAMPLES)
             drawn = by_sample(self._renderer.parts(view, [part])[0].distance_m, OWN_SAMPLES)
             covered[window.slices] |= np.isfinite(drawn).any(axis=0)
-        return _grown(covered, OWN_MARGIN_PX)
+        return grown(covered, OWN_MARGIN_PX)
 
     # --- one picture ----------------------------------------------------------------------
 
@@ -313,7 +240,7 @@ class SceneRenderer:
         parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
-            self._darken(part, picture, view, background, colour)
+            darken(colour, part, picture, view, background, self._light)
         layers = [
             self._layer(one, part, picture, background.distance_m[one.window.slices])
             for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
@@ -342,8 +269,8 @@ class SceneRenderer:
         return Background(self._renderer, max(STILL_SAMPLES, self._supersampling), self._light_up)
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
-        """Draw the lights of the world, which are always on, into what is drawn once."""
-        if self._light.needs_lamps:
+        """Draw the lights of the landscape, which are always on, into what is drawn once."""
+        if self._light.needs_lights:
             shine(colour, distance_m, self._fixed_lights.seen(view, self._light))
 
     def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
@@ -403,26 +330,6 @@ class SceneRenderer:
         samples = max(min(_fineness(window), 2), self._supersampling)
         return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
 
-    def _darken(
-        self, part: Part, drawn: Samples, view: View, background: Background,
-        colour: npt.NDArray[np.uint8],
-    ) -> None:  # fmt: skip
-        """Darken the flat ground where a body keeps the sun off."""
-        light = self._light
-        shaded = np.isfinite(by_sample(drawn.distance_m, part.samples))
-        down = view.directions(*view.sample_places(part.window, 1))[2]
-        away = background.distance_m[part.window.slices]
-        with np.errstate(invalid="ignore"):
-            # The ground may have been drawn when it was a little out of its place.
-            near = np.float32(ON_GROUND_M) + np.float32(KEPT_PX / view.intrinsics.focal_px) * away
-            on_ground = np.abs(away * down + np.float32(view.pose.position_m[2])) < near
-            kept = shaded.mean(axis=0, dtype=np.float32) * on_ground
-            kept *= np.exp(-np.float32(light.extinction_per_m) * away)
-        lit = light.diffuse + light.direct * max(float(light.sun[2]), 0.0)
-        darker = 1.0 - (light.diffuse / lit) ** (1.0 / 2.2)
-        ground = colour[part.window.slices]
-        ground[...] = (ground * (1.0 - kept[..., None] * darker)).astype(np.uint8)
-
     def _samples(self, window: Window) -> int:
         return max(_fineness(window), self._supersampling)
 
@@ -446,7 +353,7 @@ class SceneRenderer:
     ) -> list[Spot]:
         carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
         found = Lights.carried(carried).seen(view, self._light)
-        if not camera.is_fixed and self._light.needs_lamps:
+        if not camera.is_fixed and self._light.needs_lights:
             found.extend(self._fixed_lights.seen(view, self._light))
         return found
 
@@ -494,12 +401,3 @@ class SceneRenderer:
 
 def _fineness(window: Window) -> int:
     return next((samples for area, samples in FINENESS if window.area <= area), 1)
-
-
-def _grown(mask: Mask, margin_px: int) -> Mask:
-    """Return a mask with all pixels that are as near as some margin, along rows and columns."""
-    grown = np.pad(mask, margin_px)
-    for axis in (0, 1):
-        steps = range(-margin_px, margin_px + 1)
-        grown = np.logical_or.reduce([np.roll(grown, step, axis) for step in steps])
-    return grown[margin_px:-margin_px, margin_px:-margin_px]

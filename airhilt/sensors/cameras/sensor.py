@@ -14,6 +14,7 @@ import numpy.typing as npt
 from airhilt.errors import CameraError, RendererError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.masks import runs_of
+from airhilt.imaging.view import View
 from airhilt.messages import (
     CameraFrame,
     CameraInfo,
@@ -23,10 +24,9 @@ from airhilt.messages import (
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
-from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
-from airhilt.sensors.cameras.scene_renderer import Frame
-from airhilt.sensors.cameras.view import View
 from airhilt.sim import Director, Priority
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
@@ -91,7 +91,7 @@ class CameraSensor:
     def __init__(
         self,
         director: Director,
-        photographer: FrameSource,
+        frame_source: FrameSource,
         cameras: Sequence[Camera],
         site: ScenarioSite,
         actors: Mapping[str, Actor],
@@ -101,9 +101,9 @@ class CameraSensor:
         lost: Callable[[str], None],
     ) -> None:
         self._director = director
-        self._photographer = photographer
+        self._frame_source = frame_source
         self._cameras = {camera.name: camera for camera in cameras}
-        self._frame = frame_of(site)
+        self._local_frame = local_frame_of(site)
         self._ground_m = site.ground_m
         self._actors = actors
         self._state_at_ns = state_at_ns
@@ -119,7 +119,7 @@ class CameraSensor:
     def start(self) -> None:
         """Tell what never changes about each camera, and schedule the first exposures."""
         for camera in self._cameras.values():
-            own = self._photographer.own_aircraft.get(camera.name)
+            own = self._frame_source.own_aircraft.get(camera.name)
             self._publish(
                 f"camera/{camera.name}/info",
                 CameraInfo(
@@ -148,7 +148,7 @@ class CameraSensor:
         due = [name for name in self._cameras if self._due_ns(name) == now_ns]
         able = [name for name in due if not self._has_ended(self._cameras[name])]
         try:
-            frames = self._photographer.shoot(able, self._bodies(), now_ns) if able else []
+            frames = self._frame_source.shoot(able, self._bodies(), now_ns) if able else []
         except (CameraError, RendererError) as error:
             self._lost(str(error))
             return
@@ -165,7 +165,7 @@ class CameraSensor:
     def _bodies(self) -> list[BodyState]:
         return states_of(
             self._actors.values(),
-            self._frame,
+            self._local_frame,
             self._ground_m,
             self._director.now_ns,
             self._state_at_ns(),
@@ -181,7 +181,7 @@ class CameraSensor:
             camera=name,
             seq=seq,
             t_frame_ns=now_ns,
-            view=view_message(frame.view, self._frame, self._cameras[name].carrier),
+            view=view_message(frame.view, self._local_frame, self._cameras[name].carrier),
             sha256=self._sha256[name],
         )
         truth = CameraTruth(
@@ -195,10 +195,10 @@ class CameraSensor:
         self._publish(f"camera/{name}/frame", header, raw=pixels)
 
 
-def view_message(view: View, frame: LocalFrame, carrier: str | None) -> CameraView:
+def view_message(view: View, local_frame: LocalFrame, carrier: str | None) -> CameraView:
     """Return a view in the words of messages."""
     east, north, up = view.pose.position_m
-    latitude, longitude = frame.to_place(east, north)
+    latitude, longitude = local_frame.to_place(east, north)
     heading, pitch, roll = angles_of(view.pose.rotation)
     lens = view.intrinsics
     return CameraView(

@@ -11,10 +11,10 @@ from airhilt.errors import CameraError
 from airhilt.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import states_of
-from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
@@ -26,7 +26,7 @@ FINE = 3
 """Samples along each side of a pixel."""
 
 
-def still(
+def snapshot(
     scenario: Scenario,
     camera: str,
     at_s: float,
@@ -46,15 +46,15 @@ def still(
     ticks = now_ns // tick_ns
     realised, _ = draw(scenario, seed)
     site = ScenarioSite.of(realised)
-    with RendererProcess(realised, [camera], renderer, FINE) as studio:
+    with RendererProcess(realised, [camera], renderer, FINE) as scene_renderer:
         actors = build_actors(realised, site, seed, TICK_S)
         for _ in range(ticks):
             for actor in actors.values():
                 if actor.body.ended is None:
                     actor.body.advance()
-        frame = frame_of(site)
-        bodies = states_of(actors.values(), frame, site.ground_m, now_ns, ticks * tick_ns)
-        return studio.shoot([camera], bodies, now_ns)[0]
+        local_frame = local_frame_of(site)
+        bodies = states_of(actors.values(), local_frame, site.ground_m, now_ns, ticks * tick_ns)
+        return scene_renderer.shoot([camera], bodies, now_ns)[0]
 
 
 def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:

@@ -32,25 +32,25 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     """A 737 over open country, before a camera in the air, and its box."""
     import datetime
 
+    from airhilt.imaging.view import Intrinsics, Pose
     from airhilt.scenario.models import Daylight, Weather
     from airhilt.sensors.cameras.mounts import Camera
     from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
     from airhilt.sensors.cameras.scene.builder import air_and_sun
     from airhilt.sensors.cameras.scene.landscape import open_country
     from airhilt.sensors.cameras.scene_renderer import SceneRenderer
-    from airhilt.sensors.cameras.view import Intrinsics, Pose
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=10.0)
     light = air_and_sun(Weather(visibility_m=20_000.0), day, 0.8, True)
     pose = Pose.of((0.0, 0.0, 900.0), 0.0)
     camera = Camera("nose", Intrinsics(636, 356, 0.7), pose)
-    studio = SceneRenderer(
+    scene_renderer = SceneRenderer(
         open_country(light, "test", None), light, {"737": aircraft_model("737")}, [camera],
         "embree",
     )  # fmt: skip
     body = BodyState("737", -10.0, 150.0, 907.5, 3.1, 0.03, 0.05, "clean", True)
-    frame = studio.shoot(["nose"], [body], 0)[0]
-    studio.close()
+    frame = scene_renderer.shoot(["nose"], [body], 0)[0]
+    scene_renderer.close()
     return frame.colour, tuple(frame.sightings[0].box)
 
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.tracker import Tracked, Tracker
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.messages import CameraView
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.units import SECOND_NS
 from pictures import PERIOD_NS, a, camera_view
 

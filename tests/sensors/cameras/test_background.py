@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from airhilt.imaging.view import Intrinsics, Pose, View, Window
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.background import KEPT_PX, SOON_PX, Background
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
 LENS = Intrinsics(320, 180, math.radians(60.0))

@@ -15,13 +15,13 @@ from airhilt import load
 from airhilt.errors import RendererError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.masks import Mask
+from airhilt.imaging.view import Intrinsics, Pose, View, attitude
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
-from airhilt.sensors.cameras.scene_renderer import Frame, Sighting
 from airhilt.sensors.cameras.sensor import CameraSensor, Exposures, angles_of, view_message
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View, attitude
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import DEGREE, SECOND_NS
 from airhilt.world.actors import build_actors
@@ -54,9 +54,9 @@ class Fake:
 
 
 class Run:
-    """A rig on its own, with all that it publishes."""
+    """A camera sensor on its own, with all that it publishes."""
 
-    def __init__(self, scenario: Scenario, photographer: Fake, until_s: float) -> None:
+    def __init__(self, scenario: Scenario, frame_source: Fake, until_s: float) -> None:
         site = ScenarioSite.of(scenario)
         self.cast: dict[str, Actor] = build_actors(scenario, site, 0, 0.05)
         self.published: list[tuple[str, Message, bytes | None]] = []
@@ -64,7 +64,7 @@ class Run:
         self.director = Director(Virtual())
         self.sensor = CameraSensor(
             self.director,
-            photographer,
+            frame_source,
             scenario.cameras,
             site,
             self.cast,

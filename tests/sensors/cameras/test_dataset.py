@@ -18,6 +18,7 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import CameraError, RendererError, ScenarioError
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.dataset.coco import (
     Picture,
     export,
@@ -25,9 +26,9 @@ from airhilt.sensors.cameras.dataset.coco import (
     run_lengths,
     scenario_pictures,
 )
-from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, cast
-from airhilt.sensors.cameras.scene_renderer import Frame
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.dataset.placement import cast
+from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting
+from airhilt.sensors.cameras.frame import Frame
 from airhilt.units import DEGREE
 
 image_module = pytest.importorskip("PIL.Image")

@@ -9,9 +9,9 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import ScenarioError
+from airhilt.imaging.view import Intrinsics
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera
-from airhilt.sensors.cameras.view import Intrinsics
 from airhilt.world.loading import load_text
 from airhilt.world.surface.airport import Camera as AirportCamera
 

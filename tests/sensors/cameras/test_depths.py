@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import Samples, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
 from airhilt.shapes.mesh import Colour, Mesh, box, join
 
 pytest.importorskip("moderngl")

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from airhilt.imaging.view import Intrinsics, Pose, View, Window
 from airhilt.sensors.cameras.renderers import Part
 from airhilt.sensors.cameras.renderers.moderngl import ModernGLRenderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
 moderngl = pytest.importorskip("moderngl")

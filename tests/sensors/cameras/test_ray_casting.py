@@ -10,12 +10,12 @@ import pytest
 
 from airhilt import load
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.raycasting import MISS
 from airhilt.sensors.cameras.renderers import FAMILY
 from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
-from airhilt.sensors.cameras.scene_renderer import Frame
 from airhilt.shapes.mesh import box
 from airhilt.units import SECOND_NS
 from airhilt.world.actors import build_actors
@@ -50,7 +50,7 @@ class Scene(NamedTuple):
                 if actor.body.ended is None:
                     actor.body.advance()
         now_ns = round(self.at_s * SECOND_NS)
-        bodies = states_of(actors, frame_of(site), site.ground_m, now_ns, now_ns)
+        bodies = states_of(actors, local_frame_of(site), site.ground_m, now_ns, now_ns)
         opened = open_scene_renderer(scenario, site, self.cameras, renderer)
         try:
             return opened.shoot(self.cameras, bodies, now_ns)

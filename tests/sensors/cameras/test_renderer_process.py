@@ -17,15 +17,16 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import CameraError, RendererError
+from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import renderer_process as remote
-from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras import renderer_link, renderer_process
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.mounts import local_frame_of
+from airhilt.sensors.cameras.renderer_link import RendererLink
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
 from airhilt.sensors.cameras.renderers import open3d, require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
-from airhilt.sensors.cameras.scene_renderer import Frame
-from airhilt.sensors.cameras.snapshot import TICK_S, still, write_png
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.snapshot import TICK_S, snapshot, write_png
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
 
@@ -51,7 +52,7 @@ def washington(**camera: object) -> Scenario:
 def bodies_of(scenario: Scenario) -> list[BodyState]:
     site = ScenarioSite.of(scenario)
     cast = build_actors(scenario, site, 0, TICK_S)
-    frame = frame_of(site)
+    frame = local_frame_of(site)
     return [state_of(actor, frame, site.ground_m, 0.0) for actor in cast.values()]
 
 
@@ -61,13 +62,13 @@ def bodies() -> list[BodyState]:
 
 
 @pytest.fixture(scope="module")
-def studio() -> Iterator[RendererProcess]:
+def process() -> Iterator[RendererProcess]:
     with RendererProcess(washington(), renderer="embree") as opened:
         yield opened
 
 
-def test_a_picture_comes_with_its_truth(studio: RendererProcess, bodies: list[BodyState]) -> None:
-    frame = studio.shoot(["field"], bodies, 7)[0]
+def test_a_picture_comes_with_its_truth(process: RendererProcess, bodies: list[BodyState]) -> None:
+    frame = process.shoot(["field"], bodies, 7)[0]
     assert frame.t_ns == 7
     assert frame.colour.shape == (90, 160, 3)
     assert frame.colour.std() > 5.0
@@ -77,12 +78,12 @@ def test_a_picture_comes_with_its_truth(studio: RendererProcess, bodies: list[Bo
 
 
 def test_a_pose_that_is_not_finite_is_refused_and_the_next_is_drawn(
-    studio: RendererProcess, bodies: list[BodyState]
+    process: RendererProcess, bodies: list[BodyState]
 ) -> None:
     lost = [bodies[0]._replace(up_m=math.nan), *bodies[1:]]
     with pytest.raises(CameraError, match="finite"):
-        studio.shoot(["field"], lost, 0)
-    assert studio.shoot(["field"], bodies, 0)
+        process.shoot(["field"], lost, 0)
+    assert process.shoot(["field"], bodies, 0)
 
 
 @pytest.mark.parametrize(
@@ -115,7 +116,7 @@ def test_a_camera_that_nobody_has_declared_is_refused_with_the_nearest() -> None
 
 
 def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
-    frame = still(washington(), "field", 1.0, renderer="embree")
+    frame = snapshot(washington(), "field", 1.0, renderer="embree")
     write_png(frame, tmp_path / "still.png", boxes=True)
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
 
@@ -123,7 +124,7 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
 def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
     """As the run's own picture of that time does, which a tick is too coarse for."""
     scenario = washington()
-    early, late = (still(scenario, "field", at_s, renderer="embree") for at_s in (4.0, 4.04))
+    early, late = (snapshot(scenario, "field", at_s, renderer="embree") for at_s in (4.0, 4.04))
     site = ScenarioSite.of(scenario)
     cast = build_actors(scenario, site, 0, TICK_S)
     for _ in range(80):
@@ -227,7 +228,7 @@ def test_the_renderer_is_that_of_the_package_that_starts_it(
     package.mkdir(parents=True)
     for folder in (package, package.parent, package.parent.parent):
         (folder / "__init__.py").touch()
-    (package / "renderer_process.py").write_text("raise SystemExit('the one of this path')")
+    (package / "renderer_server.py").write_text("raise SystemExit('the one of this path')")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", ["", *sys.path])
     with pytest.raises(RendererError, match="the one of this path"):
@@ -237,7 +238,7 @@ def test_the_renderer_is_that_of_the_package_that_starts_it(
 def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_told(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(remote, "STARTING_S", 0.0)
+    monkeypatch.setattr(renderer_process, "STARTING_S", 0.0)
     with pytest.raises(RendererError, match="has not answered for 1 s"):
         RendererProcess(washington(), renderer="embree")
 
@@ -255,58 +256,61 @@ def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.Monk
     """A fixed camera's first picture has 3 x 3 samples in each pixel, or more."""
     waited = []
     reads = "import os, sys; os.fdopen(int(sys.argv[1])).read()"
-    monkeypatch.setattr(remote, "COMMAND", (sys.executable, "-c", reads))
-    monkeypatch.setattr(remote, "SLOWEST_SAMPLES_PER_S", 1600.0)
+    monkeypatch.setattr(renderer_link, "COMMAND", (sys.executable, "-c", reads))
+    monkeypatch.setattr(renderer_process, "SLOWEST_SAMPLES_PER_S", 1600.0)
 
-    def note(_: RendererProcess, patience_s: float) -> bytes:
+    def note(_: RendererLink, patience_s: float) -> bytes:
         waited.append(patience_s)
         return b'{"error": "RendererError", "text": "noted"}'
 
-    monkeypatch.setattr(RendererProcess, "_line", note)
+    monkeypatch.setattr(RendererLink, "_line", note)
     for supersampling in (1, 4):
         with pytest.raises(RendererError, match="noted"):
             RendererProcess(washington(), None, "embree", supersampling)
-    assert waited == [remote.STARTING_S + 9.0 * 9.0, remote.STARTING_S + 16.0 * 9.0]
+    assert waited == [
+        renderer_process.STARTING_S + 9.0 * 9.0,
+        renderer_process.STARTING_S + 16.0 * 9.0,
+    ]
 
 
-def test_a_studio_may_be_the_last_of_thousands_of_open_files(
-    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+def test_the_renderer_may_be_the_last_of_thousands_of_open_files(
+    process: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     try:
-        high = fcntl.fcntl(studio._answers, fcntl.F_DUPFD_CLOEXEC, 1500)
+        high = fcntl.fcntl(process._link._answers, fcntl.F_DUPFD_CLOEXEC, 1500)
     except OSError:
         pytest.skip("this system allows no more files")
     with os.fdopen(high, "rb", buffering=0) as answers, monkeypatch.context() as patch:
-        patch.setattr(studio, "_answers", answers)
-        assert studio.shoot(["field"], bodies, 0)
+        patch.setattr(process._link, "_answers", answers)
+        assert process.shoot(["field"], bodies, 0)
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs files in memory")
-def test_pixels_lie_in_memory_and_not_on_a_disk(studio: RendererProcess) -> None:
-    place = Path(f"/proc/self/fd/{studio._file.fileno()}").readlink()
+def test_pixels_lie_in_memory_and_not_on_a_disk(process: RendererProcess) -> None:
+    place = Path(f"/proc/self/fd/{process._link.shared.fileno()}").readlink()
     assert "memfd:" in str(place)
 
 
 def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
-    studio: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+    process: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(remote, "MOST_SAID_BYTES", 50)
+    monkeypatch.setattr(renderer_link, "MOST_PRINTED_BYTES", 50)
     for _ in range(2):
-        os.write(studio._said.fileno(), b"a driver's warning\n" * 3)
-        studio.shoot(["field"], bodies, 0)
-        assert os.fstat(studio._said.fileno()).st_size == 0
+        os.write(process._link._printed.fileno(), b"a driver's warning\n" * 3)
+        process.shoot(["field"], bodies, 0)
+        assert os.fstat(process._link._printed.fileno()).st_size == 0
 
 
 @pytest.mark.slow
 def test_memory_stays_flat_over_10000_pictures(
-    studio: RendererProcess, bodies: list[BodyState]
+    process: RendererProcess, bodies: list[BodyState]
 ) -> None:
     held = []
     for number in range(10_001):
         shift = number % 50
-        studio.shoot(["field"], [one._replace(east_m=one.east_m + shift) for one in bodies], 0)
+        process.shoot(["field"], [one._replace(east_m=one.east_m + shift) for one in bodies], 0)
         if number in (500, 10_000):
-            held.append(held_mb(studio.process_id))
+            held.append(held_mb(process.process_id))
     assert held[1] < 1.02 * held[0]
     assert held[1] < 1000.0
 
@@ -320,8 +324,8 @@ def held_mb(process_id: int) -> float:
     return float(lines["VmRSS"].split()[0]) / 1024.0
 
 
-def test_nothing_is_drawn_again_when_nothing_changes(studio: RendererProcess) -> None:
-    first, again = (studio.shoot(["field"], [], t_ns)[0] for t_ns in (0, 1))
+def test_nothing_is_drawn_again_when_nothing_changes(process: RendererProcess) -> None:
+    first, again = (process.shoot(["field"], [], t_ns)[0] for t_ns in (0, 1))
     assert again.unchanged
     assert again.t_ns == 1
     assert again.colour is first.colour
@@ -337,10 +341,10 @@ def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
 
 # The last: it leaves nothing to draw with.
 def test_the_death_of_the_process_is_an_error_with_a_name(
-    studio: RendererProcess, bodies: list[BodyState]
+    process: RendererProcess, bodies: list[BodyState]
 ) -> None:
-    os.kill(studio.process_id, signal.SIGKILL)
-    studio._process.wait()
+    os.kill(process.process_id, signal.SIGKILL)
+    process._link._process.wait()
     with pytest.raises(RendererError, match=r"embree has ended \(signal 9\)"):
-        studio.shoot(["field"], bodies, 0)
-    studio.close()  # The question that nobody took is no error of its own.
+        process.shoot(["field"], bodies, 0)
+    process.close()  # The question that nobody took is no error of its own.

@@ -13,15 +13,16 @@ from airhilt import load
 from airhilt.errors import CameraError
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.imaging.boxes import size_px
-from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, frame_of
+from airhilt.imaging.view import Intrinsics, Pose
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, local_frame_of
 from airhilt.sensors.cameras.scene.bodies import (
     BodyState,
     aircraft_model,
     kind_model,
 )
-from airhilt.sensors.cameras.scene.builder import light_of, world_of
-from airhilt.sensors.cameras.scene_renderer import Frame, SceneRenderer
-from airhilt.sensors.cameras.view import Intrinsics, Pose
+from airhilt.sensors.cameras.scene.builder import landscape_of, light_of
+from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.units import DEGREE
 from airhilt.world.site import ScenarioSite
 
@@ -46,7 +47,7 @@ class Airfield:
         self.scenario = load("s01b_nominal")
         self.site = ScenarioSite.of(self.scenario)
         self.light = light_of(self.scenario, self.site)
-        self.world = world_of(self.scenario, self.site, self.light)
+        self.landscape = landscape_of(self.scenario, self.site, self.light)
         known = cameras_of(self.scenario, self.site, MODELS)
         lens = Intrinsics(640, 360, 40.0 * DEGREE)
         nose = Mount("c310", Pose.of((0.0, 4.5, 0.5), 0.0, -0.04), sees_own_aircraft=False)
@@ -74,7 +75,7 @@ class Airfield:
     ) -> BodyState:
         assert self.site.layout is not None
         position = RunwayPosition(type="runway", runway="01", along_m=along_m, offset_m=offset_m)
-        east, north = frame_of(self.site).to_local(self.site.place(position))
+        east, north = local_frame_of(self.site).to_local(self.site.place(position))
         kind = MODELS[name].aircraft
         wheels = 0.0 if kind is None else kind.dimensions.wheel_height_offset_m
         heading = self.site.layout.runway("01").course_rad + turned
@@ -82,7 +83,7 @@ class Airfield:
         return BodyState(name, east, north, up_m + wheels, heading, 0.0, roll, shape, True)
 
     def scene_renderer(self, renderer: str) -> SceneRenderer:
-        return SceneRenderer(self.world, self.light, MODELS, self.cameras, renderer)
+        return SceneRenderer(self.landscape, self.light, MODELS, self.cameras, renderer)
 
 
 @pytest.fixture(scope="module")
@@ -188,7 +189,7 @@ def test_rain_falls_through_pictures(airfield: Airfield) -> None:
     """Streaks are in a few pixels, and in others in each picture."""
     camera = replace(airfield.cameras[0], intrinsics=Intrinsics(160, 90, 40.0 * DEGREE))
     dry, wet = (
-        SceneRenderer(airfield.world, airfield.light, {}, [camera], "embree", rain_mm_h)
+        SceneRenderer(airfield.landscape, airfield.light, {}, [camera], "embree", rain_mm_h)
         for rain_mm_h in (0.0, 50.0)
     )
     clear, first, second = (
@@ -204,7 +205,7 @@ def test_rain_falls_through_pictures(airfield: Airfield) -> None:
 def test_more_actors_than_pictures_tell_apart_are_refused(airfield: Airfield) -> None:
     crowd = {f"deer{number}": MODELS["deer"] for number in range(256)}
     with pytest.raises(CameraError, match=r"256 actors, .* at most 255 apart; .*--no-cameras"):
-        SceneRenderer(airfield.world, airfield.light, crowd, [], "embree")
+        SceneRenderer(airfield.landscape, airfield.light, crowd, [], "embree")
 
 
 def test_distances_are_metric(

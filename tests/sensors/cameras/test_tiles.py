@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from airhilt.imaging.view import NEAR_M, Intrinsics, Pose, View, Window
 from airhilt.sensors.cameras.opengl.tiles import Tiles
-from airhilt.sensors.cameras.view import NEAR_M, Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Floats
 
 VIEW = View(Intrinsics(160, 90, math.radians(60.0)), Pose.of((5.0, -3.0, 40.0), 0.4, -0.1, 0.05))

@@ -24,11 +24,13 @@ from airhilt.imaging.masks import Mask, runs_of
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, cast
-from airhilt.sensors.cameras.mounts import frame_of
+from airhilt.sensors.cameras.dataset.placement import cast
+from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting
+from airhilt.sensors.cameras.frame import Frame, Sighting
+from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.scene.bodies import state_of
 from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
-from airhilt.sensors.cameras.scene_renderer import Frame, SceneRenderer, Sighting
+from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, seconds_to_ns
@@ -96,15 +98,15 @@ def _shots(
     taken = number = 0
     while taken < count:
         sitting = casting.sitting(number, stream(seed, "dataset", number))
-        studio = studio_of(sitting, renderer)
+        scene_renderer = scene_renderer_of(sitting, renderer)
         try:
             for turn, camera in enumerate(sitting.order[: count - taken]):
                 draws = stream(seed, "dataset/shot", number, turn)
                 bodies = cast(sitting, camera, draws, empty)
                 t_ns = int(draws.integers(LAST_INSTANT_NS))
                 yield Picture(
-                    studio.shoot([camera], bodies, t_ns)[0],
-                    studio.actors,
+                    scene_renderer.shoot([camera], bodies, t_ns)[0],
+                    scene_renderer.actors,
                     None if sitting.layout is None else sitting.place,
                     sitting.light.visibility_m,
                     sitting.daylight.solar_time_h,
@@ -114,15 +116,15 @@ def _shots(
                     sitting.cameras[camera].carrier,
                 )
         finally:
-            studio.close()
+            scene_renderer.close()
         taken += len(sitting.order)
         number += 1
 
 
-def studio_of(sitting: Sitting, renderer: str) -> SceneRenderer:
-    """Return the studio in which a sitting is drawn; close it."""
+def scene_renderer_of(sitting: Sitting, renderer: str) -> SceneRenderer:
+    """Return what draws a sitting; close it."""
     return SceneRenderer(
-        sitting.world,
+        sitting.landscape,
         sitting.light,
         sitting.models,
         sitting.cameras.values(),
@@ -166,7 +168,7 @@ def scenario_pictures(
 
 def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterator[Picture]:
     site = ScenarioSite.of(realised)
-    light, frame = light_of(realised, site), frame_of(site)
+    light, local_frame = light_of(realised, site), local_frame_of(site)
     actors = list(build_actors(realised, site, seed, TICK_S).values())
     stations = {
         camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
@@ -176,7 +178,7 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
     names = list(stations)
     instants = -(-count // len(names))
     ticks = round(realised.duration_s / TICK_S)
-    studio = open_scene_renderer(realised, site, None, renderer)
+    scene_renderer = open_scene_renderer(realised, site, None, renderer)
     try:
         tick = 0
         for index in range(instants):
@@ -187,12 +189,12 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
                         actor.body.advance()
             tick = due
             t_s = tick * TICK_S
-            bodies = [state_of(each, frame, site.ground_m, t_s) for each in actors]
+            bodies = [state_of(each, local_frame, site.ground_m, t_s) for each in actors]
             wanted = names[: count - index * len(names)]
-            for taken in studio.shoot(wanted, bodies, seconds_to_ns(t_s)):
+            for taken in scene_renderer.shoot(wanted, bodies, seconds_to_ns(t_s)):
                 yield Picture(
                     taken,
-                    studio.actors,
+                    scene_renderer.actors,
                     None if site.layout is None else site.layout.airport.icao,
                     light.visibility_m,
                     realised.daylight.solar_time_h,
@@ -202,7 +204,7 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
                     carriers[taken.camera],
                 )
     finally:
-        studio.close()
+        scene_renderer.close()
 
 
 def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) -> dict[str, int]:

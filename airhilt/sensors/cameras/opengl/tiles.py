@@ -1,4 +1,4 @@
-"""The triangles of the still world, of which a picture needs few.
+"""The triangles of the landscape, of which a picture needs few.
 
 An airport has tens of thousands, and most of what is far is smaller than a pixel. Whole tiles that
 lie outside of a picture are passed over; of the others, a triangle is drawn if the middle of a
@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.sensors.cameras.view import NEAR_M, View, Window
+from airhilt.imaging.view import NEAR_M, View, Window
 from airhilt.shapes.mesh import Floats
 
 LEAST_TILE_M = 700.0
@@ -24,7 +24,7 @@ Numbers = npt.NDArray[np.intp]
 
 
 class Shown(NamedTuple):
-    """What of the still world may show in a window.
+    """What of the landscape may show in a window.
 
     Attributes
     ----------

@@ -1,7 +1,7 @@
 """Pictures of what rays meet: all of the drawing that does not depend on who casts the rays.
 
-The world is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel of
-every second row; where the four about a pixel meet the same piece, so does the pixel, and its
+The landscape is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel
+of every second row; where the four about a pixel meet the same piece, so does the pixel, and its
 distance follows from the plane. Only the other pixels cost rays of their own.
 """
 
@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.imaging.masks import Mask
+from airhilt.imaging.view import Pose, View, Window
 from airhilt.sensors.cameras.raycasting import RayScene, SceneBuilder
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import (
@@ -24,7 +25,6 @@ from airhilt.sensors.cameras.scene.illumination import (
     encode,
     encode_levels,
 )
-from airhilt.sensors.cameras.view import Pose, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
 Number = TypeVar("Number", bound=np.generic)
@@ -60,20 +60,20 @@ class RayRenderer:
 
     Parameters
     ----------
-    world
+    landscape
         Mesh of all that stands still.
     build
         Returns the scene of triangles into which rays are cast.
     """
 
-    def __init__(self, world: Mesh, light: Illumination, build: SceneBuilder) -> None:
+    def __init__(self, landscape: Mesh, light: Illumination, build: SceneBuilder) -> None:
         self._build = build
         self._light = light
-        self._world = build(world.corners)
-        self._piece_of, self._normals, self._heights, colours = _pieces(world, light)
+        self._landscape = build(landscape.corners)
+        self._piece_of, self._normals, self._heights, colours = _pieces(landscape, light)
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
-        self._raised = _raised(world)
+        self._raised = _raised(landscape)
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
@@ -179,11 +179,11 @@ class RayRenderer:
         # Whatever looks higher than all that stands looks into the sky.
         asked = np.flatnonzero(towards[2] <= self._highest(eye) * np.hypot(*towards[:2]))
         # The first entry is that of a miss, whose number is -1.
-        pieces[asked] = _of(self._piece_of, self._world.triangles(eye, towards[:, asked]) + 1)
+        pieces[asked] = _of(self._piece_of, self._landscape.triangles(eye, towards[:, asked]) + 1)
         return pieces.reshape(x.shape)
 
     def _highest(self, eye: Doubles) -> np.float32:
-        """Return a slope, up over along, above which nothing of the world is seen; at least 0."""
+        """Return the slope, up over along and at least 0, above which all is sky."""
         middles, radii, tops = self._raised
         if not len(tops):
             return np.float32(0.0)
@@ -250,14 +250,14 @@ def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDA
     return table.take(entries, mode="clip")
 
 
-def _raised(world: Mesh) -> tuple[Doubles, Doubles, Doubles]:
+def _raised(landscape: Mesh) -> tuple[Doubles, Doubles, Doubles]:
     """Return what stands up from the ground: circles about parts of it, and how high they are.
 
     A part is what has about the same size and stands in one square of `SQUARES` times that.
     """
-    tops = world.corners[..., 2].max(axis=1).astype(np.float64)
+    tops = landscape.corners[..., 2].max(axis=1).astype(np.float64)
     standing, tops = (
-        world.corners[tops > RAISED_M][..., :2].astype(np.float64),
+        landscape.corners[tops > RAISED_M][..., :2].astype(np.float64),
         tops[tops > RAISED_M],
     )
     middles = standing.mean(axis=1)
@@ -289,15 +289,15 @@ def _towards(view: View, x: Floats, y: Floats) -> Floats:
     return np.stack([x * axis[0] + y * axis[1] + axis[2] for axis in axes])
 
 
-def _pieces(world: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:
+def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:
     """Return the piece of each triangle; normals, heights and colours of pieces in columns.
 
     Triangles of one colour in one plane are one piece. The first entry stands for no triangle,
     and piece 0 is the sky: its plane is infinitely far in every direction.
     """
-    baked = light.baked(world)
-    normals = world.face_normals.astype(np.float64)
-    heights = np.einsum("ij,ij->i", normals, world.corners[:, 0].astype(np.float64))
+    baked = light.baked(landscape)
+    normals = landscape.face_normals.astype(np.float64)
+    heights = np.einsum("ij,ij->i", normals, landscape.corners[:, 0].astype(np.float64))
     keys = np.column_stack((np.round(normals, 5), np.round(heights, 2), np.round(baked, 5)))
     _, first, piece = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     none = np.zeros((1, 3))

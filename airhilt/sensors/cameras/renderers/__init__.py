@@ -16,11 +16,11 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import AirhiltError, RendererError
+from airhilt.imaging.view import Intrinsics, Pose, View, Window
 from airhilt.library import nearest
 from airhilt.plugins import Family
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.view import Intrinsics, Pose, View, Window
 from airhilt.shapes.mesh import Floats, Mesh
 
 PREFERRED = ("open3d", "embree")

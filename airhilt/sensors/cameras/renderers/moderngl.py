@@ -11,166 +11,20 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import RendererError, first_line
+from airhilt.imaging.view import NEAR_M, View, Window
+from airhilt.sensors.cameras.opengl import shaders
+from airhilt.sensors.cameras.opengl.canvas import Canvas
 from airhilt.sensors.cameras.opengl.tiles import Tiles, edges
 from airhilt.sensors.cameras.renderers import Part, Samples
-from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY, Illumination
-from airhilt.sensors.cameras.view import NEAR_M, View, Window
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Floats, Mesh
 
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 FAR_M = 600_000.0
 WITHIN = 0.99
 """Of the depth of what is nearest: depths are rounded."""
-CANVAS_STEP_PX = 64
 SHELF_PX = 1024
 """Width of a row of windows that are drawn together."""
-TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
-"""Colours and distances, as a mask of what is written."""
-
-_AIR = """
-uniform vec3 airlight;
-uniform float extinction;
-vec3 through_air(vec3 colour, float distance) {
-    return mix(airlight, colour, exp(-extinction * distance));
-}
-// sRGB, its power replaced by a polynomial of the root: less than a tenth of a level beside it.
-vec3 encode(vec3 linear) {
-    vec3 l = clamp(linear, 0.0, 1.0);
-    vec3 s = sqrt(l);
-    vec3 high = ((0.51713 * s - 1.62312) * s + 2.03096) * s - 1.40244;
-    return mix((high * s + 1.51789) * s - 0.04011, 12.92 * l, lessThan(l, vec3(0.0031308)));
-}
-"""
-_WORLD_VERTEX = """
-#version 330
-uniform mat4 projection;
-uniform vec3 eye;
-in vec3 in_place;
-in vec3 in_colour;
-flat out vec3 colour;
-void main() {
-    colour = in_colour;
-    gl_Position = projection * vec4(in_place - eye, 1.0);
-}
-"""
-_WORLD_FRAGMENT = (
-    "#version 330\n"
-    + _AIR
-    + """
-uniform vec4 focal_plane;
-flat in vec3 colour;
-layout(location = 0) out vec4 out_colour;
-layout(location = 1) out float out_distance;
-void main() {
-    vec2 aside = focal_plane.xy * gl_FragCoord.xy + focal_plane.zw;
-    float away = sqrt(dot(aside, aside) + 1.0) / gl_FragCoord.w;
-    out_colour = vec4(encode(through_air(colour, away)), 1.0);
-    out_distance = away;
-}
-"""
-)
-_SKY_VERTEX = """
-#version 330
-uniform mat3 corners;
-out vec3 towards;
-void main() {
-    vec2 place = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);
-    towards = corners * vec3(place, 1.0);
-    gl_Position = vec4(place, 1.0, 1.0);
-}
-"""
-_SKY_FRAGMENT = (
-    _AIR
-    + f"""
-uniform sampler2D sky;
-uniform vec3 sun;
-uniform vec3 glare;
-uniform float sharpness;
-uniform float disc;
-in vec3 towards;
-layout(location = 0) out vec4 out_colour;
-layout(location = 1) out float out_distance;
-void main() {{
-    vec3 d = normalize(towards);
-    vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
-#ifdef GLARE
-    float apart = 1.0 - dot(d, sun);
-    if (apart < {GLARE_ENDS} / sharpness)
-        colour += (exp(-sharpness * apart) + disc * exp(-{DISC} * apart)) * glare;
-#endif
-    out_colour = vec4(encode(colour), 1.0);
-    out_distance = uintBitsToFloat(0x7F800000u);
-}}
-"""
-)
-_BODY_VERTEX = """
-#version 330
-uniform mat4 projection;
-uniform mat3 rotation;
-uniform vec3 place;
-in vec3 in_place;
-in vec3 in_normal;
-in vec3 in_colour;
-in float in_glow;
-out vec3 offset;
-out vec3 normal;
-flat out vec3 colour;
-flat out float glow;
-void main() {
-    offset = rotation * in_place + place;
-    normal = rotation * in_normal;
-    colour = in_colour;
-    glow = in_glow;
-    gl_Position = projection * vec4(offset, 1.0);
-}
-"""
-_BODY_FRAGMENT = (
-    "#version 330\n"
-    + _AIR
-    + """
-uniform vec3 sun;
-uniform vec3 direct;
-uniform vec3 diffuse;
-uniform vec3 reflected;
-uniform float darkness;
-in vec3 offset;
-in vec3 normal;
-flat in vec3 colour;
-flat in float glow;
-layout(location = 0) out vec4 out_colour;
-layout(location = 1) out float out_distance;
-void main() {
-    vec3 n = normalize(normal);
-    vec3 light = max(dot(n, sun), 0.0) * direct + mix(reflected, diffuse, 0.5 + 0.5 * n.z);
-    float away = length(offset);
-    out_colour = vec4(encode(through_air(colour * (light + glow * darkness), away)), 1.0);
-    out_distance = 1.0 / away;
-}
-"""
-)
-_SHADOW_VERTEX = """
-#version 330
-uniform mat4 projection;
-uniform mat3 rotation;
-uniform vec3 place;
-uniform vec3 eye;
-uniform vec3 sun;
-in vec3 in_place;
-void main() {
-    vec3 world = rotation * in_place + place;
-    vec3 ground = world - sun * (max(world.z, 0.0) / sun.z);
-    gl_Position = projection * vec4(ground - eye, 1.0);
-}
-"""
-_SHADOW_FRAGMENT = """
-#version 330
-layout(location = 0) out vec4 out_colour;
-layout(location = 1) out float out_distance;
-void main() {
-    out_colour = vec4(0.0);
-    out_distance = 1.0;
-}
-"""
 
 
 @dataclass(frozen=True)
@@ -178,55 +32,6 @@ class _Body:
     drawn: Any
     shadow: Any
     reach_m: float
-
-
-class _Canvas:
-    """Where is drawn: the first corner of a frame buffer that only grows.
-
-    There is never more than one: a buffer for each size would in time take all memory.
-    """
-
-    def __init__(self, context: Any) -> None:
-        self._context = context
-        self._room = 0, 0
-        self._owned: list[Any] = []
-        self.frame: Any = None
-        self.size = 0, 0
-
-    def clear(self, size: tuple[int, int], *, is_filled: bool = False) -> None:
-        """Begin a drawing of some size; if all of it will be filled, colours need no clearing."""
-        width, height = (
-            max(CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX), room)
-            for side, room in zip(size, self._room, strict=True)
-        )
-        if (width, height) != self._room:
-            self._replace((width, height))
-        self.size = size
-        self.frame.use()
-        self.frame.viewport = 0, 0, *size
-        self.frame.color_mask = UNTOUCHED if is_filled else TOUCHED
-        self.frame.clear(viewport=(0, 0, *size))
-        self.frame.color_mask = TOUCHED
-
-    def _replace(self, room: tuple[int, int]) -> None:
-        for owned in self._owned:
-            owned.release()
-        context = self._context
-        colour, distance = context.texture(room, 4), context.texture(room, 1, dtype="f4")
-        depth = context.depth_renderbuffer(room)
-        self.frame = context.framebuffer([colour, distance], depth)
-        self._owned = [self.frame, colour, distance, depth]
-        self._room = room
-
-    def read(self) -> Samples:
-        """Return colours, and what has been drawn for distances."""
-        width, height = self.size
-        colour = self.frame.read(self.size, components=3, alignment=1)
-        distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
-        return Samples(
-            np.frombuffer(colour, dtype=np.uint8).reshape(height, width, 3),
-            np.frombuffer(distance, dtype=np.float32).reshape(height, width),
-        )
 
 
 class ModernGLRenderer:
@@ -238,37 +43,39 @@ class ModernGLRenderer:
         moderngl or EGL is not installed.
     """
 
-    def __init__(self, world: Mesh, light: Illumination) -> None:
+    def __init__(self, landscape: Mesh, light: Illumination) -> None:
         self._context = context = _open_context()
         # Everything is closed and faces outwards; in a picture upside down, clockwise.
         context.front_face = "cw"
         context.depth_func = "<="
         self._light = light
-        self._behind, self._before = _Canvas(context), _Canvas(context)
+        self._behind, self._before = Canvas(context), Canvas(context)
         self._bodies: dict[str, _Body] = {}
-        self._world_program = context.program(_WORLD_VERTEX, _WORLD_FRAGMENT)
+        self._landscape_program = context.program(
+            shaders.LANDSCAPE_VERTEX, shaders.LANDSCAPE_FRAGMENT
+        )
         self._sky_programs = [
-            context.program(_SKY_VERTEX, version + _SKY_FRAGMENT)
+            context.program(shaders.SKY_VERTEX, version + shaders.SKY_FRAGMENT)
             for version in ("#version 330\n", "#version 330\n#define GLARE\n")
         ]
-        self._body_program = context.program(_BODY_VERTEX, _BODY_FRAGMENT)
-        self._shadow_program = context.program(_SHADOW_VERTEX, _SHADOW_FRAGMENT)
+        self._body_program = context.program(shaders.BODY_VERTEX, shaders.BODY_FRAGMENT)
+        self._shadow_program = context.program(shaders.SHADOW_VERTEX, shaders.SHADOW_FRAGMENT)
         self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
         self._sky.repeat_x = False
         self._sky.filter = context.NEAREST, context.NEAREST
         self._skies = [context.vertex_array(program, []) for program in self._sky_programs]
-        self._tiles = Tiles.of(world.corners)
-        colours = np.broadcast_to(light.baked(world)[:, None], world.corners.shape)
-        data = np.concatenate((world.corners, colours), axis=2)[self._tiles.order]
+        self._tiles = Tiles.of(landscape.corners)
+        colours = np.broadcast_to(light.baked(landscape)[:, None], landscape.corners.shape)
+        data = np.concatenate((landscape.corners, colours), axis=2)[self._tiles.order]
         corners, self._triangles = _alike(data)
         self._shown = context.buffer(reserve=self._triangles.nbytes)
         layout = (context.buffer(corners), "3f 3f", "in_place", "in_colour")
-        self._world = context.vertex_array(self._world_program, [layout], self._shown)
+        self._landscape = context.vertex_array(self._landscape_program, [layout], self._shown)
         self._set_light()
 
     def _set_light(self) -> None:
         light = self._light
-        for program in (self._world_program, *self._sky_programs, self._body_program):
+        for program in (self._landscape_program, *self._sky_programs, self._body_program):
             for name, value in (
                 ("airlight", tuple(light.airlight)),
                 ("extinction", light.extinction_per_m),
@@ -283,7 +90,7 @@ class ModernGLRenderer:
             ):
                 if name in program:
                     program[name] = value
-        self._world_program["extinction"] = light.backdrop_extinction_per_m
+        self._landscape_program["extinction"] = light.backdrop_extinction_per_m
         self._shadow_program["sun"] = tuple(light.sun)
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
@@ -310,7 +117,7 @@ class ModernGLRenderer:
 
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the landscape behind all bodies, with the sky and the air."""
-        context, program = self._context, self._world_program
+        context, program = self._context, self._landscape_program
         canvas = self._behind
         canvas.clear((window.width * samples, window.height * samples), is_filled=True)
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
@@ -326,7 +133,7 @@ class ModernGLRenderer:
             program["focal_plane"] = *pixel, left, top
             triangles = self._triangles[shown.places]
             self._shown.write(triangles)
-            self._world.render(vertices=triangles.size)
+            self._landscape.render(vertices=triangles.size)
         # Last, and as far as can be: only where nothing else is.
         x, y, ahead = view.axes.T
         middle = ahead + (left + right) / 2.0 * x + (top + bottom) / 2.0 * y

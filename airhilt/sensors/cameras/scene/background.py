@@ -1,4 +1,4 @@
-"""The still world behind everything in a camera's pictures, drawn anew only where it has moved.
+"""The landscape behind everything in a camera's pictures, drawn anew only where it has moved.
 
 A camera that moves little against what it sees shows the same for some pictures: en route hardly
 anything changes, and on an approach the horizon stays while the ground in front passes by. So the
@@ -14,12 +14,12 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.imaging.view import NEAR_M, Intrinsics, View, Window
 from airhilt.sensors.cameras.renderers import Renderer, Samples
-from airhilt.sensors.cameras.view import NEAR_M, Intrinsics, View, Window
 from airhilt.shapes.mesh import Floats
 
 KEPT_PX = 0.5
-"""A pixel of the world shows it as it was when it was within this of its place."""
+"""A pixel of the landscape shows it as it was when it was within this of its place."""
 SOON_PX = 0.35
 """A band of which something is as much out of its place is drawn together with others."""
 BAND_ROWS = 24
@@ -30,7 +30,7 @@ SAMPLES_AT_ONCE = 2_500_000
 
 
 class Background:
-    """The world as one camera sees it.
+    """The landscape as one camera sees it.
 
     Parameters
     ----------

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.imaging.view import Pose
 from airhilt.messages import VisibleClass
 from airhilt.scenario.models import ActorSpec, AircraftSpec
-from airhilt.sensors.cameras.view import Pose
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.shapes.lights import Light, aircraft_lights
 from airhilt.shapes.mesh import Mesh
@@ -111,7 +111,7 @@ def kind_model(name: str) -> Model:
 
 
 def states_of(
-    actors: Iterable[Actor], frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
+    actors: Iterable[Actor], local_frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
 ) -> list[BodyState]:
     """Return where everybody is; those that have ended lie where they did.
 
@@ -124,7 +124,7 @@ def states_of(
     return [
         state_of(
             actor,
-            frame,
+            local_frame,
             ground_m,
             now_ns / SECOND_NS,
             elapsed_s if actor.body.ended is None else 0.0,
@@ -134,7 +134,7 @@ def states_of(
 
 
 def state_of(
-    actor: Actor, frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
+    actor: Actor, local_frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
 ) -> BodyState:
     """Return where an actor is, in the axes of the scene.
 
@@ -150,7 +150,7 @@ def state_of(
     two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
     """
     state = carried_on(actor.body.state, elapsed_s)
-    east, north = frame.to_local((state.latitude_rad, state.longitude_rad))
+    east, north = local_frame.to_local((state.latitude_rad, state.longitude_rad))
     up = state.altitude_m - ground_m
     callsign = actor.spec.callsign
     body = actor.body

@@ -1,4 +1,4 @@
-"""From a scenario to a studio that takes its pictures."""
+"""From a scenario to what draws its pictures."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Airborne, Daylight, Weather
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera, frame_of
+from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera, local_frame_of
 from airhilt.sensors.cameras.scene.bodies import Model, model_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.landscape import World, airport_world, open_country
+from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
 from airhilt.sensors.cameras.scene.rain import rain_visibility_m
 from airhilt.sensors.cameras.scene.sun import sun_direction
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
@@ -30,7 +30,7 @@ LOWEST_CLOUDS_M = 400.0
 
 def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
     """Return how a scenario is lit."""
-    latitude_rad, _ = frame_of(site).origin
+    latitude_rad, _ = local_frame_of(site).origin
     return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, site.layout is None)
 
 
@@ -47,10 +47,10 @@ def air_and_sun(
     return Illumination(sun, visibility, overcast, background)
 
 
-def world_of(scenario: Scenario, site: ScenarioSite, light: Illumination) -> World:
+def landscape_of(scenario: Scenario, site: ScenarioSite, light: Illumination) -> Landscape:
     """Return what stands still in a scenario."""
     if site.layout is not None:
-        return airport_world(site.layout, light)
+        return airport_landscape(site.layout, light)
     heights = [
         actor.initial.altitude_ft * FOOT - site.ground_m
         for actor in scenario.actors
@@ -69,7 +69,7 @@ def open_scene_renderer(
     renderer: str = AUTO,
     supersampling: int = 1,
 ) -> SceneRenderer:
-    """Return a studio with cameras of a scenario: those named, or those it declares.
+    """Return what draws for cameras of a scenario: those named, or those that it declares.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def open_scene_renderer(
     wanted = [camera.name for camera in scenario.cameras] if names is None else names
     cameras: list[Camera] = [find_camera(known, name) for name in wanted]
     light = light_of(scenario, site)
-    world = world_of(scenario, site, light)
+    landscape = landscape_of(scenario, site, light)
     return SceneRenderer(
-        world, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling
+        landscape, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling
     )

@@ -79,7 +79,7 @@ class Illumination:
         return min(max((4.0 - math.degrees(self.sun_elevation_rad)) / 10.0, 0.0), 1.0)
 
     @property
-    def needs_lamps(self) -> bool:
+    def needs_lights(self) -> bool:
         """Whether the lights of an airport are on."""
         return self.darkness > 0.0 or self.visibility_m < LAMPS_BELOW_M
 

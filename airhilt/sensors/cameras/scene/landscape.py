@@ -6,6 +6,7 @@ import math
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -20,7 +21,9 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.lights import airport_lights
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Colour, Mesh, join, srgb
-from airhilt.world.surface.layout import Layout
+
+if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
+    from airhilt.world.surface.layout import Layout
 
 ASPHALT = srgb(72, 74, 78)
 TAXI_ASPHALT = srgb(96, 97, 99)
@@ -61,14 +64,14 @@ class Block:
 
 
 @dataclass(frozen=True)
-class World:
+class Landscape:
     """All that stands still.
 
     Attributes
     ----------
     mesh
         Its triangles, in metres east, north and up of the scene's centre at ground level.
-    lamps
+    lights
         Points of light that are on at dusk and at night.
     blocks
         What cameras must not stand in.
@@ -103,13 +106,13 @@ class World:
                 )
 
 
-def airport_world(layout: Layout, light: Illumination) -> World:
+def airport_landscape(layout: Layout, light: Illumination) -> Landscape:
     """Return an airport."""
     require_triangulation()
-    return _Airport(layout, light).world()
+    return _Airport(layout, light).landscape()
 
 
-def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> World:
+def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> Landscape:
     """Return land without an airport, with a layer of clouds below some height."""
     require_triangulation()
     seed = _seed(name)
@@ -127,14 +130,14 @@ def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> 
         base = max(0.55 * cloud_tops_m, cloud_tops_m - DEEPEST_CLOUDS_M)
         parts.append(scenery.clouds(base, cloud_tops_m, 30_000.0, 60, seed))
         tallest = cloud_tops_m
-    return World(join(parts), (), (), tallest)
+    return Landscape(join(parts), (), (), tallest)
 
 
 class _Airport:
     def __init__(self, layout: Layout, light: Illumination) -> None:
         self._layout = layout
         self._airport = layout.airport
-        self._frame = layout.frame
+        self._plane = layout.frame
         self._light = light
         self._seed = _seed(layout.airport.icao)
         to_local = layout.frame.to_local
@@ -159,11 +162,11 @@ class _Airport:
 
     def _polygon(self, outline: tuple[tuple[float, float], ...]) -> Polygon:
         corners = [
-            self._frame.to_local((math.radians(lat), math.radians(lon))) for lat, lon in outline
+            self._plane.to_local((math.radians(lat), math.radians(lon))) for lat, lon in outline
         ]
         return Polygon(corners).buffer(0.0)
 
-    def world(self) -> World:
+    def landscape(self) -> Landscape:
         parts = [sheet(self._layers(), self._shadows(), self._seed), _base()]
         for block in self._blocks:
             shape = scenery.tower if block.name == "Tower" else scenery.building
@@ -177,18 +180,18 @@ class _Airport:
             if found is not None:
                 parts.append(found)
         tallest = max([60.0, *(block.height_m for block in self._blocks)])
-        return World(join(parts), airport_lights(self._layout), self._blocks, tallest)
+        return Landscape(join(parts), airport_lights(self._layout), self._blocks, tallest)
 
     # --- ground -------------------------------------------------------------------------------
 
     def _layers(self) -> Iterator[Layer]:
         layout = self._layout
-        paint = [markings.runway_paint(strip, self._frame) for strip in layout.strips.values()]
+        paint = [markings.runway_paint(strip, self._plane) for strip in layout.strips.values()]
         yield Layer(unary_union(paint), (PAINT,))
         holds = [
             mark
             for hold in layout.holds.values()
-            for mark in markings.hold_lines(hold, self._frame, HOLD_WIDTH_M)
+            for mark in markings.hold_lines(hold, self._plane, HOLD_WIDTH_M)
         ]
         yield Layer(unary_union(holds).intersection(self._taxiways), (YELLOW,))
         lines = markings.taxiway_lines([leg for leg, _ in self._legs])
@@ -214,7 +217,7 @@ class _Airport:
 
     def _apron_area(self) -> BaseGeometry:
         stands = [
-            Point(self._frame.to_local(node.place)).buffer(APRON_REACH_M, ARC)
+            Point(self._plane.to_local(node.place)).buffer(APRON_REACH_M, ARC)
             for node in self._airport.taxiways.nodes
             if node.kind == "stand"
         ]
@@ -239,7 +242,7 @@ class _Airport:
     def _furniture(self) -> Iterator[Mesh]:
         """Yield the boards that stand beside holding positions."""
         for hold in self._layout.holds.values():
-            east, north = self._frame.to_local(hold.place)
+            east, north = self._plane.to_local(hold.place)
             sin, cos = math.sin(hold.heading_rad), math.cos(hold.heading_rad)
             yield scenery.sign(east - cos * 16.0, north + sin * 16.0, hold.heading_rad, SIGN_RED)
 

@@ -1,4 +1,4 @@
-"""Bodies before the world: each is a layer in its own window, and what layers hide is counted."""
+"""Bodies before the landscape: one layer each in its own window; what layers hide is counted."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.imaging.view import Window
 from airhilt.sensors.cameras.renderers import Samples
 from airhilt.sensors.cameras.scene.projected_box import Box
-from airhilt.sensors.cameras.view import Window
 from airhilt.shapes.mesh import Floats
 
 Number = TypeVar("Number", bound=np.generic)
@@ -25,13 +25,13 @@ class Layer:
     Attributes
     ----------
     number
-        Of the actor in the studio.
+        Number of the actor in `Frame.instance`.
     box, whole
         About the body, within the picture and beyond it; pixels.
     silhouette
         Area of the body in the picture, hidden or not; pixels.
     cover
-        Part of each pixel that it fills, where the world does not hide it; shape (rows, columns).
+        Part of each pixel that it fills and the landscape does not hide; shape (rows, columns).
     colour
         Its light in each pixel, times what it fills; shape (rows, columns, 3).
     distance_m
@@ -60,7 +60,7 @@ class Layer:
         samples: int,
         behind_m: Floats,
     ) -> Layer:
-        """Return the layer of a body that has been drawn before a world so far away."""
+        """Return the layer of a body that has been drawn before a landscape so far away."""
         distance = by_sample(drawn.distance_m, samples)
         colour = by_sample(drawn.colour, samples)
         is_body = np.isfinite(distance)

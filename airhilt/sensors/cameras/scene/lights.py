@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 from shapely import Point
 
+from airhilt.imaging.view import NEAR_M, Pose, View
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.view import NEAR_M, Pose, View
 from airhilt.shapes.lights import BLUE, GREEN, LANDING_BEAM, RED, WHITE, Light
 from airhilt.shapes.mesh import Colour, Floats
-from airhilt.world.surface.layout import Layout
+
+if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
+    from airhilt.world.surface.layout import Layout
 
 EDGE_SPACING_M = 60.0
 """ICAO Annex 14 volume I, 5.3.9.5: at most 60 m."""
@@ -32,10 +34,10 @@ FAINTEST_LAMP = 0.02
 
 def airport_lights(layout: Layout) -> tuple[Light, ...]:
     """Return the lights of runways and taxiways."""
-    return tuple(_runway_lamps(layout)) + tuple(_taxiway_lamps(layout))
+    return tuple(_runway_lights(layout)) + tuple(_taxiway_lights(layout))
 
 
-def _runway_lamps(layout: Layout) -> Iterator[Light]:
+def _runway_lights(layout: Layout) -> Iterator[Light]:
     for strip in layout.strips.values():
         first, second = strip.ends
         low, high = (layout.frame.to_local(end.start) for end in (first, second))
@@ -46,22 +48,22 @@ def _runway_lamps(layout: Layout) -> Iterator[Light]:
         half = first.width_m / 2.0 + 1.5
         for part in np.linspace(0.0, length, max(int(length // EDGE_SPACING_M), 1) + 1)[1:-1]:
             for side in (-half, half):
-                yield _lamp(np.asarray(low) + part * ahead + side * across, WHITE, EDGE_CD)
+                yield _light(np.asarray(low) + part * ahead + side * across, WHITE, EDGE_CD)
         for corner, way in ((low, 1.0), (high, -1.0)):
             for side in np.linspace(-half, half, 12):
                 place = np.asarray(corner) - way * 2.0 * ahead + side * across
                 out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
                 inwards = (-out[0], -out[1], 0.05)
-                yield _lamp(place, GREEN, THRESHOLD_CD, out, 1.0)
-                yield _lamp(place, RED, THRESHOLD_CD, inwards, 1.0)
+                yield _light(place, GREEN, THRESHOLD_CD, out, 1.0)
+                yield _light(place, RED, THRESHOLD_CD, inwards, 1.0)
             for row in range(1, 15):
                 place = np.asarray(corner) - way * row * 30.0 * ahead
                 out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
                 for side in np.linspace(-2.0, 2.0, 5) if row != 10 else np.linspace(-15, 15, 15):
-                    yield _lamp(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
+                    yield _light(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
 
 
-def _taxiway_lamps(layout: Layout) -> Iterator[Light]:
+def _taxiway_lights(layout: Layout) -> Iterator[Light]:
     nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
     runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
     for edge in layout.airport.taxiways.edges:
@@ -75,10 +77,10 @@ def _taxiway_lamps(layout: Layout) -> Iterator[Light]:
             for side in (-1.0, 1.0):
                 place = start + part * ahead + side * across
                 if not any(pavement.contains(Point(*place)) for pavement in runways):
-                    yield _lamp(place, BLUE, TAXIWAY_CD)
+                    yield _light(place, BLUE, TAXIWAY_CD)
 
 
-def _lamp(
+def _light(
     place: npt.NDArray[np.float64],
     colour: Colour,
     candela: float,
@@ -116,19 +118,19 @@ class Lights:
 
     @classmethod
     def of(cls, lights: Sequence[Light]) -> Lights:
-        """Return lamps that are given one by one."""
+        """Return lights that are given one by one."""
         rows = [
-            (*lamp.place_m, *lamp.colour, lamp.candela, *(lamp.beam or (0.0, 0.0, 0.0)),
-             lamp.beam_sharpness if lamp.beam else 0.0)
-            for lamp in lights
+            (*light.place_m, *light.colour, light.candela, *(light.beam or (0.0, 0.0, 0.0)),
+             light.beam_sharpness if light.beam else 0.0)
+            for light in lights
         ]  # fmt: skip
         table = np.array(rows, dtype=np.float64).reshape(-1, 11)
         return cls(table[:, :3], table[:, 3:6], table[:, 6], table[:, 7:10], table[:, 10])
 
     @classmethod
     def carried(cls, groups: Sequence[tuple[Pose, Sequence[Light]]]) -> Lights:
-        """Return lamps that are given in the axes of what carries them."""
-        lights = cls.of([lamp for _, group in groups for lamp in group])
+        """Return lights that are given in the axes of what carries them."""
+        lights = cls.of([light for _, group in groups for light in group])
         counts = [len(group) for _, group in groups]
         if not sum(counts):
             return lights

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from shapely import LineString, Polygon, affinity, box, transform
@@ -16,9 +17,11 @@ from shapely.ops import unary_union
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.units import FOOT
-from airhilt.world.surface.layout import Hold, RunwayStrip
-from airhilt.world.surface.path import Local
-from airhilt.world.surface.runway import RunwayEnd
+
+if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
+    from airhilt.world.surface.layout import Hold, RunwayStrip
+    from airhilt.world.surface.path import Local
+    from airhilt.world.surface.runway import RunwayEnd
 
 THRESHOLD_STRIPES = ((60.0, 4), (75.0, 6), (100.0, 8), (150.0, 12), (200.0, 16))
 """Runway width in feet, number of stripes: table 2-2."""
@@ -68,14 +71,14 @@ _STROKES: dict[str, tuple[tuple[tuple[float, float], ...], ...]] = {
 """Characters as strokes in a unit square."""
 
 
-def runway_paint(strip: RunwayStrip, frame: LocalFrame) -> BaseGeometry:
+def runway_paint(strip: RunwayStrip, local_frame: LocalFrame) -> BaseGeometry:
     """Return all white paint of a runway."""
     marks: list[BaseGeometry] = []
     for end in strip.ends:
-        marks += [_placed(mark, end, frame) for mark in _end_paint(end)]
+        marks += [_placed(mark, end, local_frame) for mark in _end_paint(end)]
     low, high = strip.ends
     marks += [
-        _placed(mark, low, frame)
+        _placed(mark, low, local_frame)
         for mark in _along_paint(
             low.length_m - low.displaced_m - high.displaced_m, low.width_m, low.displaced_m
         )
@@ -83,10 +86,10 @@ def runway_paint(strip: RunwayStrip, frame: LocalFrame) -> BaseGeometry:
     return unary_union(marks).intersection(strip.pavement)
 
 
-def _placed(mark: BaseGeometry, end: RunwayEnd, frame: LocalFrame) -> BaseGeometry:
+def _placed(mark: BaseGeometry, end: RunwayEnd, local_frame: LocalFrame) -> BaseGeometry:
     """Return a mark, given right of and beyond the threshold, in local metres."""
-    east, north = frame.to_local(end.threshold)
-    along = np.subtract(frame.to_local(end.end), (east, north))
+    east, north = local_frame.to_local(end.threshold)
+    along = np.subtract(local_frame.to_local(end.end), (east, north))
     along = along / np.hypot(*along)
     across = np.array((along[1], -along[0]))
     return transform(mark, lambda xy: xy[:, :1] * across + xy[:, 1:] * along + (east, north))
@@ -162,9 +165,9 @@ def taxiway_lines(legs: Sequence[tuple[Local, Local]]) -> BaseGeometry:
     )
 
 
-def hold_lines(hold: Hold, frame: LocalFrame, width_m: float) -> list[BaseGeometry]:
+def hold_lines(hold: Hold, local_frame: LocalFrame, width_m: float) -> list[BaseGeometry]:
     """Return the two solid and two dashed lines of a holding position: the dashes are nearer."""
-    east, north = frame.to_local(hold.place)
+    east, north = local_frame.to_local(hold.place)
     ahead = math.sin(hold.heading_rad), math.cos(hold.heading_rad)
     across = ahead[1], -ahead[0]
 

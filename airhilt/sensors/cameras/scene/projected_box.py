@@ -8,9 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import ConvexHull
 
-from airhilt.sensors.cameras.view import NEAR_M, Pose, View, Window
+from airhilt.imaging.view import NEAR_M, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
 
@@ -58,7 +57,9 @@ class Outline:
 
     @classmethod
     def of(cls, mesh: Mesh) -> Outline:
-        """Return that of a mesh."""
+        """Return the outline of a mesh."""
+        from scipy.spatial import ConvexHull  # only who draws needs it, and it takes long
+
         points = np.unique(mesh.corners.reshape(-1, 3), axis=0).astype(np.float64)
         hull = ConvexHull(points)
         number = np.full(len(points), -1)

@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from airhilt.errors import CameraError
 from airhilt.imaging.lenses import GREATEST_SIDE_PX, NARROWEST_DEG, SMALLEST_SIDE_PX, WIDEST_DEG
-from airhilt.shapes.mesh import Floats
 
+Floats = npt.NDArray[np.float32]
 Matrix = npt.NDArray[np.float64]
 NEAR_M = 0.3
 """Nothing nearer is drawn."""

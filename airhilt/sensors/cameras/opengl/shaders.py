@@ -1,0 +1,150 @@
+"""What OpenGL computes for each corner and each sample, in GLSL 3.30."""
+
+from __future__ import annotations
+
+from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY
+
+AIR = """
+uniform vec3 airlight;
+uniform float extinction;
+vec3 through_air(vec3 colour, float distance) {
+    return mix(airlight, colour, exp(-extinction * distance));
+}
+// sRGB, its power replaced by a polynomial of the root: less than a tenth of a level beside it.
+vec3 encode(vec3 linear) {
+    vec3 l = clamp(linear, 0.0, 1.0);
+    vec3 s = sqrt(l);
+    vec3 high = ((0.51713 * s - 1.62312) * s + 2.03096) * s - 1.40244;
+    return mix((high * s + 1.51789) * s - 0.04011, 12.92 * l, lessThan(l, vec3(0.0031308)));
+}
+"""
+LANDSCAPE_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform vec3 eye;
+in vec3 in_place;
+in vec3 in_colour;
+flat out vec3 colour;
+void main() {
+    colour = in_colour;
+    gl_Position = projection * vec4(in_place - eye, 1.0);
+}
+"""
+LANDSCAPE_FRAGMENT = (
+    "#version 330\n"
+    + AIR
+    + """
+uniform vec4 focal_plane;
+flat in vec3 colour;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    vec2 aside = focal_plane.xy * gl_FragCoord.xy + focal_plane.zw;
+    float away = sqrt(dot(aside, aside) + 1.0) / gl_FragCoord.w;
+    out_colour = vec4(encode(through_air(colour, away)), 1.0);
+    out_distance = away;
+}
+"""
+)
+SKY_VERTEX = """
+#version 330
+uniform mat3 corners;
+out vec3 towards;
+void main() {
+    vec2 place = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);
+    towards = corners * vec3(place, 1.0);
+    gl_Position = vec4(place, 1.0, 1.0);
+}
+"""
+SKY_FRAGMENT = (
+    AIR
+    + f"""
+uniform sampler2D sky;
+uniform vec3 sun;
+uniform vec3 glare;
+uniform float sharpness;
+uniform float disc;
+in vec3 towards;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {{
+    vec3 d = normalize(towards);
+    vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
+#ifdef GLARE
+    float apart = 1.0 - dot(d, sun);
+    if (apart < {GLARE_ENDS} / sharpness)
+        colour += (exp(-sharpness * apart) + disc * exp(-{DISC} * apart)) * glare;
+#endif
+    out_colour = vec4(encode(colour), 1.0);
+    out_distance = uintBitsToFloat(0x7F800000u);
+}}
+"""
+)
+BODY_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform mat3 rotation;
+uniform vec3 place;
+in vec3 in_place;
+in vec3 in_normal;
+in vec3 in_colour;
+in float in_glow;
+out vec3 offset;
+out vec3 normal;
+flat out vec3 colour;
+flat out float glow;
+void main() {
+    offset = rotation * in_place + place;
+    normal = rotation * in_normal;
+    colour = in_colour;
+    glow = in_glow;
+    gl_Position = projection * vec4(offset, 1.0);
+}
+"""
+BODY_FRAGMENT = (
+    "#version 330\n"
+    + AIR
+    + """
+uniform vec3 sun;
+uniform vec3 direct;
+uniform vec3 diffuse;
+uniform vec3 reflected;
+uniform float darkness;
+in vec3 offset;
+in vec3 normal;
+flat in vec3 colour;
+flat in float glow;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    vec3 n = normalize(normal);
+    vec3 light = max(dot(n, sun), 0.0) * direct + mix(reflected, diffuse, 0.5 + 0.5 * n.z);
+    float away = length(offset);
+    out_colour = vec4(encode(through_air(colour * (light + glow * darkness), away)), 1.0);
+    out_distance = 1.0 / away;
+}
+"""
+)
+SHADOW_VERTEX = """
+#version 330
+uniform mat4 projection;
+uniform mat3 rotation;
+uniform vec3 place;
+uniform vec3 eye;
+uniform vec3 sun;
+in vec3 in_place;
+void main() {
+    vec3 world = rotation * in_place + place;
+    vec3 ground = world - sun * (max(world.z, 0.0) / sun.z);
+    gl_Position = projection * vec4(ground - eye, 1.0);
+}
+"""
+SHADOW_FRAGMENT = """
+#version 330
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out float out_distance;
+void main() {
+    out_colour = vec4(0.0);
+    out_distance = 1.0;
+}
+"""
