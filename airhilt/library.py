@@ -11,7 +11,7 @@ from pathlib import Path
 from airhilt.errors import ScenarioError
 
 SHOWN_NAMES = 12
-"""In an error about one that does not exist."""
+"""Number of known names that an error about an unknown one shows."""
 KINDS = ("aircraft", "airports", "scenarios", "bridges")
 
 

@@ -1,4 +1,4 @@
-"""How a run is asked for, from Python, on the command line and in ``run.json``.
+"""The options of a run, for Python, the command line and ``run.json``.
 
 `Options` is the only place where an option is written: its default, its limits, and in its `Flag`
 how the command line spells and explains it. `airhilt.run` takes its fields as keywords, ``airhilt
@@ -28,7 +28,7 @@ LONGEST_S = 86_400.0
 
 @dataclass(frozen=True)
 class Flag:
-    """How the command line spells an option.
+    """Spelling and explanation of an option on the command line.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
 
 
 class Options(BaseModel):
-    """How a scenario is run."""
+    """The options of a run; the defaults are those of the command line."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

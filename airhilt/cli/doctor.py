@@ -1,4 +1,4 @@
-"""What is installed, what is missing, and how to get it."""
+"""Finds what is installed and what is missing, and says how to get it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person sees of a run: the line while it goes on, the numbers at its end."""
+"""Output of a run on the terminal: a line while it goes on, the numbers at its end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What everybody in the airspace knows before a run begins."""
+"""The briefing: everything that all in the airspace know before a run begins."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class Recorder(Protocol):
 
 
 class Vision:
-    """How a run sees, if it does: `mount`, `start` and `finish` do nothing where it does not.
+    """The cameras of a run; without any, `mount`, `start` and `finish` do nothing.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class Vision:
 
     @property
     def state(self) -> tuple[ModalityState, str]:
-        """How it stands with vision when the run begins, and why."""
+        """State of the modality vision when the run begins, and its cause."""
         if self._unavailable_reason:
             return "not evaluated", self._unavailable_reason
         return "on" if self._process is not None and self._is_watched else "off", ""

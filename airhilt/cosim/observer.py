@@ -1,4 +1,4 @@
-"""How whoever started a run hears of it: while it goes on, and when it has ended."""
+"""Reports of a run to the program that started it: while it goes on, and at its end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from airhilt.metrics.summary import Summary
 
 @dataclass(frozen=True)
 class Result:
-    """What a run left behind: the numbers of its summary, and its folder."""
+    """The outcome of a run: the numbers of its summary, and its folder."""
 
     summary: Summary
     folder: Path
@@ -19,7 +19,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """How a run is doing, for a progress line.
+    """The state of a run, for a progress line.
 
     Attributes
     ----------

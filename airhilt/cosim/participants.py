@@ -1,4 +1,4 @@
-"""Who takes part in a run besides the actors: attached programs, and the workers for the rest."""
+"""Workers and external programs connected to a run."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from airhilt.workers import LocalWorker, Worker
 from airhilt.workers.pool import Participant
 
 NO_DETECTOR = "none"
-"""In the place of an engine: nobody looks."""
+"""Name in the place of a detector: no worker looks at pictures."""
 
 
 @dataclass(frozen=True)
 class Participants:
-    """Who takes part in a run besides the actors.
+    """Workers and external programs connected to a run.
 
     Attributes
     ----------
     assistant
-        Who decides: the name of a decision engine, ``none`` or ``external``.
+        The name of a decision engine, ``none`` or ``external``.
     workers
         The workers that take grants.
     programs

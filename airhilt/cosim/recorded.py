@@ -1,4 +1,4 @@
-"""What a replay puts in the place of other processes and services."""
+"""Data that a replay puts in the place of other processes and services."""
 
 from __future__ import annotations
 

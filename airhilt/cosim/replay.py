@@ -40,11 +40,11 @@ came of them."""
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a replay compares with its recording."""
+    """The result of comparing a replay with its recording."""
 
     identical: bool
     messages: int
-    """Compared."""
+    """Number of messages that were compared."""
     difference: str
     notes: tuple[str, ...]
 

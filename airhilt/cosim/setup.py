@@ -1,4 +1,4 @@
-"""What a run is set up with: all that is settled before anybody takes part in it."""
+"""The setup of a run: everything that is settled before workers connect to it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ TICK_S = 0.05
 
 @dataclass(frozen=True)
 class Setup:
-    """What a run is set up with.
+    """Everything that a run is made of before workers connect to it.
 
     Attributes
     ----------
