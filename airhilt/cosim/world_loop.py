@@ -97,8 +97,8 @@ class WorldLoop:
         every(tick_ns, self._tick, Priority.PHYSICS, first_ns=tick_ns)
         every(TRUTH_PERIOD_NS, self._publish_states, Priority.SENSOR)
         if self.runways is not None:
-            look = self.runways.look
-            every(RUNWAY_PERIOD_NS, lambda: look(self._director.now_ns), Priority.OBSERVE)
+            tick = self.runways.tick
+            every(RUNWAY_PERIOD_NS, lambda: tick(self._director.now_ns), Priority.OBSERVE)
         every(CONDITION_PERIOD_NS, self._evaluate, Priority.OBSERVE)
 
     def schedule_occurrences(self) -> None:

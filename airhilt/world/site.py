@@ -1,4 +1,4 @@
-"""Where a scenario takes place, and its positions on the WGS84 ellipsoid."""
+"""Site of a scenario, and its positions on the WGS84 ellipsoid."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FixedSite:
-    """A place on the ground or in the air that does not move."""
+    """Fixed place on the ground or in the air, with the attributes of a moving one."""
 
     latitude_rad: float
     longitude_rad: float
@@ -37,7 +37,7 @@ class FixedSite:
 
 @dataclass(frozen=True)
 class ScenarioSite:
-    """The place of a scenario: its centre, its ground, and its airport if it has one."""
+    """Centre and ground elevation of a scenario, and its airport if it has one."""
 
     centre: GeodeticPosition
     ground_m: float
@@ -45,7 +45,7 @@ class ScenarioSite:
 
     @classmethod
     def of(cls, scenario: Scenario) -> ScenarioSite:
-        """Return the setting of a scenario.
+        """Return the site of a scenario.
 
         Raises
         ------
@@ -68,7 +68,7 @@ class ScenarioSite:
 
     @property
     def airport(self) -> Layout:
-        """The airport.
+        """Layout of the airport.
 
         Raises
         ------
@@ -116,7 +116,7 @@ class ScenarioSite:
         centre = (self.centre.lat_deg * DEGREE, self.centre.lon_deg * DEGREE)
         bearing = position.bearing_deg * DEGREE
         there = onward(centre, bearing, position.distance_nm * NAUTICAL_MILE)
-        # There the geodesic's azimuth is no longer the bearing at which it began.
+        # At the far end the geodesic's azimuth differs from the bearing at which it began.
         back = azimuth(there, centre) if position.distance_nm else bearing + math.pi
         return beside(there, back + math.pi, position.offset_nm * NAUTICAL_MILE)
 

@@ -1,4 +1,4 @@
-"""Conditions on the true state, as scenarios state them."""
+"""Tests on the true state, made from the conditions of a scenario."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
 
 Test = Callable[[int], bool]
-"""Tells whether a condition is true at a time in nanoseconds."""
+"""Returns whether a condition is true at a time in ns."""
 
 
 class ConditionCompiler:
-    """Turns conditions into tests on the true state of one run."""
+    """Makes tests on the true state of one run from conditions."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class ConditionCompiler:
         self._ended_lines = ended_lines
 
     def compile(self, condition: Condition) -> Test:
-        """Return the test for a condition. Tests of ended actors are false."""
+        """Return the test of a condition. It is false for actors that have ended."""
         match condition:
             case TimeReached(at_s=at_s):
                 due_ns = seconds_to_ns(at_s)
@@ -88,6 +88,7 @@ class ConditionCompiler:
                 return lambda now_ns: any(_each(tests, now_ns))
 
     def _of_flying(self, pair: Pair, test: Callable[[], bool]) -> Test:
+        """Return a test that is false once one of a pair has ended."""
         return lambda _: self._monitor.flying(pair) and test()
 
     def _loss_within(self, pair: Pair, within_s: float) -> bool:
@@ -151,5 +152,5 @@ class ConditionCompiler:
 
 
 def _each(tests: Sequence[Test], now_ns: int) -> list[bool]:
-    """Ask every test, also those that cannot change the answer: some keep time."""
+    """Return the result of every test, also where one would do: some tests keep time."""
     return [test(now_ns) for test in tests]

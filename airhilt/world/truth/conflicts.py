@@ -1,4 +1,4 @@
-"""The truth about each pair of actors, watched at every physics tick."""
+"""Conflicts of each pair of actors: separation, near mid-air collisions, collisions and TCAS."""
 
 from __future__ import annotations
 
@@ -25,30 +25,31 @@ from airhilt.world.mover import Mover
 from airhilt.world.truth.gaps import gap, radius_m
 
 NMAC = Minima(500 * FOOT, 100 * FOOT)
-"""Near mid-air collision: closer than 500 ft horizontally and 100 ft vertically
-(RTCA DO-365)."""
+"""Minima of a near mid-air collision: 500 ft horizontally and 100 ft vertically (RTCA DO-365)."""
 LEVEL_WITHIN_M = 100 * FOOT
-"""An aircraft this near to its target altitude is taken to be level there."""
+"""Distance to the target altitude, in m, within which an aircraft counts as level there."""
 ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
+"""Radius of the zone of an airport's tower, in m: about a class D airspace (FAA Order JO 7400.2,
+17-1-3). The tower separates by sight in the zone (FAA Order JO 7110.65, 7-2-1): separation cannot
+be lost there, but near mid-air collisions, collisions and runway incursions count."""
 ZONE_HEIGHT_M = 2_500.0 * FOOT
-"""Around an airport with a tower, about a class D airspace (FAA Order JO 7400.2, 17-1-3). The
-tower separates by sight in it (FAA Order JO 7110.65, 7-2-1): no distance is too small there, but
-near misses, collisions and runway incursions are what they are."""
+"""Height of the zone above the ground, in m."""
 TOUCHING_WITHIN_M = 150.0
-"""Of both circles around two bodies, where they are followed closely; more than two aircraft at
-140 kt can close in the second until pairs are sorted out again."""
+"""Gap between the circles around two bodies, in m, below which a pair is watched at every tick. Two
+aircraft at 140 kt close by less in the second until the pairs are selected again."""
 TCAS_RANGE_M = 40_000.0
+"""Horizontal distance in m beyond which no pair is within a TCAS threshold."""
 TCAS_HEIGHT_M = 3_000.0
-"""Beyond these no pair of aircraft is within any TCAS threshold."""
+"""Vertical distance in m beyond which no pair is within a TCAS threshold."""
 
 
 Pair = tuple[str, str]
 Motion = tuple[Relative, VerticalProfile, VerticalProfile]
-"""How the second of a pair moves against the first, and the vertical profiles of both."""
+"""Motion of the second of a pair relative to the first, and the vertical profiles of both."""
 
 
 class Approach(NamedTuple):
-    """The closest that a pair came, at the horizontal closest approach within a tick."""
+    """Closest approach of a pair, at the horizontally closest instant of a tick."""
 
     t_ns: int
     horizontal_m: float
@@ -56,24 +57,24 @@ class Approach(NamedTuple):
 
     @property
     def slant_m(self) -> float:
-        """Distance in three dimensions."""
+        """Distance in three dimensions, in m."""
         return math.hypot(self.horizontal_m, self.vertical_m)
 
 
 @dataclass(slots=True)
 class PairTruth:
-    """What became true of one pair, and when."""
+    """Conflict phases of one pair with their times, and its closest approach."""
 
     first_ns: dict[ConflictPhase, int] = field(default_factory=dict)
     closest: Approach | None = None
     least_horizontal_m: float | None = None
-    """While the vertical minimum was infringed."""
+    """Least horizontal distance while the vertical minimum was infringed, in m."""
     least_vertical_m: float | None = None
-    """While the horizontal minimum was infringed."""
+    """Least vertical distance while the horizontal minimum was infringed, in m."""
 
 
 def profile_of(aircraft: Aircraft) -> VerticalProfile:
-    """Return where an aircraft is really going vertically."""
+    """Return the vertical profile that an aircraft is really flying."""
     state, target = aircraft.state, aircraft.target_altitude_m
     if aircraft.on_ground:
         return VerticalProfile(state.altitude_m, 0.0)
@@ -86,26 +87,30 @@ def profile_of(aircraft: Aircraft) -> VerticalProfile:
 
 
 class ConflictMonitor:
-    """Watches separation, near mid-air collisions, collisions, and where TCAS II would speak.
+    """Watches separation, near mid-air collisions, collisions, and alerts of TCAS II.
 
-    Between two ticks both are taken to move straight, so a fast pass is not stepped over. A
-    collision is when the outlines of two bodies touch. Only aircraft in flight have minima to keep,
-    and not inside the zone of an airport's tower.
+    Bodies move straight on between two ticks, so that a fast pass is not missed. A collision
+    is a contact of two outlines. Separation minima apply to aircraft in flight, outside the zone of
+    an airport's tower.
 
     Parameters
     ----------
     aircraft, others
-        What moves, by callsign.
+        Bodies that move, by callsign.
     minima
-        Where separation counts as lost.
+        Separation minima.
+    ground_m
+        Elevation of the ground, in m.
     zone
-        The centre of the tower's zone, if there is one.
+        Centre of the tower's zone, if there is one.
+    tick_s
+        Time between two ticks, in s.
     transponders
-        Who carries one: without, TCAS neither is aboard nor sees an aircraft.
+        Callsigns with a transponder. TCAS is aboard of these aircraft only, and sees no others.
     always
-        Pairs whose closest approach is followed however far apart they are, once a second there.
+        Pairs whose closest approach is recorded at any distance; once a second when far apart.
     became_true
-        Called with the phase, the pair, and the horizontal and vertical distance.
+        Called with a new phase, its pair, and the horizontal and vertical distance.
     """
 
     def __init__(
@@ -132,18 +137,18 @@ class ConflictMonitor:
         self._became_true = became_true
         self._motions: dict[Pair, tuple[Kinematics, Kinematics, Motion]] = {}
         self._near: list[Pair] = []
-        self._sorted_ns = -SECOND_NS
+        self._selected_ns = -SECOND_NS
 
     def tick(self, now_ns: int) -> None:
-        """Look at all pairs that can matter before the next second."""
-        if now_ns >= self._sorted_ns + SECOND_NS:
-            self._sorted_ns = now_ns - now_ns % SECOND_NS
-            self._sort_out(now_ns)
+        """Watch the pairs that can come near within the next second."""
+        if now_ns >= self._selected_ns + SECOND_NS:
+            self._selected_ns = now_ns - now_ns % SECOND_NS
+            self._select_pairs(now_ns)
         for pair in self._near:
             self._watch(now_ns, pair, self._tick_s)
 
     def motion(self, pair: Pair) -> Motion:
-        """Return how the second of a pair moves against the first, and both profiles."""
+        """Return the motion of the second of a pair relative to the first, and both profiles."""
         first, second = self._bodies[pair[0]], self._bodies[pair[1]]
         known = self._motions.get(pair)
         if known is None or known[0] is not first.state or known[1] is not second.state:
@@ -164,15 +169,15 @@ class ConflictMonitor:
         return callsign in self._aircraft and not self._aircraft[callsign].on_ground
 
     def time_to_loss_s(self, pair: Pair) -> float | None:
-        """Return how long until the pair loses separation, if both fly on as they do."""
+        """Return the time in s until the pair loses separation, if both fly on as they do."""
         return time_to_loss_s(*self.motion(pair), self._minima)
 
     def flying(self, pair: Pair) -> bool:
-        """Return whether both still move."""
+        """Return whether neither of a pair has ended."""
         return all(self._bodies[callsign].ended is None for callsign in pair)
 
     def collided(self, pair: Pair) -> bool:
-        """Return whether a pair, in any order, has touched."""
+        """Return whether a pair, in any order, has collided."""
         truth = self.pairs.get(pair) or self.pairs.get((pair[1], pair[0]))
         return truth is not None and "collision" in truth.first_ns
 
@@ -180,8 +185,8 @@ class ConflictMonitor:
         """Return whether both of a pair carry a transponder."""
         return self._transponders.issuperset(pair)
 
-    def _sort_out(self, now_ns: int) -> None:
-        """Choose the pairs to watch closely for a second; on the way, ask what TCAS would say."""
+    def _select_pairs(self, now_ns: int) -> None:
+        """Select the pairs to watch for a second, and check the TCAS thresholds of all pairs."""
         reach_m = self._minima.horizontal_m + 2_000.0
         height_m = self._minima.vertical_m + 300.0
         far_m, far_up_m = max(reach_m, TCAS_RANGE_M), max(height_m, TCAS_HEIGHT_M)
@@ -203,7 +208,7 @@ class ConflictMonitor:
                     and height < TCAS_HEIGHT_M
                     and self.is_seen_by_tcas(pair)
                 ):
-                    self._ask_tcas(now_ns, pair, motion)
+                    self._check_tcas(now_ns, pair, motion)
             else:
                 near = distance < radius_m(own) + radius_m(its) + TOUCHING_WITHIN_M
             if near:
@@ -211,24 +216,24 @@ class ConflictMonitor:
             elif pair in self._always:
                 self._watch(now_ns, pair, min(1.0, now_ns / SECOND_NS))
 
-    def _ask_tcas(self, now_ns: int, pair: Pair, motion: Relative) -> None:
+    def _check_tcas(self, now_ns: int, pair: Pair, motion: Relative) -> None:
         states = [self._bodies[name].state for name in pair]
         gap = states[1].altitude_m - states[0].altitude_m
         gap_rate = states[0].velocity_down_m_s - states[1].velocity_down_m_s
         heights = [state.altitude_m - self._ground_m for state in states]
         for own, sign in ((0, 1.0), (1, -1.0)):
-            said = tcas.alert(
+            alert = tcas.alert(
                 motion,
                 sign * gap,
                 sign * gap_rate,
                 tcas.Own(states[own].altitude_m, heights[own], heights[1 - own]),
             )
-            if said is not None:
-                self._first("tcas_ta", now_ns, pair, motion.distance_m, abs(gap))
-                self._first(said, now_ns, pair, motion.distance_m, abs(gap))
+            if alert is not None:
+                self._record("tcas_ta", now_ns, pair, motion.distance_m, abs(gap))
+                self._record(alert, now_ns, pair, motion.distance_m, abs(gap))
 
     def _watch(self, now_ns: int, pair: Pair, elapsed_s: float) -> None:
-        """Look at a pair, and at the time since it was looked at last."""
+        """Update the closest approach of a pair over the last ``elapsed_s``, and its phases."""
         first, second = (self._bodies[name] for name in pair)
         if first.ended is not None or second.ended is not None:
             return
@@ -244,12 +249,12 @@ class ConflictMonitor:
         least = truth.closest
         if least is None or horizontal**2 + vertical**2 < least[1] ** 2 + least[2] ** 2:
             truth.closest = Approach(now_ns + seconds_to_ns(back_s), horizontal, vertical)
-        self._judge(now_ns, pair, truth, Approach(now_ns, horizontal, vertical), back_s)
+        self._classify(now_ns, pair, truth, Approach(now_ns, horizontal, vertical), back_s)
 
-    def _judge(
+    def _classify(
         self, now_ns: int, pair: Pair, truth: PairTruth, near: Approach, back_s: float
     ) -> None:
-        """Name what is true of a pair that came so near, a fraction of a tick ago."""
+        """Record the phases of a pair at its closest approach, ``back_s`` (0 or less) from now."""
         _, horizontal, vertical = near
         first, second = (self._bodies[name] for name in pair)
         if self._in_flight(pair[0]) and self._in_flight(pair[1]):
@@ -260,26 +265,27 @@ class ConflictMonitor:
             if too_near:
                 truth.least_vertical_m = _lesser(truth.least_vertical_m, vertical)
             if too_near and too_level and not (self._in_zone(first) and self._in_zone(second)):
-                self._first("loss_of_separation", now_ns, pair, horizontal, vertical)
+                self._record("loss_of_separation", now_ns, pair, horizontal, vertical)
             if horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m:
-                self._first("nmac", now_ns, pair, horizontal, vertical)
+                self._record("nmac", now_ns, pair, horizontal, vertical)
         if horizontal > radius_m(first) + radius_m(second):
             return
         between = gap(first, second, back_s)
         if between.touches:
-            self._first("collision", now_ns, pair, *between)
+            self._record("collision", now_ns, pair, *between)
 
     def _in_zone(self, body: Mover) -> bool:
-        """Return whether a body is where a tower separates by sight."""
+        """Return whether a body is in the zone in which the tower separates by sight."""
         if self._zone is None:
             return False
         if body.state.altitude_m - self._ground_m > ZONE_HEIGHT_M:
             return False
         return relative(self._zone, body.state).distance_m < ZONE_RADIUS_M
 
-    def _first(
+    def _record(
         self, phase: ConflictPhase, now_ns: int, pair: Pair, horizontal: float, vertical: float
     ) -> None:
+        """Record a phase the first time that it becomes true."""
         truth = self.pairs.setdefault(pair, PairTruth())
         if phase not in truth.first_ns:
             truth.first_ns[phase] = now_ns

@@ -1,4 +1,4 @@
-"""The truth about runways: who is in their protected areas, who comes, and incursions."""
+"""Runways: occupants of their protected areas, arrivals, and incursions."""
 
 from __future__ import annotations
 
@@ -16,18 +16,22 @@ if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout, RunwayStrip
 
 ROLLING = frozenset({"takeoff_roll", "rotate"})
+"""Phases of an aircraft that takes off."""
 LANDING = frozenset({"glide", "flare"})
+"""Phases of an aircraft that lands."""
 ROLLING_OUT = frozenset({"rollout"})
+"""Phases of an aircraft that has landed."""
 USING = ROLLING | LANDING | ROLLING_OUT | {"rejected_takeoff", "go_around", "climb_out"}
-"""While it is in one of these, a runway's user may still come near to what is in its way."""
+"""Phases in which a user of the runway may still come near to an intruder."""
 ARRIVAL_WITHIN_S = 30.0
-"""An arrival nearer than this to its threshold uses the runway: the first stage at which surface
-alerting looks at it in good visibility (EUROCONTROL-SPEC-171, A-SMGCS airport safety support)."""
+"""Time to the threshold in s below which an arrival uses the runway: the first stage of surface
+alerting in good visibility (EUROCONTROL-SPEC-171, A-SMGCS airport safety support)."""
 LOW_M = 15.0
-"""Wildlife below this is in the way."""
+"""Height in m below which wildlife is in the way."""
 BEHIND_M = 30.0
-"""What lies so far behind the user of a runway is not in its way any more."""
+"""Distance behind the user of a runway, in m, beyond which nothing is in its way."""
 SHOWN_ARRIVALS_S = 120.0
+"""Time to the threshold in s below which an arrival is published."""
 
 IncursionCategory = Literal["A", "B", "C", "D", "accident"]
 """FAA Order 7050.1B, appendix A, and ICAO Doc 9870, table 6-1: A, collision narrowly avoided; B,
@@ -35,33 +39,35 @@ significant potential for collision; C, ample time or distance; D, incorrect pre
 immediate consequence. The FAA counts a collision as an accident beside them."""
 
 NARROW_M = 100.0 * FOOT
+"""Closest distance between the outlines below which an incursion is of category A, in m.
+
+The definitions give no distances. ICAO's RISC calculator (Doc 9870, appendix H) too begins with the
+closest proximity. The value is this project's own."""
 SIGNIFICANT_M = 500.0 * FOOT
-"""Closest distance between the outlines below which an incursion is of category A, and of B. The
-definitions give no distances. That the closest proximity decides first is the principle of ICAO's
-RISC calculator (Doc 9870, appendix H); the two values are this project's, the greater one after
-the near mid-air collision's."""
+"""Closest distance below which an incursion is of category B, in m: that of a near mid-air
+collision."""
 
 
 class User(NamedTuple):
-    """Who takes off from, or lands on, a runway now."""
+    """Aircraft that takes off from, or lands on, a runway now."""
 
     callsign: str
     runway: str
     along_m: float
-    """From the threshold, in its own direction."""
+    """Distance past the threshold, in the direction of use."""
     time_to_threshold_s: float
-    """0 once it is there, or rolling."""
+    """Time to the threshold; 0 past it, or rolling."""
     rolling: bool
 
 
 @dataclass
 class Incursion:
-    """One actor in the way of the user of a runway."""
+    """Runway incursion: an actor in the way of the user of a runway."""
 
     t_ns: int
     runway: str
     user: str | None
-    """None if there was no user: category D."""
+    """Callsign of the user; None if there was none: category D."""
     intruder: str
     closest: Gap | None = None
     collided: bool = False
@@ -69,7 +75,7 @@ class Incursion:
 
     @property
     def category(self) -> IncursionCategory:
-        """How severe it was."""
+        """Severity category of the incursion."""
         if self.collided:
             return "accident"
         if self.user is None or self.closest is None:
@@ -81,7 +87,7 @@ class Incursion:
 
 @dataclass(frozen=True)
 class _Position:
-    """Where an actor is, in the airport's frame."""
+    """Position of an actor in the airport's frame."""
 
     actor: Actor
     east_m: float
@@ -94,10 +100,10 @@ class RunwayMonitor:
     Parameters
     ----------
     misled
-        Actors that act under a failure of the scenario; their presence, like that of wildlife, is
-        incorrect even where nobody uses the runway.
+        Actors that act under a failure of the scenario. Their presence, like that of wildlife, is
+        incorrect even if no aircraft uses the runway.
     occupied
-        Called with what has changed at a runway.
+        Called with a key and a message when the occupants or arrivals of a runway change.
     incurred
         Called with each incursion when it begins.
     """
@@ -129,14 +135,14 @@ class RunwayMonitor:
         self._occupants: dict[str, tuple[str, ...]] = dict.fromkeys(layout.strips, ())
         self._arrivals: dict[str, tuple[Arrival, ...]] = dict.fromkeys(layout.strips, ())
 
-    def look(self, now_ns: int) -> None:
-        """Look at all runways."""
+    def tick(self, now_ns: int) -> None:
+        """Update all runways."""
         positions = self._positions()
         inside = self._inside(positions)
         for name, strip in self._layout.strips.items():
             occupants = inside[name]
             users = list(self._users(strip, positions))
-            self._tell(now_ns, name, occupants, users)
+            self._publish(now_ns, name, occupants, users)
             for user in users:
                 for intruder in occupants:
                     position = positions[intruder]
@@ -146,18 +152,18 @@ class RunwayMonitor:
                 for intruder in occupants:
                     if self._has_no_business(intruder) and not self._has_incurred(name, intruder):
                         self._incur(now_ns, name, None, intruder)
-        self._follow()
+        self._update_closest()
 
     def is_on(self, callsign: str, runway: str) -> bool:
         """Return whether an actor is in the protected area of a runway."""
         return callsign in self._occupants[self._layout.strip_of(runway).name]
 
     def is_bound_for(self, callsign: str, runway: str) -> bool:
-        """Return whether an actor means to use a runway, in that direction."""
+        """Return whether an actor is going to use a runway, in that direction."""
         return self._actors[callsign].bound_runway == self._layout.runway(runway).ident
 
     def time_to_threshold_s(self, callsign: str, runway: str) -> float | None:
-        """Return how long an airborne aircraft bound for a runway is from its threshold."""
+        """Return the time of an airborne aircraft to the threshold of its runway, in s, or None."""
         actor = self._actors[callsign]
         if actor.body.on_ground or not self.is_bound_for(callsign, runway):
             return None
@@ -168,13 +174,13 @@ class RunwayMonitor:
         return -along_m / closing_m_s
 
     def collided(self, first: str, second: str) -> None:
-        """Take in that two actors have touched."""
+        """Record that two actors have collided."""
         for incursion in self.incursions.values():
             if {incursion.user, incursion.intruder} == {first, second}:
                 incursion.collided = True
                 incursion.closest = Gap(0.0, 0.0)
 
-    # --- where everybody is -----------------------------------------------------------------
+    # --- positions --------------------------------------------------------------------------
 
     def _local(self, actor: Actor) -> tuple[float, float]:
         state = actor.body.state
@@ -188,7 +194,7 @@ class RunwayMonitor:
         }
 
     def _inside(self, positions: dict[str, _Position]) -> dict[str, tuple[str, ...]]:
-        """Return who is in each protected area with any part of it, by the name of the runway."""
+        """Return the callsigns in each protected area, by the name of the runway."""
         low = [
             (callsign, position)
             for callsign, position in positions.items()
@@ -204,7 +210,7 @@ class RunwayMonitor:
         }
 
     def _reaches(self, strip: RunwayStrip, position: _Position) -> bool:
-        """Return whether any part of somebody is in a protected area."""
+        """Return whether any part of an actor is in a protected area."""
         body, (east, north) = position.actor.body, (position.east_m, position.north_m)
         margin = radius_m(body)
         start_east, start_north, sin, cos = self._axes[strip.ends[0].ident]
@@ -229,7 +235,7 @@ class RunwayMonitor:
         state = actor.body.state
         return along, state.velocity_east_m_s * sin + state.velocity_north_m_s * cos
 
-    # --- who uses a runway, and who is in the way -------------------------------------------
+    # --- users and intruders ----------------------------------------------------------------
 
     def _users(self, strip: RunwayStrip, positions: dict[str, _Position]) -> Iterator[User]:
         idents = {end.ident for end in strip.ends}
@@ -253,12 +259,12 @@ class RunwayMonitor:
         if along < user.along_m - BEHIND_M:
             return False
         follows = actor.bound_runway == user.runway and actor.body.phase in (ROLLING | ROLLING_OUT)
-        # Who rolls ahead in the same direction leaves in time, as a rule: the next may not cross
-        # the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
+        # An aircraft that rolls ahead in the same direction leaves in time, as a rule: the next may
+        # not cross the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
         return not follows or user.rolling or user.time_to_threshold_s <= 0.0
 
     def _has_no_business(self, callsign: str) -> bool:
-        """Return whether an actor is there by mistake, and not bound for a runway of its own."""
+        """Return whether an actor is there by mistake, and not bound for a runway."""
         actor = self._actors[callsign]
         if actor.category == "wildlife":
             return True
@@ -281,8 +287,8 @@ class RunwayMonitor:
             incursion.closest = gap(self._actors[user].body, self._actors[intruder].body)
         self._incurred(incursion)
 
-    def _follow(self) -> None:
-        """Keep the closest distance of each incursion as long as one of both uses the runway."""
+    def _update_closest(self) -> None:
+        """Update the closest distance of each incursion while one of both uses the runway."""
         for incursion in self.incursions.values():
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
@@ -297,7 +303,9 @@ class RunwayMonitor:
             if now.slant_m < incursion.closest.slant_m:
                 incursion.closest = now
 
-    def _tell(self, now_ns: int, name: str, occupants: tuple[str, ...], users: list[User]) -> None:
+    def _publish(
+        self, now_ns: int, name: str, occupants: tuple[str, ...], users: list[User]
+    ) -> None:
         arrivals = tuple(
             Arrival(
                 actor=user.callsign,

@@ -1,4 +1,4 @@
-"""What really is, for the recorder, the metrics and viewers."""
+"""True states of actors as messages, and separation minima."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def truth_of(actor: Actor, now_ns: int) -> ActorTruth:
 
 
 def minima_of(separation: Separation) -> Minima:
-    """Return what counts as a loss of separation."""
+    """Return the separation minima with their tolerance."""
     return Minima(
         separation.horizontal_nm * NAUTICAL_MILE,
         (separation.vertical_ft - separation.level_tolerance_ft) * FOOT,
@@ -52,7 +52,7 @@ def minima_of(separation: Separation) -> Minima:
 
 
 def zone_of(site: ScenarioSite) -> FixedSite | None:
-    """Return the centre of the airport, if there is one."""
+    """Return the centre of the tower's zone, if there is an airport."""
     if site.layout is None:
         return None
     centre = site.layout.frame.to_place(0.0, 0.0)

@@ -185,7 +185,7 @@ class Airport(Case):
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
     def __call__(self):
-        self.runways.look(self.watch.now_ns)
+        self.runways.tick(self.watch.now_ns)
         return super().__call__()
 
 

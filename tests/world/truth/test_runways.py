@@ -105,7 +105,7 @@ class Watch:
 
     def look(self) -> Watch:
         self.now_ns += SECOND_NS // 5
-        self.monitor.look(self.now_ns)
+        self.monitor.tick(self.now_ns)
         return self
 
     @property
@@ -299,11 +299,11 @@ def test_an_arrival_is_told_once_with_its_time() -> None:
     monitor = RunwayMonitor(
         kdca(), {"A": plane}, set(), lambda _, truth: told.append(truth), lambda _: None
     )
-    monitor.look(SECOND_NS)
+    monitor.tick(SECOND_NS)
     plane.body.along_m /= 2.0
-    monitor.look(2 * SECOND_NS)
+    monitor.tick(2 * SECOND_NS)
     plane.body.phase, plane.body.on_ground, plane.body.along_m = "rollout", True, 300.0
-    monitor.look(3 * SECOND_NS)
+    monitor.tick(3 * SECOND_NS)
     first, last = told
     assert [(one.actor, one.runway) for one in first.arrivals] == [("A", "01")]
     assert first.arrivals[0].time_to_threshold_s == pytest.approx(60.0, abs=0.1)
