@@ -1,7 +1,6 @@
-"""What an actor can be told to do, in scenarios and on ``command/<actor>``.
+"""Commands to actors, in scenarios and on ``command/<actor>``.
 
-A command is the meaning of an instruction, without its words: the callsign is that of the actor
-that gets it, everything else stands here.
+A command is the meaning of an instruction, without its words and without its addressee.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ class AltitudeCommand(_Command):
     action: Literal["altitude"]
     altitude_ft: float
     vertical_rate_fpm: float | None = Field(
-        default=None, gt=0.0, description="null: what the aircraft type climbs or descends at"
+        default=None, gt=0.0, description="null: the usual rate of the aircraft type"
     )
 
 
 class TrackCommand(_Command):
-    """Turn the shorter way to a true track."""
+    """Turn to a true track by the shorter side."""
 
     action: Literal["track"]
     track_deg: float = Field(ge=0.0, le=360.0)
@@ -59,19 +58,19 @@ class RouteCommand(_Command):
 
 
 class ResumeRouteCommand(_Command):
-    """Go back to the route that a turn left."""
+    """Go back to the route after a turn or a track."""
 
     action: Literal["resume_route"]
 
 
 class DriftDownCommand(_Command):
-    """After an engine failure: hold the drift-down speed, and level where that can be kept."""
+    """Descend at drift-down speed after an engine failure, to where the altitude can be kept."""
 
     action: Literal["drift_down"]
 
 
 class EmergencyDescentCommand(_Command):
-    """Descend as fast as the type can, and level off."""
+    """Descend as fast as the type can, and level off at an altitude."""
 
     action: Literal["emergency_descent"]
     altitude_ft: float
@@ -88,7 +87,7 @@ class LineUpCommand(_Command):
 
 
 class TakeOffCommand(_Command):
-    """Take off, lining up first where that is not done yet; climb straight out."""
+    """Take off, after lining up if necessary, and climb straight out."""
 
     action: Literal["take_off"]
     runway: RunwayIdent
@@ -96,32 +95,32 @@ class TakeOffCommand(_Command):
 
 
 class CancelTakeoffCommand(_Command):
-    """Hold the position, or, rolling below the decision speed, reject the takeoff."""
+    """Hold the position, or reject a takeoff roll below the decision speed."""
 
     action: Literal["cancel_takeoff"]
 
 
 class LandCommand(_Command):
-    """Fly to the final approach, over ``via`` if need be, land, and vacate."""
+    """Fly to the final approach, through ``via`` if given, land, and vacate the runway."""
 
     action: Literal["land"]
     runway: RunwayIdent
     via: tuple[Position, ...] = Field(default=(), max_length=20)
     exit: TaxiwayName | None = Field(
-        default=None, description="null: the first that can be made in a normal rollout"
+        default=None, description="null: the first exit that a normal rollout can take"
     )
-    vacate: bool = Field(default=True, description="false: it comes to a stand on the runway")
+    vacate: bool = Field(default=True, description="false: the aircraft stops on the runway")
 
 
 class GoAroundCommand(_Command):
-    """Break the approach off and climb straight out."""
+    """Break off the approach and climb straight out."""
 
     action: Literal["go_around"]
     climb_to_ft: float = 3000.0
 
 
 class SideStepCommand(_Command):
-    """On final, change over to another runway."""
+    """Change from the final approach of one runway to that of another."""
 
     action: Literal["side_step"]
     runway: RunwayIdent
@@ -131,26 +130,26 @@ class SideStepCommand(_Command):
 
 
 class TaxiCommand(_Command):
-    """Taxi, or drive, along the taxiways; stop at the end.
+    """Taxi, or drive, along the taxiways, and stop at the end.
 
-    The end may be a hold-short position, a node, a place on a runway, or any other.
+    The end may be a hold-short position, a node, a place on a runway, or any other place.
     """
 
     action: Literal["taxi"]
     to: Position
     via: tuple[TaxiwayName, ...] = ()
     speed_kt: float | None = Field(default=None, gt=0.0, le=80.0)
-    off_taxiways: bool = Field(default=False, description="in a straight line from here")
+    off_taxiways: bool = Field(default=False, description="true: in a straight line from here")
 
 
 class HoldPositionCommand(_Command):
-    """Stop where you are."""
+    """Stop at the present place."""
 
     action: Literal["hold_position"]
 
 
 class ContinueCommand(_Command):
-    """Go on after holding the position."""
+    """Go on after `HoldPositionCommand`."""
 
     action: Literal["continue"]
 
@@ -159,16 +158,18 @@ class ContinueCommand(_Command):
 
 
 class MoveCommand(_Command):
-    """An animal moves to a place."""
+    """Move an animal to a place."""
 
     action: Literal["move"]
     gait: Literal["walk", "run", "fly"]
     to: Position
-    height_ft: float = Field(default=60.0, ge=0.0, le=20_000.0, description="of a flight")
+    height_ft: float = Field(
+        default=60.0, ge=0.0, le=20_000.0, description="of a flight, above the ground"
+    )
 
 
 class StandCommand(_Command):
-    """An animal stands still."""
+    """Let an animal stand still."""
 
     action: Literal["stand"]
 

@@ -1,8 +1,10 @@
-"""Every message on the bus, and the only source of its JSON Schemas.
+"""All messages on the bus. The JSON Schemas that ``airhilt schema`` prints come from here only.
 
-Times are integer nanoseconds of simulation time. ``t_ns`` is when a message was published; a
-worker leaves it out and the run stamps it on delivery, because only the run knows how late the
-worker is. ``airhilt schema`` prints all of this as JSON Schema.
+They are in one file, long as it is, so that the author of a worker finds them in one place, in the
+order of the data flow: run, sensors, workers, truth, and the protocol of workers.
+
+Times are integer nanoseconds of simulation time. ``t_ns`` is the time of publication. A worker
+leaves it out and the run sets it on delivery, because only the run knows how late the worker is.
 """
 
 from __future__ import annotations
@@ -19,20 +21,24 @@ Nanoseconds = Annotated[int, Field(ge=0, description="nanoseconds since the star
 Confidence = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
-class Message(BaseModel):
-    """What all messages share."""
+class Part(BaseModel):
+    """Part of a message. It is immutable and refuses fields that it does not know."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
-    t_ns: Nanoseconds = Field(default=0, description="when it was published, stamped by the run")
+
+class Message(Part):
+    """Base class of the messages."""
+
+    t_ns: Nanoseconds = Field(default=0, description="time of publication, set by the run")
 
 
 class Header(Message):
-    """A message that goes with raw bytes: they are the payload of the key, it is the attachment."""
+    """Message that is the attachment to raw bytes, the payload of the key."""
 
 
 class Severity(StrEnum):
-    """How urgent an advisory is, in rising order."""
+    """Urgency of an advisory, in rising order."""
 
     INFO = "INFO"
     ADVISORY = "ADVISORY"
@@ -41,15 +47,15 @@ class Severity(StrEnum):
 
     @property
     def rank(self) -> int:
-        """0 for INFO up to 3 for WARNING."""
+        """Rank of the severity: 0 for INFO to 3 for WARNING."""
         return _SEVERITY_ORDER.index(self)
 
 
 _SEVERITY_ORDER = tuple(Severity)
 
 SPEAK_MIN_LEVEL = Severity.CAUTION
-"""Least severity that is spoken, and so the least that counts as a warning; what is below it is
-shown (AIRHILT, arXiv 2511.18718)."""
+"""Least severity that is spoken and counts as a warning (AIRHILT, arXiv 2511.18718); advisories
+below it are only shown."""
 
 
 # --- the run itself -------------------------------------------------------------------------
@@ -59,7 +65,7 @@ Phase = Literal["waiting", "running", "finished", "stopped"]
 
 
 class Clock(Message):
-    """``clock``: where the run is; also answered to a query on that key. Not in the log."""
+    """``clock``: time and phase of the run, also answered to a query on that key. Not logged."""
 
     run: str
     phase: Phase
@@ -89,10 +95,9 @@ GeodeticPoint = tuple[
 """Latitude and longitude, WGS84, in degrees."""
 
 
-class RunwayBriefing(BaseModel):
-    """One direction of a runway, as charts publish it."""
+class RunwayBriefing(Part):
+    """Direction of a runway, as charts publish it."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     ident: str
     threshold: GeodeticPoint
     end: GeodeticPoint
@@ -103,45 +108,43 @@ class RunwayBriefing(BaseModel):
     )
 
 
-class AirportBriefing(BaseModel):
-    """The airport, as charts publish it."""
+class AirportBriefing(Part):
+    """Airport, as charts publish it."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     icao: str
     elevation_ft: float
     runways: tuple[RunwayBriefing, ...]
 
 
-class RosterEntry(BaseModel):
-    """An aircraft or a vehicle that the controller knows."""
+class RosterEntry(Part):
+    """Aircraft or vehicle that the controller expects."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     callsign: str
     category: Literal["aircraft", "vehicle"]
     type: str = Field(description="ICAO designator of an aircraft, kind of a vehicle")
 
 
 class Briefing(Message):
-    """``briefing``: what everybody in the airspace knows before the run begins."""
+    """``briefing``: facts that all participants know before the run begins."""
 
     controller: str
     horizontal_separation_nm: float = Field(gt=0.0)
     vertical_separation_ft: float = Field(gt=0.0)
     roster: tuple[RosterEntry, ...] = Field(
-        default=(), description="who is expected: flight strips, and vehicles that are out"
+        default=(), description="aircraft and vehicles that the controller expects"
     )
     airport: AirportBriefing | None = None
 
 
-# --- what sensors give ----------------------------------------------------------------------
+# --- sensors --------------------------------------------------------------------------------
 
 
 class Transmission(Header):
     """``radio/<freq_khz>/tx``: attachment to one transmission as received, PCM 16 kHz mono.
 
-    ``samples`` is 0 in a run without speech: the transmission took its time on the frequency,
-    and its words arrive as a `Transcript` with the engine ``text``. So it is once the sound of
-    the radio is lost, and then the words do not arrive either.
+    ``samples`` is 0 in a run without speech: the transmission takes its time on the frequency, and
+    its words arrive as a `Transcript` with the engine ``text``. ``samples`` is 0 as well after the
+    sound of the radio is lost; then the words do not arrive.
     """
 
     id: str
@@ -204,7 +207,7 @@ class TransmissionClosed(Header):
 TransmissionAudio = Annotated[
     TransmissionOpened | TransmissionChunk | TransmissionClosed, Field(discriminator="phase")
 ]
-"""What comes on ``radio/<freq_khz>/audio``."""
+"""Messages on ``radio/<freq_khz>/audio``."""
 
 
 EmitterCategory = Literal[
@@ -217,7 +220,7 @@ B6 unmanned aircraft, C1 emergency, C2 service surface vehicle; A0, B0, C0 no in
 
 
 class AdsbReport(Message):
-    """``adsb/<icao24>``: a state vector as an ADS-B receiver has it (units of DO-260B)."""
+    """``adsb/<icao24>``: state vector from an ADS-B receiver, in the units of DO-260B."""
 
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$")
     callsign: str | None = Field(description="null until an identification squitter came through")
@@ -226,7 +229,7 @@ class AdsbReport(Message):
     altitude_ft: float | None = Field(
         description="pressure altitude in steps of 25 ft; null on the ground"
     )
-    on_ground: bool = Field(default=False, description="it came in the surface format")
+    on_ground: bool = Field(default=False, description="the squitter had the surface format")
     emitter_category: EmitterCategory | None = Field(
         default=None, description="null until an identification squitter came through"
     )
@@ -245,7 +248,7 @@ PlotKind = Literal["primary", "secondary", "combined"]
 
 
 class RadarInfo(Message):
-    """``radar/<site>/info``: what never changes about a radar, once before its plots."""
+    """``radar/<site>/info``: constant properties of a radar, published before its plots."""
 
     site: str
     kind: RadarKind
@@ -332,20 +335,19 @@ Box = tuple[float, float, float, float]
 """Left, top, right, bottom in pixels; (0, 0) is the outer corner of the first pixel."""
 
 
-class CameraView(BaseModel):
-    """Where a camera looked from, as its owner knows it, and how it maps the world to pixels.
+class CameraView(Part):
+    """Pose and projection of a camera.
 
-    A pinhole camera without distortion, with square pixels, and with its axis through the middle
-    of the picture, (width_px / 2, height_px / 2). Turned first to the heading, from true north,
-    then up by the pitch, then clockwise about its axis by the roll. All of it is exact: navigation
-    has no errors here.
+    The camera is a pinhole without distortion, with square pixels; its axis goes through the middle
+    of the picture, (width_px / 2, height_px / 2). It is turned first to the heading, from true
+    north, then up by the pitch, then clockwise about its axis by the roll. The values are exact:
+    errors of navigation are not simulated.
 
     The ground of a run is level: `height_m` is the altitude above mean sea level less that of the
     ground, which is the airport's elevation, or the `terrain_elevation_ft` of a scene en route. It
     is neither an ellipsoidal height nor one above the charted end of a runway.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     latitude_deg: float = Field(ge=-90.0, le=90.0)
     longitude_deg: float = Field(ge=-180.0, le=180.0)
     height_m: float = Field(description="above the level ground of the run")
@@ -361,7 +363,7 @@ class CameraView(BaseModel):
 
 
 class CameraInfo(Message):
-    """``camera/<camera>/info``: what never changes about a camera, once before its pictures."""
+    """``camera/<camera>/info``: constant properties of a camera, published before its pictures."""
 
     camera: str
     rate_hz: float = Field(gt=0.0)
@@ -387,28 +389,29 @@ class CameraFrame(Header):
     sha256: str = Field(description="of the pixels")
 
 
-# --- what workers give ----------------------------------------------------------------------
+# --- workers --------------------------------------------------------------------------------
 
 
 CONFIRMED_HITS = 3
-"""Pictures in which something must have been found before it is believed."""
+"""Number of pictures in which an object must be found to be confirmed."""
 
 
-class Detection(BaseModel):
-    """Something that was recognised in a picture."""
+class Detection(Part):
+    """Object that was detected in a picture."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     label: VisibleClass
     confidence: Confidence
     box: Box
     track_id: int | None = Field(
-        default=None, ge=0, description="the same for the same thing, from picture to picture"
+        default=None, ge=0, description="the same for one object in all pictures"
     )
-    hits: int = Field(default=1, ge=1, description="pictures in which it was found so far")
+    hits: int = Field(
+        default=1, ge=1, description="number of pictures in which it was found so far"
+    )
 
     @property
     def is_confirmed(self) -> bool:
-        """Whether it was found often enough to be believed."""
+        """True if the object was found in `CONFIRMED_HITS` pictures or more."""
         return self.hits >= CONFIRMED_HITS
 
     @field_validator("box")
@@ -423,7 +426,7 @@ class Detection(BaseModel):
 
 
 class Detections(Message):
-    """``vision/<camera>``: what was found in one picture; ``t_ns`` is the paper's t_vision."""
+    """``vision/<camera>``: objects found in one picture; ``t_ns`` is the paper's t_vision."""
 
     camera: str
     seq: int = Field(ge=0, description="of the picture")
@@ -433,14 +436,13 @@ class Detections(Message):
     engine: str
     missed: str = Field(
         "",
-        description="why the picture could not be looked at, and nothing is known of what is in it",
+        description="why the detector did not look at the picture; empty if it did",
     )
 
 
-class Word(BaseModel):
-    """One word of a transcript."""
+class Word(Part):
+    """Word of a transcript."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     text: str
     confidence: Confidence
 
@@ -460,52 +462,46 @@ class Transcript(Message):
     engine: str
 
 
-class Climb(BaseModel):
+class Climb(Part):
     """Climb or descend to a level and stay there."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["altitude"] = "altitude"
     sense: Literal["climb", "descend"]
     altitude_ft: float
     vertical_rate_fpm: float = Field(gt=0.0)
 
 
-class Turn(BaseModel):
+class Turn(Part):
     """Turn by an angle from the present track."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["turn"] = "turn"
     degrees: float = Field(ge=-180.0, le=180.0, description="positive to the right")
 
 
-class MaintainLevel(BaseModel):
+class MaintainLevel(Part):
     """Stay at, or level off at, a level."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     action: Literal["maintain"] = "maintain"
     altitude_ft: float
 
 
-class GoAround(BaseModel):
+class GoAround(Part):
     """Break the approach off."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     action: Literal["go_around"] = "go_around"
     runway: str
 
 
-class CancelTakeoff(BaseModel):
+class CancelTakeoff(Part):
     """Do not take off, or reject the takeoff."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     action: Literal["cancel_takeoff"] = "cancel_takeoff"
     runway: str
 
 
-class HoldPosition(BaseModel):
+class HoldPosition(Part):
     """Stop where you are, short of the runway."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     action: Literal["hold_position"] = "hold_position"
     runway: str
 
@@ -516,11 +512,10 @@ Recommendation = Annotated[
 ]
 
 
-class Evidence(BaseModel):
-    """Why the assistant says so."""
+class Evidence(Part):
+    """Evidence on which an advisory rests."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-    sources: tuple[str, ...] = Field(description="modalities that it rests on")
+    sources: tuple[str, ...] = Field(description="modalities that the advisory rests on")
     time_to_loss_s: float | None = Field(
         default=None, description="time until separation is lost, if nobody reacts"
     )
@@ -529,21 +524,21 @@ class Evidence(BaseModel):
     vertical_at_closest_approach_m: float | None = None
     runway: str | None = None
     time_to_go_s: float | None = Field(
-        default=None, description="until the runway's user is where its way is blocked"
+        default=None, description="time until the user of the runway reaches the obstacle"
     )
     note: str = ""
 
 
 CONTROLLER = "ATC"
-"""The recipient that is the controller."""
+"""Recipient of the advisories to the controller."""
 
 
 class Advisory(Message):
-    """``advisory/<recipient>``: one conflict as told to one recipient; ``t_ns`` is t_dec.
+    """``advisory/<recipient>``: advisory on one conflict to one recipient; ``t_ns`` is t_dec.
 
-    ``id`` begins with the name of the worker, so that no two share one. It comes again with a
-    higher ``revision`` when the severity or the recommendation changes, and a last time with
-    ``active`` false when the conflict is over.
+    ``id`` begins with the name of the worker, so that ids of two workers differ. The advisory is
+    published again with a higher ``revision`` when its severity or recommendation changes, and a
+    last time with ``active`` false when the conflict is over.
     """
 
     id: str = Field(pattern=r"^[A-Za-z0-9_.-]{1,80}$")
@@ -560,20 +555,20 @@ class Advisory(Message):
     message: str
     recommendation: Recommendation | None = None
     evidence: Evidence
-    t_ready_ns: Nanoseconds = Field(description="the last input that it rests on had arrived")
+    t_ready_ns: Nanoseconds = Field(description="arrival of the last input that it rests on")
 
 
 class AdvisoryAudio(Header):
-    """``tts/<advisory id>``: attachment to an advisory as it is spoken, PCM 16 kHz mono.
+    """``tts/<advisory id>``: attachment to the audio of an advisory, PCM 16 kHz mono.
 
-    ``t_ns`` is the paper's t_tts: the voice begins to be heard.
+    ``t_ns`` is the paper's t_tts: the beginning of the voice.
     """
 
     id: str = Field(description="id of the advisory")
     revision: int = Field(ge=0)
     recipient: str
     text: str
-    t_dec_ns: Nanoseconds = Field(description="the decision was made")
+    t_dec_ns: Nanoseconds = Field(description="time of the decision")
     engine: str
     sample_rate_hz: int = 16_000
     samples: int = Field(ge=0)
@@ -581,7 +576,7 @@ class AdvisoryAudio(Header):
 
 
 class ActorCommand(Message):
-    """``command/<actor>``: what a person or an external agent tells an actor."""
+    """``command/<actor>``: command of a person or an external program to an actor."""
 
     command: Command
 
@@ -590,12 +585,12 @@ class ActorCommand(Message):
 
 
 class ActorTruth(Message):
-    """``truth/state/<actor>``: what really is; null where it does not apply."""
+    """``truth/state/<actor>``: true state of an actor; null where a value does not apply."""
 
     actor: str
     category: Literal["aircraft", "vehicle", "wildlife"]
     icao24: str | None = None
-    phase: str = Field(description="of flight, of driving, of an animal's behaviour")
+    phase: str = Field(description="phase of flight or of driving, or behaviour of an animal")
     on_ground: bool
     latitude_deg: float
     longitude_deg: float
@@ -613,7 +608,7 @@ class ActorTruth(Message):
 
 
 class SpokenTruth(Message):
-    """``truth/radio/<id>``: who really said what to whom."""
+    """``truth/radio/<id>``: true speaker, addressee and text of a call."""
 
     id: str
     speaker: str
@@ -630,12 +625,12 @@ class SpokenTruth(Message):
 
 
 class HearingTruth(Message):
-    """``truth/hearing/<actor>``: what somebody who was spoken to took a call for."""
+    """``truth/hearing/<actor>``: understanding of a call by one of its addressees."""
 
     id: str = Field(description="id of the transmission")
     actor: str
     outcome: Literal["understood", "misheard", "unsure", "missed"]
-    text: str = Field(description="the words that reached him; empty if none did")
+    text: str = Field(description="words that reached the actor; empty if none did")
     source: Literal["ear", "transcript"]
 
 
@@ -651,22 +646,21 @@ ConflictPhase = Literal[
 ]
 
 
-class SightingTruth(BaseModel):
-    """What is true of an actor in a picture."""
+class SightingTruth(Part):
+    """Truth about one actor in a picture."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     actor: str
     label: VisibleClass
-    box: Box = Field(description="about all of it that is within the picture, hidden or not")
-    pixels: float = Field(ge=0.0, description="area that is seen")
-    visible_fraction: Confidence = Field(description="of its area within the picture")
-    truncation: Confidence = Field(description="part of its whole box outside of the picture")
+    box: Box = Field(description="around the part of the actor within the picture, hidden or not")
+    pixels: float = Field(ge=0.0, description="visible area, in pixels")
+    visible_fraction: Confidence = Field(description="visible part of its area within the picture")
+    truncation: Confidence = Field(description="part of its whole box that is outside the picture")
     range_m: float = Field(ge=0.0)
     transmission: Confidence = Field(description="part of its contrast that the air leaves")
 
 
 class CameraTruth(Message):
-    """``truth/camera/<camera>``: what really is in a picture."""
+    """``truth/camera/<camera>``: actors that are really in a picture."""
 
     camera: str
     seq: int = Field(ge=0)
@@ -675,7 +669,7 @@ class CameraTruth(Message):
 
 
 class ConflictTruth(Message):
-    """``truth/conflict``: what became true of two actors at this instant.
+    """``truth/conflict``: beginning of a phase of a conflict between two actors.
 
     In the air the distances are between the actors' centres, on a runway between their outlines.
     """
@@ -687,17 +681,16 @@ class ConflictTruth(Message):
     runway: str | None = None
 
 
-class Arrival(BaseModel):
-    """An aircraft on final approach."""
+class Arrival(Part):
+    """Aircraft on final approach."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     actor: str
-    runway: str = Field(description="the direction that it lands in")
+    runway: str = Field(description="direction of landing")
     time_to_threshold_s: float
 
 
 class RunwayTruth(Message):
-    """``truth/runway/<runway>``: who is in its protected area, and who comes; on each change."""
+    """``truth/runway/<runway>``: occupants and arrivals of a runway, published on each change."""
 
     runway: str = Field(examples=["01-19"])
     occupants: tuple[str, ...]
@@ -721,7 +714,7 @@ EventKind = Literal[
 
 
 class Event(Message):
-    """``truth/event``: something that happened in the world or to the run."""
+    """``truth/event``: event in the world or in the run."""
 
     kind: EventKind
     subject: str
@@ -731,80 +724,73 @@ class Event(Message):
 # --- workers: registration and time grants --------------------------------------------------
 
 
-class InputSpec(BaseModel):
-    """One key that a worker wants, relative to the run, and how what waits there is queued.
+class InputSpec(Part):
+    """Key that a worker subscribes to, relative to the run, and the policy of its queue.
 
-    ``fifo`` takes the oldest, one a step; ``latest`` keeps only the newest and counts what it
-    drops; ``batch`` takes all that waits in one step.
+    ``fifo``: a step takes the oldest input. ``latest``: the queue keeps only the newest input and
+    counts those that it drops. ``batch``: a step takes all inputs that wait.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     key: str = Field(examples=["adsb/*"])
     policy: Literal["fifo", "latest", "batch"] = "fifo"
 
 
-class DeclaredLatency(BaseModel):
-    """What a worker says of its own speed, for `--latency fixed` and `lognormal`."""
+class DeclaredLatency(Part):
+    """Latency that a worker declares, for `--latency fixed` and `lognormal`."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     median_s: float = Field(ge=0.0)
     sigma: float = Field(default=0.25, ge=0.0, description="of the logarithm, for lognormal")
 
 
 WORKER_NAME = r"^[a-z0-9_-]+$"
 RUN = "run"
-"""Publisher of what the run itself publishes."""
+"""Publisher of the messages of the run itself."""
 UNREGISTERED = "unregistered"
-"""Publisher of what a program that takes no grants put on the bus."""
+"""Publisher of the messages of programs that take no grants."""
 
 
-class WorkerDescription(BaseModel):
+class WorkerDescription(Part):
     """Answer to a query on ``worker/<name>/describe``."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     name: str = Field(pattern=WORKER_NAME)
     modality: Modality
     inputs: tuple[InputSpec, ...] = Field(min_length=1)
     latency: DeclaredLatency = DeclaredLatency(median_s=0.1)
 
 
-class GrantInput(BaseModel):
-    """One input of a grant; its bytes lie in the payload, in the order of the inputs."""
+class GrantInput(Part):
+    """Input of a grant. Its bytes are in the payload, in the order of the inputs."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     key: str
     t_in_ns: Nanoseconds
     size: int = Field(ge=0, description="bytes of the payload that are this input's")
     attachment: Any = Field(default=None, description="JSON header of raw inputs, else null")
 
 
-class Grant(BaseModel):
-    """Attachment of a query on ``worker/<name>/step``: compute, it is now ``t_ns``."""
+class Grant(Part):
+    """Attachment of a query on ``worker/<name>/step``: the worker computes at time ``t_ns``."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     t_ns: Nanoseconds
     seq: int = Field(ge=0)
     inputs: tuple[GrantInput, ...]
 
 
-class StepOutput(BaseModel):
-    """One output of a step; its bytes lie in the reply's payload, in order."""
+class StepOutput(Part):
+    """Output of a step. Its bytes are in the payload of the reply, in the order of the outputs."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     key: str
     size: int = Field(ge=0)
     t_out_ns: Nanoseconds | None = Field(
         default=None,
-        description="when it leaves the worker, not before the grant's t_ns; null: as soon as "
+        description="time at which it leaves the worker, not before the grant's t_ns; null: when "
         "the latency has passed",
     )
     attachment: Any = None
 
 
-class StepReply(BaseModel):
+class StepReply(Part):
     """Attachment of the reply to a grant."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     seq: int = Field(ge=0)
     compute_s: float = Field(ge=0.0, description="wall time that the step took")
     outputs: tuple[StepOutput, ...] = ()
@@ -855,7 +841,7 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
     "advisory": Advisory,
     "tts": AdvisoryAudio,
 }
-"""What a worker may publish, by the first part of the key. Truth and sensors are not its own."""
+"""Messages that a worker may publish, by the first part of the key; never sensors or truth."""
 
 
 def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Seeded perturbation: the same scenario and seed give the same realised scenario."""
+"""Seeded perturbation. The same scenario and seed give the same realised scenario."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from airhilt.scenario.models import Normal, Perturbation, Scenario
 from airhilt.sim.streams import stream
 
 Json = Any
-"""What `json.load` gives."""
+"""JSON document, as `json.load` returns it."""
 
 NAMING_FIELDS = ("callsign", "id", "name")
 """Fields by which a path names an entry of a list."""
 
 
 class Draw(BaseModel):
-    """One perturbation as it was drawn."""
+    """Drawn value of one perturbation."""
 
     model_config = ConfigDict(frozen=True)
     path: str
@@ -28,7 +28,7 @@ class Draw(BaseModel):
 
 
 class PathError(ValueError):
-    """A path that leads nowhere, with what there is instead."""
+    """A path leads to no value; the error knows the names that exist there."""
 
     def __init__(self, chunk: str, known: list[str]) -> None:
         super().__init__(chunk)
@@ -77,7 +77,7 @@ def _index(entries: list[Json], chunk: str) -> int:
 
 
 def _sample(perturbation: Perturbation, seed: int) -> float:
-    """Draw from a stream that only the seed and the path decide, not the order in the file."""
+    """Draw from a stream that depends on the seed and the path only."""
     generator = stream(seed, f"perturbation/{perturbation.path}")
     match perturbation.distribution:
         case Normal(sigma=sigma, limit=limit):

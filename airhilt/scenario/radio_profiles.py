@@ -1,6 +1,6 @@
-"""The kinds of radio that a run can name.
+"""Radio profiles that a scenario or an option can name.
 
-Apart from `channel`, so that a scenario is checked without the libraries behind sound.
+They are apart from the radio channel, so that a scenario is read without signal processing.
 """
 
 from __future__ import annotations
@@ -12,25 +12,25 @@ from pydantic_core import PydanticCustomError
 
 @dataclass(frozen=True)
 class ChannelProfile:
-    """One kind of radio. The attributes in dB are relative to active speech."""
+    """Properties of a radio channel. Values in dB are relative to active speech."""
 
     name: str
     low_hz: float
     high_hz: float
     order: int = 6
-    """Of the Butterworth band-pass."""
+    """Order of the Butterworth band-pass."""
     cockpit_db: float = -28.0
     tower_db: float = -40.0
     microphone_drive: float = 1.5
-    """How far speech is driven into the limiter of the transmitter (tanh)."""
+    """Gain of the speech before the limiter of the transmitter (tanh)."""
     fade_db: float = 0.0
     """Depth of slow fading."""
     fade_hz: float = 0.3
     gain_control: float = 0.6
-    """0: none; 1: the receiver evens all levels out."""
+    """Automatic gain control: 0 none; 1 makes all levels equal."""
     squelch_tail_s: float = 0.12
     wet: float = 1.0
-    """Share of the channel in what is heard; the rest is the voice as it was spoken."""
+    """Part of the channel in the sound; the rest is the voice as it was spoken."""
 
 
 PROFILES: dict[str, ChannelProfile] = {
@@ -54,8 +54,8 @@ PROFILES: dict[str, ChannelProfile] = {
         ),
     )
 }
-"""25 kHz VHF, 8.33 kHz VHF, VHF at the edge of coverage, a loud cockpit, VHF recorded in the
-speaker's room, where his own voice is heard as well, and a wired line."""
+"""Radio profiles by name: 25 kHz VHF, 8.33 kHz VHF, VHF at the edge of coverage, a loud cockpit,
+VHF mixed with the voice in the speaker's room, and a wired line."""
 
 
 def is_learned(profile: str) -> bool:
@@ -64,7 +64,7 @@ def is_learned(profile: str) -> bool:
 
 
 def checked(profile: str) -> str:
-    """Return the name of a profile, or the file of a learned channel, as it is.
+    """Return the name of a profile, or the file of a learned channel, unchanged.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""Which numbers are channels of the aeronautical VHF band.
+"""Channels of the aeronautical VHF band.
 
 ICAO Annex 10 volume V, table 4-1 bis: within each 25 kHz, the channel with that spacing keeps the
 frequency as its name (118.000), and the three with 8.33 kHz are named 5, 10 and 15 kHz above it
-(118.005, 118.010, 118.015). A name ending in 20, 45, 70 or 95 is none.
+(118.005, 118.010, 118.015). No channel name ends in 20, 45, 70 or 95.
 """
 
 from __future__ import annotations
@@ -10,11 +10,13 @@ from __future__ import annotations
 from airhilt.errors import ScenarioError
 
 LOWEST_KHZ = 118_000
+"""First name of a channel, in kHz."""
 HIGHEST_KHZ = 136_990
-"""The last name below 137 MHz, where the band ends (ICAO Annex 10 volume V, 4.1.2)."""
+"""Last name of a channel below 137 MHz, the end of the band (ICAO Annex 10 volume V, 4.1.2)."""
 BLOCK_KHZ = 25
+"""Spacing of the wide channels, in kHz."""
 NARROW_KHZ = frozenset({5, 10, 15})
-"""Names of 8.33 kHz channels within a block."""
+"""Names of the 8.33 kHz channels within 25 kHz, above the wide one's name."""
 
 
 def channel_spacing_khz(frequency_khz: int) -> float:
