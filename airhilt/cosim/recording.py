@@ -240,6 +240,8 @@ class ReplayedRadio:
         Why the sound was lost; None if it was not.
     """
 
+    has_sound = True
+
     def __init__(
         self,
         audio: Path,

@@ -13,7 +13,12 @@ from airhilt.audio.wav import read_wav
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
 from airhilt.errors import RunFolderError
-from airhilt.messages import AdvisoryAudio, Transmission
+from airhilt.messages import (
+    AdvisoryAudio,
+    Transmission,
+    TransmissionChunk,
+    TransmissionClosed,
+)
 from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import AudioRecorder, audio_file, recorded_pcm
 from airhilt.scenario import Scenario
@@ -130,6 +135,32 @@ def test_what_was_written_is_read_again(tmp_path: Path) -> None:
 def test_what_has_no_sound_has_no_file(tmp_path: Path) -> None:
     AudioRecorder(tmp_path / "audio").take("radio/134325/tx", received(pcm=b""), b"")
     assert not (tmp_path / "audio").exists()
+
+
+def closed(*, is_complete: bool) -> TransmissionClosed:
+    return TransmissionClosed(
+        id="call", frequency_khz=134_325, t_tx_ns=0, t_end_ns=5, samples=len(PCM) // 2,
+        sha256=hashlib.sha256(PCM).hexdigest(), is_complete=is_complete,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("is_complete", [True, False])
+def test_chunks_have_a_file_only_if_no_transmission_has_their_samples(
+    tmp_path: Path, is_complete: bool
+) -> None:
+    recorder = AudioRecorder(tmp_path / "audio")
+    for seq, begin in enumerate(range(0, len(PCM), 512)):
+        pcm = PCM[begin : begin + 512]
+        chunk = TransmissionChunk(
+            id="call", frequency_khz=134_325, seq=seq, first_sample=begin // 2, samples=256,
+            sha256=hashlib.sha256(pcm).hexdigest(),
+        )  # fmt: skip
+        recorder.take("radio/134325/audio", chunk, pcm)
+    message = closed(is_complete=is_complete)
+    recorder.take("radio/134325/audio", message, b"")
+    assert audio_file(tmp_path / "audio", message).exists() is not is_complete
+    if not is_complete:
+        assert recorded_pcm(tmp_path / "audio", message) == PCM
 
 
 # --- disks that are full ------------------------------------------------------------------------

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from airhilt import run
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import encode_wav
 from airhilt.cosim.observer import Observer, Result
 from airhilt.cosim.replay import replay
 from airhilt.errors import RunStopped, SpeechError
-from airhilt.messages import SpokenTruth, Transmission
+from airhilt.messages import SpokenTruth, Transmission, TransmissionClosed
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.radio.learned_channel import LearnedChannel
@@ -164,6 +165,28 @@ def test_a_replay_asks_no_service_again(calls: int, short: Scenario, tmp_path: P
     verdict = replay(result.folder)  # Both services are down now.
     assert verdict.identical, verdict.difference
     assert verdict.notes == ()
+
+
+def test_a_replay_knows_what_was_heard_of_a_call_in_which_the_voices_failed(
+    short: Scenario, tmp_path: Path
+) -> None:
+    first, second, *others = short.radio.lines
+    lines = (first, second.model_copy(update={"at_s": first.at_s + 1.2}), *others)
+    radio = short.radio.model_copy(update={"lines": lines})
+    scenario = short.model_copy(update={"radio": radio})
+    result = lost_after(1, scenario, tmp_path / "run", assistant="none")
+    incomplete = [
+        closed
+        for one in read_log(result.folder / "log.mcap")
+        if one.key.endswith("/audio") and b'"closed"' in one.data
+        for closed in [TransmissionClosed.model_validate_json(one.data)]
+        if not closed.is_complete
+    ]
+    assert [closed.id for closed in incomplete] == [first.id]
+    assert incomplete[0].samples == SAMPLE_RATE_HZ
+    assert rows(result, "radio/", Transmission)[0].samples == 0
+    verdict = replay(result.folder)
+    assert verdict.identical, verdict.difference
 
 
 def test_a_replay_says_that_a_learned_channel_is_another_one(

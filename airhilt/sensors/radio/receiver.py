@@ -79,12 +79,14 @@ class Receiver:
                 self._close_stream(on_air, is_complete=False)
             return False
         audio = self._streams.get(on_air) or self._audio_of(on_air)
-        rest = audio.give_rest(self._director.now_ns, self.mixed_with(on_air))
+        rest = []
+        if self._backend.has_sound:
+            rest = audio.give_rest(self._director.now_ns, self.mixed_with(on_air))
+        has_sound = self._backend.has_sound  # It may have been lost just now.
         if on_air in self._streams:
             self._publish_chunks(on_air, rest)
-            self._close_stream(on_air, is_complete=bool(rest) or not audio.samples)
-        # There is no rest where there is no sound, or where it has been lost meanwhile.
-        self._publish_whole(on_air, audio.pcm if rest else b"")
+            self._close_stream(on_air, is_complete=has_sound or not audio.samples)
+        self._publish_whole(on_air, audio.pcm if has_sound else b"")
         return True
 
     def _receives(self, on_air: OnAir) -> bool:
@@ -105,7 +107,7 @@ class Receiver:
     def _stream(self, on_air: OnAir) -> None:
         """Publish what has been on the air since the last chunk."""
         audio = self._streams.get(on_air)
-        if audio is None:
+        if audio is None or not self._backend.has_sound:
             return
         if not self._receives(on_air):
             self._close_stream(on_air, is_complete=False)

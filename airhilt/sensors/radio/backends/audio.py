@@ -25,6 +25,8 @@ class AudioRadio:
     through it piece by piece, each with the `CONTEXT` before it.
     """
 
+    has_sound = True
+
     def __init__(
         self, voices: TtsEngine, channel: Channel, seed: int, snr_db: float | None = None
     ) -> None:

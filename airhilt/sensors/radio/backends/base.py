@@ -15,6 +15,11 @@ if TYPE_CHECKING:
 class RadioBackend(Protocol):
     """The voices of a run and its receiver."""
 
+    @property
+    def has_sound(self) -> bool:
+        """Whether calls have samples, as far as is known by now."""
+        ...
+
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
         """Return a text as speech, None without sound, and its duration in s.
 

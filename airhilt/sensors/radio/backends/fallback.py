@@ -40,6 +40,11 @@ class FallbackRadio:
         self._lost = lost
         self.is_lost = False
 
+    @property
+    def has_sound(self) -> bool:
+        """Whether the backend has sound and has not failed."""
+        return not self.is_lost and self._backend.has_sound
+
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
         """Return a text as speech, None without sound, and its duration in s."""
         if not self.is_lost:

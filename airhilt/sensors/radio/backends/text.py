@@ -17,6 +17,8 @@ class TextRadio:
     The text of a blocked call does not arrive.
     """
 
+    has_sound = False
+
     def __init__(self, words_per_minute: float) -> None:
         self._seconds_per_word = 60.0 / words_per_minute
 
