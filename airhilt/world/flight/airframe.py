@@ -70,9 +70,21 @@ class Airframe:
         fdm.set_dt(step_s)
         fdm["ic/terrain-elevation-ft"] = terrain_elevation_m / FOOT
 
-        reader, writer = self._reader, self._writer
         self.step: Callable[[], bool] = fdm.run
         """Integrate one step of the flight dynamics."""
+        self._find_motion()
+        self._find_controls()
+        self._find_wheels()
+        writer = self._writer
+        self._set_wind_north = writer("atmosphere/wind-north-fps")
+        self._set_wind_east = writer("atmosphere/wind-east-fps")
+        self._set_gusts = writer("atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps")
+        self._wind_fps = 0.0, 0.0, 0.0
+        self._wind_part = 1.0
+
+    def _find_motion(self) -> None:
+        """Look up the properties of the aircraft's motion."""
+        reader = self._reader
         self._latitude = reader("position/lat-geod-rad")
         self._longitude = reader("position/long-gc-rad")
         self._altitude_ft = reader("position/geod-alt-ft")
@@ -100,10 +112,13 @@ class Airframe:
         self.yaw_rate = reader("velocities/r-rad_sec")
 
         self.gear = reader("gear/gear-pos-norm")
-        """Read (0 up, 1 down)."""
+        """Reads the gear (0 up, 1 down)."""
         self.flaps = reader("fcs/flap-pos-norm")
-        """Read (0 up, 1 fully extended)."""
+        """Reads the flaps (0 up, 1 fully extended)."""
 
+    def _find_controls(self) -> None:
+        """Look up the properties of the controls."""
+        reader, writer = self._reader, self._writer
         self.elevator = reader("fcs/elevator-cmd-norm")
         """Reads the elevator (-1..1). The next three read aileron, rudder and throttle."""
         self.aileron = reader("fcs/aileron-cmd-norm")
@@ -122,19 +137,18 @@ class Airframe:
         self.set_gear = writer("gear/gear-cmd-norm")
         self.set_speed_brakes = writer("fcs/speedbrake-cmd-norm")
         self.set_ground_spoilers = writer("fcs/spoiler-cmd-norm")
-        self._set_wind_north = writer("atmosphere/wind-north-fps")
-        self._set_wind_east = writer("atmosphere/wind-east-fps")
-        self._set_gusts = writer("atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps")
-        self._wind_fps = 0.0, 0.0, 0.0
-        self._wind_part = 1.0
-        self._steer = writer("fcs/steer-cmd-norm")
-        self._brakes = [writer(f"fcs/{side}-brake-cmd-norm") for side in ("left", "right")]
-        self._nose_wheel_on_ground = reader("gear/unit[0]/WOW")
-        self._main_wheels_on_ground = [reader(f"gear/unit[{wheel}]/WOW") for wheel in MAIN_WHEELS]
         self._throttles = [
             writer("fcs/throttle-cmd-norm" + (f"[{engine}]" if engine else ""))
             for engine in range(self._engines)
         ]
+
+    def _find_wheels(self) -> None:
+        """Look up the properties of nose wheel, brakes and loads on wheels."""
+        reader, writer = self._reader, self._writer
+        self._steer = writer("fcs/steer-cmd-norm")
+        self._brakes = [writer(f"fcs/{side}-brake-cmd-norm") for side in ("left", "right")]
+        self._nose_wheel_on_ground = reader("gear/unit[0]/WOW")
+        self._main_wheels_on_ground = [reader(f"gear/unit[{wheel}]/WOW") for wheel in MAIN_WHEELS]
 
     def start(self, initial: InitialCondition, heading_rad: float) -> None:
         """Put the aircraft into still air at a condition, engines running, untrimmed."""
