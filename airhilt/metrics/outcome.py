@@ -1,4 +1,4 @@
-"""What became of a conflict, as the monitors of the truth say."""
+"""The outcome of a conflict, as the monitors of the truth found it."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class RunInfo(BaseModel):
     run: str
     options: Options
     assistant: str
-    """Who decided: the name of a decision engine, ``none`` or ``external``."""
+    """Decision engine of the run: the name of a decision engine, ``none`` or ``external``."""
     pace: str
     """Pace at which the run began."""
     scenario: dict[str, Any]

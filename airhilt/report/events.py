@@ -1,4 +1,4 @@
-"""The events of a run: what was said, advised, told and what happened, as rows of a timeline."""
+"""The events of a run as rows of a timeline: calls, advisories, commands, conflicts, failures."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name=
     )  # fmt: skip
 
 
-class Told:
+class FollowedRun:
     """A collector over a head-on encounter that meets after 60 s."""
 
     def __init__(self, scenario=SCENARIO):
@@ -93,11 +93,11 @@ class Told:
 
 
 def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken():
-    told = Told()
-    told.collector.window.opened_ns = 3 * SECOND_NS
-    told.take(advisory(5.0, "ADVISORY")).take(advisory(9.0, "CAUTION", revision=1))
-    told.take(advisory(20.0, "WARNING", revision=2))
-    summary = told.summary()
+    followed = FollowedRun()
+    followed.collector.window.opened_ns = 3 * SECOND_NS
+    followed.take(advisory(5.0, "ADVISORY")).take(advisory(9.0, "CAUTION", revision=1))
+    followed.take(advisory(20.0, "WARNING", revision=2))
+    summary = followed.summary()
     assert summary.t_first_warning_s == 9.0
     assert summary.time_to_first_warning_s == 6.0
     (one,) = summary.advisories
@@ -105,21 +105,21 @@ def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken():
 
 
 def test_a_warning_before_the_conflict_opens_has_a_negative_time():
-    told = Told().take(advisory(9.0))
-    told.collector.window.opened_ns = 10 * SECOND_NS
-    assert told.summary().time_to_first_warning_s == -1.0
+    followed = FollowedRun().take(advisory(9.0))
+    followed.collector.window.opened_ns = 10 * SECOND_NS
+    assert followed.summary().time_to_first_warning_s == -1.0
 
 
 def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic():
-    assert Told().summary().t_first_warning_s is None
-    other = Told().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
+    assert FollowedRun().summary().t_first_warning_s is None
+    other = FollowedRun().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
     assert other.t_first_warning_s is None
     assert other.nuisance_alerts == 1
 
 
 def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic():
     address = SCENARIO.actors[1].icao24
-    summary = Told().take(advisory(9.0, traffic=(FIRST, address))).summary()
+    summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, address))).summary()
     assert summary.t_first_warning_s == 9.0
     assert summary.nuisance_alerts == 0
     assert summary.advisories[0].traffic == (FIRST, SECOND)
@@ -128,39 +128,39 @@ def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic():
 @pytest.mark.parametrize(("severity", "alerts"), [("ADVISORY", 0), ("CAUTION", 1), ("WARNING", 1)])
 def test_only_what_is_spoken_can_be_a_nuisance(severity, alerts):
     quiet = SCENARIO.model_copy(update={"conflict": None})
-    assert Told(quiet).take(advisory(9.0, severity)).summary().nuisance_alerts == alerts
+    assert FollowedRun(quiet).take(advisory(9.0, severity)).summary().nuisance_alerts == alerts
 
 
 def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warning():
-    summary = Told().take(advisory(1.0)).summary()
+    summary = FollowedRun().take(advisory(1.0)).summary()
     assert summary.margin_over_tcas_ta_s == pytest.approx(60.0 - 48.0, abs=1.5)
     assert summary.margin_over_tcas_ra_s == pytest.approx(60.0 - 35.0, abs=1.5)
 
 
 def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept():
-    told = Told()
-    assert told.summary().avoided is None
-    told.collector.window.opened_ns = 0
-    assert told.summary().avoided is None
-    told.take(advisory(9.0))
-    assert told.summary().avoided is True
-    told.watch.fly(70.0)
-    summary = told.summary()
+    followed = FollowedRun()
+    assert followed.summary().avoided is None
+    followed.collector.window.opened_ns = 0
+    assert followed.summary().avoided is None
+    followed.take(advisory(9.0))
+    assert followed.summary().avoided is True
+    followed.watch.fly(70.0)
+    summary = followed.summary()
     assert summary.avoided is False
     assert (summary.loss_of_separation, summary.nmac, summary.collision) == (True, True, True)
     assert summary.closest_approach.t_s == pytest.approx(60.0, abs=0.1)
     assert summary.closest_approach.horizontal_m < 1.0
 
 
-def test_latencies_are_told_by_stage():
-    told = Told().take(advisory(9.0)).take(advisory(9.0))
-    told.collector.step(StepRecord("decision", 0, 0, SECOND_NS, 2 * SECOND_NS, 0.0, 1))
+def test_latencies_are_given_by_stage():
+    followed = FollowedRun().take(advisory(9.0)).take(advisory(9.0))
+    followed.collector.step(StepRecord("decision", 0, 0, SECOND_NS, 2 * SECOND_NS, 0.0, 1))
     for engine, t_ns in (("text", 9), ("whisper", 3 * SECOND_NS)):
-        told.take(
+        followed.take(
             Transcript(t_ns=t_ns, id="a", frequency_khz=134325, t_tx_ns=0, t_end_ns=2 * SECOND_NS,
                        text="x", confidence=1.0, engine=engine)
         )  # fmt: skip
-    latencies = told.summary().latencies
+    latencies = followed.summary().latencies
     assert (latencies["decision"].n, latencies["decision"].p50_s) == (1, 0.5)
     assert latencies["decision_step"].p50_s == 3.0
     assert (latencies["asr"].n, latencies["asr"].max_s) == (1, 3.0)
@@ -180,7 +180,7 @@ def test_the_pair_is_named_in_the_order_of_the_actors():
 
 
 def plans(*climbs):
-    """Plans of a script in which AA is told levels (ft) at times (s)."""
+    """Plans of a script in which AA is given levels (ft) at times (s)."""
     lines = [
         RadioLine(
             id=f"line{number}", at_s=at_s, speaker="Centre", frequency_khz=134325 + number,
@@ -243,7 +243,7 @@ def incursion(metres=200.0, user=FIRST, intruder=SECOND, collided=False):
     return Incursion(5 * SECOND_NS, "01/19", user, intruder, closest, collided)
 
 
-class Airport(Told):
+class Airport(FollowedRun):
     """A collector of a run in which some runway incursions happened."""
 
     def __init__(self, *incursions, scenario=SCENARIO):
@@ -272,7 +272,7 @@ def test_neither_was_one_that_ended_in_a_collision():
     assert summary.avoided is False
 
 
-def test_an_incursion_of_others_is_told_and_leaves_the_conflict_avoided():
+def test_an_incursion_of_others_is_recorded_and_leaves_the_conflict_avoided():
     summary = Airport(incursion(10.0, intruder="DEER1"), incursion(user=None)).summary()
     assert summary.runway_incursion_category == "A"
     assert [one.category for one in summary.runway_incursions] == ["A", "D"]
@@ -282,7 +282,7 @@ def test_an_incursion_of_others_is_told_and_leaves_the_conflict_avoided():
 def test_without_incursions_there_is_no_category():
     summary = Airport().summary()
     assert (summary.runway_incursions, summary.runway_incursion_category) == ([], None)
-    assert Told().summary().runway_incursions == []
+    assert FollowedRun().summary().runway_incursions == []
 
 
 def runway_advisory(*traffic):
@@ -303,12 +303,12 @@ def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(traffic, nuisance
 
 def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true():
     quiet = SCENARIO.model_copy(update={"conflict": None})
-    told = runway_advisory(FIRST, SECOND)
-    assert Airport(scenario=quiet).take(told).summary().nuisance_alerts == 1
+    followed = runway_advisory(FIRST, SECOND)
+    assert Airport(scenario=quiet).take(followed).summary().nuisance_alerts == 1
     came_true = Airport(incursion(user=FIRST, intruder="DEER1"), scenario=quiet)
-    assert came_true.take(told).summary().nuisance_alerts == 0
+    assert came_true.take(followed).summary().nuisance_alerts == 0
     of_others = Airport(incursion(user="UAL7", intruder="DEER1"), scenario=quiet)
-    assert of_others.take(told).summary().nuisance_alerts == 1
+    assert of_others.take(followed).summary().nuisance_alerts == 1
 
 
 # --- with a voice ---------------------------------------------------------------------------
@@ -322,14 +322,14 @@ def voice(t_s, revision=0, recipient="ATC", name="a", t_dec_s=9.0):
 
 
 def told_aloud():
-    told = Told()
-    told.collector.modalities["tts"] = "on"
-    return told
+    followed = FollowedRun()
+    followed.collector.modalities["tts"] = "on"
+    return followed
 
 
 def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins():
-    told = told_aloud().take(advisory(9.0)).take(voice(9.8))
-    summary = told.summary()
+    followed = told_aloud().take(advisory(9.0)).take(voice(9.8))
+    summary = followed.summary()
     assert summary.t_first_warning_s == 9.8
     assert (summary.latencies["tts"].n, summary.latencies["tts"].p50_s) == (1, pytest.approx(0.8))
     (one,) = summary.advisories
@@ -343,25 +343,25 @@ def test_a_warning_whose_voice_never_comes_warns_nobody():
 
 
 def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning():
-    told = told_aloud().take(advisory(9.0)).take(advisory(10.0, "WARNING", revision=1))
-    told.take(voice(10.5, revision=0)).take(voice(11.0, revision=1))
-    assert told.summary().t_first_warning_s == 10.5
+    followed = told_aloud().take(advisory(9.0)).take(advisory(10.0, "WARNING", revision=1))
+    followed.take(voice(10.5, revision=0)).take(voice(11.0, revision=1))
+    assert followed.summary().t_first_warning_s == 10.5
 
 
 def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once():
-    told = told_aloud().take(advisory(9.0))
-    told.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
-    assert told.summary().t_first_warning_s == 12.0
-    told = Told()
-    told.collector.modalities["tts"] = "lost"
-    assert told.take(advisory(9.0)).summary().t_first_warning_s == 9.0
+    followed = told_aloud().take(advisory(9.0))
+    followed.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
+    assert followed.summary().t_first_warning_s == 12.0
+    followed = FollowedRun()
+    followed.collector.modalities["tts"] = "lost"
+    assert followed.take(advisory(9.0)).summary().t_first_warning_s == 9.0
 
 
 def test_the_margin_over_tcas_is_counted_from_the_voice():
-    told = told_aloud().take(advisory(0.0))
-    told.watch.fly(3.0)
-    told.take(voice(3.0, t_dec_s=0.0))
-    assert told.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)
+    followed = told_aloud().take(advisory(0.0))
+    followed.watch.fly(3.0)
+    followed.take(voice(3.0, t_dec_s=0.0))
+    assert followed.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)
 
 
 # --- with a radio ---------------------------------------------------------------------------
@@ -384,33 +384,33 @@ SPOKEN = speak_callsign(FIRST, "faa")
 
 
 def test_the_radio_is_measured_with_the_callsigns_of_the_roster():
-    told = Told()
+    followed = FollowedRun()
     for message in call(f"{SPOKEN} maintain flight level three four zero", snr_db=10.0):
-        told.take(message)
-    radio = told.summary().radio
+        followed.take(message)
+    radio = followed.summary().radio
     assert (radio.transmissions, radio.calls, radio.snr_db) == (1, 1, 10.0)
     assert (radio.callsign_accuracy, radio.slot_accuracy, radio.false_slots) == (1.0, 0.5, 1)
 
 
 @pytest.mark.parametrize(("state", "missing"), [("on", 1), ("lost", 1), ("off", None)])
 def test_transcripts_are_missing_only_where_somebody_was_to_make_them(state, missing):
-    told = Told()
-    told.collector.modalities["asr"] = state
+    followed = FollowedRun()
+    followed.collector.modalities["asr"] = state
     for message in call():
-        told.take(message)
-    assert told.summary().radio.transcripts_missing == missing
+        followed.take(message)
+    assert followed.summary().radio.transcripts_missing == missing
 
 
 def test_the_terminal_tells_how_well_speech_was_recognised(capsys, tmp_path):
-    told = Told()
+    followed = FollowedRun()
     for message in call(f"{SPOKEN} maintain flight level three five zero"):
-        told.take(message)
-    print_summary(told.summary(), tmp_path)
+        followed.take(message)
+    print_summary(followed.summary(), tmp_path)
     shown = " ".join(capsys.readouterr().out.split())
     assert "radio 1 transmission" in shown
     assert "word error rate 0.0 %, callsigns 100.0 %, slots 100.0 %, p95 250 ms after" in shown
 
 
 def test_the_terminal_says_nothing_of_recognition_where_there_was_none(capsys, tmp_path):
-    print_summary(Told().summary(), tmp_path)
+    print_summary(FollowedRun().summary(), tmp_path)
     assert "recognition" not in capsys.readouterr().out

@@ -21,7 +21,7 @@ from airhilt.scenario import Scenario
 def folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of 30 s with a radar that turns once in 4.8 s."""
     out = tmp_path_factory.mktemp("radar") / "run"
-    options = Options(latency="fixed", speech=False, radar="terminal", out=out)
+    options = Options(latency="fixed", speech=False, radar="terminal", cockpit=True, out=out)
     return run(encounter, options).folder
 
 
@@ -69,3 +69,12 @@ def test_more_plots_than_can_be_shown_are_noted(
     page = data(folder)
     assert len(page["sections"]["radar"][0]["plots"]) == 3
     assert any("radar terminal shows the first 3 plots" in note for note in page["notes"])
+
+
+def test_the_instruments_of_each_cockpit_are_shown_once_a_second(folder: Path) -> None:
+    west, east = data(folder)["sections"]["cockpit"]
+    assert (west["callsign"], east["callsign"]) == ("AAL123", "DAL456")
+    assert len(west["states"]) == 31
+    first = west["states"][0]
+    assert (first["t"], first["altitude_ft"], first["mode"]) == (0.0, 35_000, "en_route")
+    assert first["heading_deg"] == pytest.approx(90.0, abs=2.0)

@@ -281,13 +281,13 @@ def test_an_airport_that_is_gone_is_named_and_the_traffic_drawn(folder: Path) ->
 def test_runways_show_who_was_there_and_who_came_over_the_threshold_when(folder: Path) -> None:
     at_airport(folder)
     rewrite_log(folder, *landing())
-    (lane,) = shown(write_report(folder))["sections"]["runways"]
-    assert lane["runway"] == "01/19"
-    assert lane["occupants"] == [
+    (runway,) = shown(write_report(folder))["sections"]["runways"]
+    assert runway["runway"] == "01/19"
+    assert runway["occupants"] == [
         {"what": "OPS1", "from": 5.0, "to": 20.0},
         {"what": "AAL123", "from": 14.0, "to": 18.0},
     ]
-    (approach,) = lane["approaches"]
+    (approach,) = runway["approaches"]
     assert approach["what"] == "AAL123"
     assert (approach["from"], approach["to"]) == (0.0, 14.0)
     assert approach["threshold"] == pytest.approx(10.0, abs=0.1)
@@ -303,7 +303,7 @@ def test_an_approach_that_is_broken_off_never_comes_over_the_threshold(folder: P
     states = [entry for entry in landing() if entry[0].startswith("truth/state")]
     rewrite_log(folder, *states, *(("truth/runway/01-19", truth) for truth in truths))
     ((approach,),) = (
-        lane["approaches"] for lane in shown(write_report(folder))["sections"]["runways"]
+        runway["approaches"] for runway in shown(write_report(folder))["sections"]["runways"]
     )
     assert (approach["to"], approach["threshold"]) == (6.0, None)
 

@@ -30,7 +30,7 @@ function drawPhases() {
 
 /** Kinds of events that are marked on an actor's row: colour and meaning. */
 const EVENTS = [
-  ["command", "var(--ink)", "is told what to do"], ["failure", "var(--bad)", "failure"], ["unable", "var(--warn)", "unable"], ["pilot_reacts", "var(--accent)", "reacts to an advisory"], ["actor_ended", "var(--bad)", "ended"],
+  ["command", "var(--ink)", "receives a command"], ["failure", "var(--bad)", "failure"], ["unable", "var(--warn)", "unable"], ["pilot_reacts", "var(--accent)", "reacts to an advisory"], ["actor_ended", "var(--bad)", "ended"],
 ];
 const ownEvents = run.events.filter((event) => EVENTS.some(([kind]) => kind === event.kind) && tracks.some((track) => track.callsign === event.who));
 function eventSymbol(x, y, kind) {

@@ -63,7 +63,7 @@ function drawKey() {
   const shown = SEVERITIES.filter((severity) => advisories.some((event) => event.active && event.severity === severity));
   byId("profile-key").append(...shown.map((severity) => keyItem(advisorySymbol(10, 7, severity), severity)),
     ...(reactions.length ? [keyItem(reactionSymbol(10, 7), "pilot reacts")] : []),
-    ...(advisories.some((event) => !tracks.some((track) => track.callsign === event.who)) ? [html("li", { class: "dim" }, "at the top: told to ATC")] : []),
+    ...(advisories.some((event) => !tracks.some((track) => track.callsign === event.who)) ? [html("li", { class: "dim" }, "at the top: to ATC")] : []),
     ...windowKey());
 }
 

@@ -1,4 +1,4 @@
-"""Who speaks on each frequency, and what the assistant says aloud, over time."""
+"""The transmissions on each frequency, and the spoken advisories, over time."""
 
 from airhilt.report.sections import Section
 

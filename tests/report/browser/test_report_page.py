@@ -311,7 +311,9 @@ def test_a_run_without_radars_has_no_such_section(page: Page, report: Path) -> N
 def test_plots_are_drawn_with_rings_and_the_last_turn_has_its_codes(
     page: Page, encounter: Scenario, tmp_path: Path, width: int
 ) -> None:
-    options = Options(latency="fixed", speech=False, radar="terminal", out=tmp_path / "run")
+    options = Options(
+        latency="fixed", speech=False, radar="terminal", cockpit=True, out=tmp_path / "run"
+    )
     run(encounter, options)
     page.open(tmp_path / "run" / "report.html", width=width)
     plots = page.evaluate("run.sections.radar[0].plots.length")
@@ -321,6 +323,8 @@ def test_plots_are_drawn_with_rings_and_the_last_turn_has_its_codes(
     assert any(re.fullmatch(r"[0-7]{4} A3[45]\d", text) for text in texts(page, "radar-0"))
     assert "one turn in 4.8 s" in page.evaluate("document.getElementById('radars').textContent")
     assert page.evaluate("document.querySelectorAll('#radars tbody tr').length") == 2
+    assert page.evaluate("document.querySelectorAll('#instruments tbody tr').length") == 2
+    assert "en route" in page.evaluate("document.getElementById('instruments').textContent")
     assert page.evaluate("document.scrollingElement.scrollWidth") <= width
 
 
