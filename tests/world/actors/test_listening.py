@@ -1,4 +1,4 @@
-"""What somebody makes of words: for whom they are, and what they make him do."""
+"""A listener understands a call: whether it is addressed, and what it commands."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def test_another_level_is_flown_as_it_was_heard() -> None:
     assert [command.altitude_ft for command in taken.commands] == [35_000]
 
 
-def test_a_call_with_another_callsign_is_not_for_him() -> None:
+def test_a_call_with_another_callsign_is_for_another() -> None:
     heard = "delta four five six climb and maintain flight level three three zero"
     assert sense(heard).kind == "not_for_me"
 
 
-def test_nothing_that_can_be_made_out_is_not_for_him() -> None:
+def test_unintelligible_words_are_for_nobody() -> None:
     assert sense("mumble mumble").kind == "not_for_me"
 
 
@@ -61,7 +61,7 @@ def test_a_call_that_could_be_for_two_is_asked_for_again() -> None:
 
 
 @pytest.mark.parametrize(("confidence", "kind"), [(TAU_ASR - 0.01, "unclear"), (1.0, "as_said")])
-def test_what_he_is_not_sure_of_he_asks_for_again(confidence: float, kind: str) -> None:
+def test_a_listener_asks_again_for_what_is_uncertain(confidence: float, kind: str) -> None:
     call = dataclasses.replace(parse_call(SAID, ON_FREQUENCY), confidence=confidence)
     listener = Listener(ON_FREQUENCY, lambda *_: call)
     assert listener.understand("nearly that", SAID, ("AAL123",)).kind == kind
@@ -137,7 +137,7 @@ def test_a_callsign_without_an_instruction_is_asked_for_again() -> None:
     assert sense("american one two three climb and").kind == "unclear"
 
 
-def test_who_overhears_a_call_with_his_callsign_takes_it() -> None:
+def test_a_crew_takes_an_overheard_call_with_its_own_callsign() -> None:
     heard = "delta four five six climb and maintain flight level three three zero"
     taken = LISTENER.overhear(heard, SAID, "DAL456")
     assert [command.altitude_ft for command in taken.commands] == [33_000]
