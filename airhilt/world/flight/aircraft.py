@@ -9,7 +9,7 @@ from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.en_route_commands import EnRouteCommands
 from airhilt.world.flight.ground import GroundLaw
 from airhilt.world.flight.guard import Guard
-from airhilt.world.flight.phases import Cockpit
+from airhilt.world.flight.phases import AircraftSystems
 from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.taxi import Standing
 from airhilt.world.flight.starting import Start
@@ -80,8 +80,10 @@ class Aircraft:
         )
         start = Start(airframe, kind, tick_s, substeps)
         autopilot = start.begin(initial, atmosphere, terrain_elevation_m)
-        cockpit = Cockpit(kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s)
-        self._control = control = FlightControl(cockpit, initial, terrain_elevation_m)
+        systems = AircraftSystems(
+            kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s
+        )
+        self._control = control = FlightControl(systems, initial, terrain_elevation_m)
         self.en_route = EnRouteCommands(control)
         self.procedures = ProcedureCommands(control)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from airhilt.units import KNOT
 from airhilt.world.flight.guidance import LateralMode
 from airhilt.world.flight.modes import GuidanceModes
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.taxi import Standing
 from airhilt.world.flight.state import InitialCondition, OnGround
@@ -16,7 +16,7 @@ class FlightControl:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     initial
         Where the aircraft begins.
@@ -25,7 +25,7 @@ class FlightControl:
 
     Attributes
     ----------
-    cockpit : Cockpit
+    systems : AircraftSystems
     modes : GuidanceModes
         Makes the modes of this type.
     state : AircraftState
@@ -38,20 +38,20 @@ class FlightControl:
 
     def __init__(
         self,
-        cockpit: Cockpit,
+        systems: AircraftSystems,
         initial: InitialCondition | OnGround,
         terrain_elevation_m: float,
     ) -> None:
-        self.cockpit = cockpit
-        self.modes = modes = GuidanceModes(cockpit.kind)
-        self.state = cockpit.airframe.state()
+        self.systems = systems
+        self.modes = modes = GuidanceModes(systems.kind)
+        self.state = systems.airframe.state()
         self.phase: FlightPhase
         if isinstance(initial, OnGround):
             self.en_route = self.climb_on(modes.track(initial.heading_rad), self.state.altitude_m)
-            self.phase = Standing(cockpit, "lined_up" if initial.lined_up else "standing")
+            self.phase = Standing(systems, "lined_up" if initial.lined_up else "standing")
         else:
             self.phase = self.en_route = EnRoute(
-                cockpit,
+                systems,
                 modes.track(initial.track_rad),
                 modes.initial_altitude(initial, terrain_elevation_m),
                 modes.airspeed(initial.calibrated_airspeed_m_s),
@@ -60,13 +60,13 @@ class FlightControl:
     @property
     def on_ground(self) -> bool:
         """True if a main wheel carries weight."""
-        return self.cockpit.airframe.on_ground()
+        return self.systems.airframe.on_ground()
 
     def climb_on(self, lateral: LateralMode, altitude_m: float) -> EnRoute:
         """Return the modes of a climb to an altitude at the slowest clean airspeed."""
         modes = self.modes
         return EnRoute(
-            self.cockpit, lateral, modes.steepest_climb(altitude_m), modes.clean_climb_speed()
+            self.systems, lateral, modes.steepest_climb(altitude_m), modes.clean_climb_speed()
         )
 
     def commanded(self) -> EnRoute:
@@ -80,12 +80,12 @@ class FlightControl:
         if not self.phase.commandable:
             self.require_airborne("an en-route command")
             modes, state = self.modes, self.state
-            self.cockpit.airframe.clean_up()
+            self.systems.airframe.clean_up()
             self.phase = self.en_route = EnRoute(
-                self.cockpit,
+                self.systems,
                 modes.track(state.track_rad),
                 modes.altitude_at_usual_rate(state.altitude_m),
-                modes.airspeed(self.cockpit.kind.speeds.minimum_clean_kt * KNOT),
+                modes.airspeed(self.systems.kind.speeds.minimum_clean_kt * KNOT),
             )
         return self.en_route
 

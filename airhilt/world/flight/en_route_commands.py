@@ -117,7 +117,7 @@ class EnRouteCommands:
         require_finite("altitude_m", altitude_m)
         control = self._control
         if vertical_rate_m_s is None:
-            vertical_rate_m_s = control.cockpit.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+            vertical_rate_m_s = control.systems.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
         require_finite("vertical_rate_m_s", vertical_rate_m_s)
         if vertical_rate_m_s <= 0.0:
             raise ValueError(f"vertical_rate_m_s is {vertical_rate_m_s}; expected more than 0")

@@ -11,7 +11,7 @@ from airhilt.world.flight.ground import GroundLaw
 from airhilt.world.flight.state import AircraftState
 
 
-class Cockpit(NamedTuple):
+class AircraftSystems(NamedTuple):
     """Airframe, autopilot and ground law with which the phases fly."""
 
     kind: AircraftType

@@ -58,12 +58,12 @@ class ProcedureCommands:
         control.require_on_ground("taxi", FASTEST_TAXI_M_S)
         if not path:
             raise ValueError("the path is empty; expected a place to taxi to")
-        ground, state = control.cockpit.kind.ground, control.state
+        ground, state = control.systems.kind.ground, control.state
         speed = ground.taxi_speed_kt * KNOT if speed_m_s is None else speed_m_s
         here = (state.latitude_rad, state.longitude_rad)
         track = TaxiPath([here, *path], speed, ground.look_ahead_m)
         called: Way = "line_up" if then == "lined_up" else "taxi"
-        control.phase = Taxi(control.cockpit, track, called, then)
+        control.phase = Taxi(control.systems, track, called, then)
 
     def hold_position(self) -> None:
         """Stop on the way, and stay until `resume_taxi`; where it stands already, it stays.
@@ -113,11 +113,11 @@ class ProcedureCommands:
         control = self._control
         require_finite("climb_to_m", climb_to_m)
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
-        line = Final(runway, control.cockpit.kind)
+        line = Final(runway, control.systems.kind)
         require_lined_up(control.state, line)
         control.require_climb(climb_to_m)
         control.en_route = control.climb_on(line, climb_to_m)
-        control.phase = TakeoffRoll(control.cockpit, line, control.en_route)
+        control.phase = TakeoffRoll(control.systems, line, control.en_route)
 
     def reject_takeoff(self) -> None:
         """Stop on the runway.
@@ -130,7 +130,7 @@ class ProcedureCommands:
         phase = self._control.phase
         if not isinstance(phase, TakeoffRoll):
             raise ValueError(f"reject_takeoff in phase {phase.name}; expected takeoff_roll")
-        self._control.phase = RejectedTakeoff(self._control.cockpit, phase.line)
+        self._control.phase = RejectedTakeoff(self._control.systems, phase.line)
 
     # --- approach and landing ---------------------------------------------------------------
 
@@ -153,7 +153,7 @@ class ProcedureCommands:
             The aircraft is on the ground, or too far from the final approach to join it.
         """
         self._control.require_airborne("land")
-        final = Final(runway, self._control.cockpit.kind)
+        final = Final(runway, self._control.systems.kind)
         final.require_reachable(self._control.state)
         self._approach(final, exit_path)
 
@@ -173,7 +173,7 @@ class ProcedureCommands:
         phase = self._control.phase
         if not isinstance(phase, Glide):
             raise ValueError(f"side_step in phase {phase.name}; expected glide")
-        final = Final(runway, self._control.cockpit.kind)
+        final = Final(runway, self._control.systems.kind)
         require_side_step(self._control.state, final)
         self._approach(final, exit_path)
 
@@ -192,18 +192,18 @@ class ProcedureCommands:
             raise ValueError(f"go_around in phase {control.phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
         control.en_route = control.climb_on(control.phase.final, climb_to_m)
-        control.phase = GoAround(control.cockpit, control.en_route)
+        control.phase = GoAround(control.systems, control.en_route)
 
     def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:
         """Fly the final approach, from the present altitude."""
         control = self._control
-        cockpit, modes = control.cockpit, control.modes
-        control.phase = Glide(cockpit, final, exit_path, control.state.altitude_m)
+        systems, modes = control.systems, control.modes
+        control.phase = Glide(systems, final, exit_path, control.state.altitude_m)
         control.en_route = EnRoute(
-            cockpit,
+            systems,
             final,
             modes.altitude_at_usual_rate(final.runway.elevation_m),
-            modes.airspeed(cockpit.kind.speeds.approach_kt * KNOT),
+            modes.airspeed(systems.kind.speeds.approach_kt * KNOT),
         )
 
     # --- emergencies ------------------------------------------------------------------------
@@ -222,11 +222,11 @@ class ProcedureCommands:
         control = self._control
         control.require_airborne("drift_down")
         en_route = control.commanded()
-        control.cockpit.airframe.clean_up()
+        control.systems.airframe.clean_up()
         en_route.vertical = control.modes.steepest_descent(BELOW_ALL_TERRAIN_M)
-        drift_down_kt = control.cockpit.kind.speeds.drift_down_kt
+        drift_down_kt = control.systems.kind.speeds.drift_down_kt
         en_route.speed = control.modes.airspeed(drift_down_kt * KNOT)
-        control.phase = DriftDown(control.cockpit, en_route)
+        control.phase = DriftDown(control.systems, en_route)
 
     def emergency_descent(self, altitude_m: float) -> None:
         """Descend as fast as the type safely can, and level off at an altitude.
@@ -245,6 +245,6 @@ class ProcedureCommands:
                 f"{control.state.altitude_m:.0f}"
             )
         en_route = control.commanded()
-        control.cockpit.airframe.clean_up()
+        control.systems.airframe.clean_up()
         en_route.vertical = control.modes.steepest_descent(altitude_m)
-        control.phase = EmergencyDescent(control.cockpit, en_route)
+        control.phase = EmergencyDescent(control.systems, en_route)

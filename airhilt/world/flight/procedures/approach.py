@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.guidance import Altitude, AltitudeClearance
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.final import GREATEST_CORRECTION_M_S, Final
 from airhilt.world.flight.procedures.landing import Flare
 from airhilt.world.flight.state import AircraftState
@@ -29,7 +29,7 @@ class Glide:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     final
         Approach to fly.
@@ -45,15 +45,15 @@ class Glide:
 
     def __init__(
         self,
-        cockpit: Cockpit,
+        systems: AircraftSystems,
         final: Final,
         exit_path: Sequence[Place],
         altitude_m: float,
     ) -> None:
-        self._cockpit = cockpit
+        self._systems = systems
         self.final = final
         self.exit_path = exit_path
-        kind = cockpit.kind
+        kind = systems.kind
         self._intercept = Altitude(
             AltitudeClearance(altitude_m, GREATEST_CORRECTION_M_S),
             kind.gains.guidance.altitude_per_s,
@@ -65,8 +65,8 @@ class Glide:
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        cockpit, final = self._cockpit, self.final
-        flare = cockpit.kind.landing.flare
+        systems, final = self._systems, self.final
+        flare = systems.kind.landing.flare
         if not self._configured and -final.along_m(state) < self._configure_m:
             self._configure()
         vertical_rate = final.vertical_rate(state)
@@ -74,11 +74,11 @@ class Glide:
             level = self._intercept.vertical_rate(state)
             self._captured = vertical_rate <= level
             vertical_rate = min(vertical_rate, level)
-        height = cockpit.airframe.main_wheel_height_m(state)
+        height = systems.airframe.main_wheel_height_m(state)
         sink_at_flare = height / flare.time_constant_s + flare.touchdown_rate_fpm * FOOT_PER_MINUTE
         if sink_at_flare < -final.glide_rate(state):
-            return Flare(cockpit, final, self.exit_path, height).fly(state)
-        cockpit.autopilot.fly(
+            return Flare(systems, final, self.exit_path, height).fly(state)
+        systems.autopilot.fly(
             state,
             final.turn_rate(state),
             vertical_rate,
@@ -89,7 +89,7 @@ class Glide:
 
     def _configure(self) -> None:
         """Lower the gear, set the flaps, slow down."""
-        kind, airframe = self._cockpit.kind, self._cockpit.airframe
+        kind, airframe = self._systems.kind, self._systems.airframe
         airframe.set_gear(1.0)
         airframe.set_flaps(kind.landing.flaps)
         self._airspeed = kind.speeds.approach_kt * KNOT

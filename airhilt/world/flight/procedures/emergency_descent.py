@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight.guidance import Airspeed
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
@@ -21,7 +21,7 @@ class EmergencyDescent:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     then
         En route on the track and to the altitude that follow.
@@ -31,21 +31,21 @@ class EmergencyDescent:
     commandable = True
     may_touch = False
 
-    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
+        self._systems = systems
         self._then = then
-        speeds = cockpit.kind.speeds
+        speeds = systems.kind.speeds
         self._speed = Airspeed(
             speeds.maximum_kt * KNOT - AIRSPEED_MARGIN, speeds.maximum_mach - MACH_MARGIN
         )
-        cockpit.airframe.set_speed_brakes(1.0)
+        systems.airframe.set_speed_brakes(1.0)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         if self._then.vertical.captures(state):
-            self._cockpit.airframe.set_speed_brakes(0.0)
+            self._systems.airframe.set_speed_brakes(0.0)
             return self._then.fly(state)
-        self._cockpit.autopilot.fly_on_pitch(
+        self._systems.autopilot.fly_on_pitch(
             state,
             self._then.lateral.turn_rate(state),
             self._speed.airspeed(state),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from airhilt.world.flight.guidance import Airspeed, Altitude, LateralMode
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.state import AircraftState
 
 
@@ -12,7 +12,7 @@ class EnRoute:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     lateral, vertical, speed
         The modes.
@@ -23,9 +23,9 @@ class EnRoute:
     may_touch = False
 
     def __init__(
-        self, cockpit: Cockpit, lateral: LateralMode, vertical: Altitude, speed: Airspeed
+        self, systems: AircraftSystems, lateral: LateralMode, vertical: Altitude, speed: Airspeed
     ) -> None:
-        self._autopilot = cockpit.autopilot
+        self._autopilot = systems.autopilot
         self.lateral = lateral
         self.vertical = vertical
         self.speed = speed

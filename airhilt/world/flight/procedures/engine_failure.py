@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.units import FOOT_PER_MINUTE
 from airhilt.world.flight.guidance import Altitude, AltitudeClearance
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
@@ -21,7 +21,7 @@ class DriftDown:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     then
         En route on the track, at the airspeed and down to the altitude that follow.
@@ -31,29 +31,29 @@ class DriftDown:
     commandable = True
     may_touch = False
 
-    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
+        self._systems = systems
         self._then = then
         self._flown_s = 0.0
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        cockpit, then = self._cockpit, self._then
+        systems, then = self._systems, self._then
         airspeed = then.speed.airspeed(state)
-        self._flown_s += cockpit.tick_s
+        self._flown_s += systems.tick_s
         if self._flown_s > SPOOL_DOWN_S and self._kept(state):
-            gain = cockpit.kind.gains.guidance.altitude_per_s
+            gain = systems.kind.gains.guidance.altitude_per_s
             then.vertical = Altitude(AltitudeClearance(state.altitude_m, LEVEL_M_S), gain)
             return then.fly(state)
         if then.vertical.captures(state):
             return then.fly(state)
-        cockpit.autopilot.fly_on_pitch(
+        systems.autopilot.fly_on_pitch(
             state, then.lateral.turn_rate(state), airspeed, 1.0, steepest_climb=0.0
         )
         return self
 
     def _kept(self, state: AircraftState) -> bool:
         """Return whether the engines at full thrust keep this altitude, or nearly so."""
-        autopilot = self._cockpit.autopilot
+        autopilot = self._systems.autopilot
         potential_rate = autopilot.potential_climb * state.true_airspeed_m_s
         return autopilot.lever >= 1.0 and potential_rate > -LEVEL_M_S

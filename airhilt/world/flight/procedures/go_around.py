@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from airhilt.units import FOOT_PER_MINUTE, KNOT
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
@@ -19,7 +19,7 @@ class GoAround:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     then
         En route on the track, to the altitude and at the clean airspeed that follow.
@@ -29,16 +29,16 @@ class GoAround:
     commandable = True
     may_touch = False
 
-    def __init__(self, cockpit: Cockpit, then: EnRoute) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
+        self._systems = systems
         self._then = then
-        self._airspeed = cockpit.kind.speeds.climb_safety_kt * KNOT
+        self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
         self._stopped = False
         self._clean = False
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        autopilot, airframe = self._cockpit.autopilot, self._cockpit.airframe
+        autopilot, airframe = self._systems.autopilot, self._systems.airframe
         turn_rate = self._then.lateral.turn_rate(state)
         if not self._stopped:
             autopilot.flare(state, turn_rate, STOPPED_M_S, STOP_M_S2, 1.0, None)
@@ -58,6 +58,6 @@ class GoAround:
 
     def _clean_up(self) -> None:
         """Retract the flaps and accelerate."""
-        self._cockpit.airframe.set_flaps(0.0)
+        self._systems.airframe.set_flaps(0.0)
         self._airspeed = self._then.speed.target_m_s
         self._clean = True

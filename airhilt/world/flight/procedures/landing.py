@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.taxi import Standing, Taxi
 from airhilt.world.flight.state import AircraftState
@@ -29,7 +29,7 @@ class Flare:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     final
         The approach that was flown.
@@ -44,14 +44,14 @@ class Flare:
     may_touch = True
 
     def __init__(
-        self, cockpit: Cockpit, final: Final, exit_path: Sequence[Place], height_m: float
+        self, systems: AircraftSystems, final: Final, exit_path: Sequence[Place], height_m: float
     ) -> None:
-        self._cockpit = cockpit
+        self._systems = systems
         self.final = final
         self.exit_path = exit_path
         self._height = height_m
-        self._lever = cockpit.airframe.throttle()
-        flare = cockpit.kind.landing.flare
+        self._lever = systems.airframe.throttle()
+        flare = systems.kind.landing.flare
         self._time_constant = flare.time_constant_s
         self._touchdown_rate = flare.touchdown_rate_fpm * FOOT_PER_MINUTE
         self._idle_part = flare.idle_height_part
@@ -59,13 +59,13 @@ class Flare:
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        cockpit, final = self._cockpit, self.final
-        if cockpit.airframe.on_ground():
-            return Rollout(cockpit, final, self.exit_path).fly(state)
-        height = max(cockpit.airframe.main_wheel_height_m(state), 0.0)
+        systems, final = self._systems, self.final
+        if systems.airframe.on_ground():
+            return Rollout(systems, final, self.exit_path).fly(state)
+        height = max(systems.airframe.main_wheel_height_m(state), 0.0)
         sink_rate = height / self._time_constant + self._touchdown_rate
         power = (height / self._height - self._idle_part) / (1.0 - self._idle_part)
-        cockpit.autopilot.flare(
+        systems.autopilot.flare(
             state,
             final.turn_rate(state),
             -sink_rate,
@@ -81,7 +81,7 @@ class Rollout:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     final
         The approach that was flown.
@@ -94,23 +94,23 @@ class Rollout:
     commandable = False
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, final: Final, exit_path: Sequence[Place]) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, final: Final, exit_path: Sequence[Place]) -> None:
+        self._systems = systems
         self._final = final
-        ground = cockpit.kind.ground
+        ground = systems.kind.ground
         self._deceleration = ground.deceleration_m_s2
         self._exit = (
             TaxiPath(exit_path, ground.taxi_speed_kt * KNOT, ground.look_ahead_m)
             if exit_path
             else None
         )
-        cockpit.ground.reset(cockpit.autopilot.steady_elevator())
-        cockpit.airframe.set_speed_brakes(1.0)
-        cockpit.airframe.set_ground_spoilers(1.0)
+        systems.ground.reset(systems.autopilot.steady_elevator())
+        systems.airframe.set_speed_brakes(1.0)
+        systems.airframe.set_ground_spoilers(1.0)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        ground, final = self._cockpit.ground, self._final
+        ground, final = self._systems.ground, self._final
         speed = state.ground_speed_m_s
         ground.lower_nose()
         ground.follow_line(
@@ -121,7 +121,7 @@ class Rollout:
             to_go = -self._exit.along_m(state)
             exit_speed = self._exit.speed_m_s(0.0)
             if to_go < LEAD_S * speed and speed < exit_speed + EXIT_MARGIN_M_S:
-                return Taxi(self._cockpit, self._exit, "vacate", "standing").fly(state)
+                return Taxi(self._systems, self._exit, "vacate", "standing").fly(state)
             if speed <= exit_speed and to_go > 0.0:
                 ground.hold_speed(state, exit_speed)
                 return self
@@ -129,7 +129,7 @@ class Rollout:
                 needed = (speed**2 - exit_speed**2) / (2.0 * max(to_go - LEAD_S * speed, 1.0))
                 deceleration = min(max(needed, 0.0), GREATEST_DECELERATION_M_S2)
         if speed < STANDING_M_S:
-            return Standing(self._cockpit).fly(state)
-        if self._cockpit.airframe.nose_on_ground():
+            return Standing(self._systems).fly(state)
+        if self._systems.airframe.nose_on_ground():
             ground.slow_down(state, deceleration)
         return self

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.final import Final
@@ -54,7 +54,7 @@ class TakeoffRoll:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe, autopilot and ground law.
     line
         The runway's centre line.
@@ -66,26 +66,26 @@ class TakeoffRoll:
     commandable = False
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute) -> None:
+    def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
         self.line = line
-        self._cockpit = cockpit
+        self._systems = systems
         self._then = then
         self._lever = 0.0
-        kind = cockpit.kind
+        kind = systems.kind
         self._rotate_at = kind.speeds.rotate_kt * KNOT
-        cockpit.ground.reset()
-        cockpit.airframe.set_brakes(0.0)
-        cockpit.airframe.set_flaps(kind.takeoff.flaps)
+        systems.ground.reset()
+        systems.airframe.set_brakes(0.0)
+        systems.airframe.set_flaps(kind.takeoff.flaps)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Roll one tick."""
-        cockpit, line = self._cockpit, self.line
-        self._lever = min(self._lever + LEVER_PER_S * cockpit.tick_s, 1.0)
-        cockpit.airframe.set_throttle(self._lever)
+        systems, line = self._systems, self.line
+        self._lever = min(self._lever + LEVER_PER_S * systems.tick_s, 1.0)
+        systems.airframe.set_throttle(self._lever)
         if state.calibrated_airspeed_m_s >= self._rotate_at:
-            return Rotate(cockpit, line, self._then, state).fly(state)
-        cockpit.ground.lower_nose()
-        cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+            return Rotate(systems, line, self._then, state).fly(state)
+        systems.ground.lower_nose()
+        systems.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
         return self
 
 
@@ -94,7 +94,7 @@ class Rotate:
 
     Parameters
     ----------
-    cockpit, line, then
+    systems, line, then
         As for `TakeoffRoll`.
     state
         State of the aircraft now.
@@ -104,26 +104,28 @@ class Rotate:
     commandable = True
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute, state: AircraftState) -> None:
-        self._cockpit = cockpit
+    def __init__(
+        self, systems: AircraftSystems, line: Final, then: EnRoute, state: AircraftState
+    ) -> None:
+        self._systems = systems
         self._line = line
         self._then = then
-        takeoff = cockpit.kind.takeoff
+        takeoff = systems.kind.takeoff
         self._pitch = takeoff.pitch_deg * DEGREE
         self._pitch_rate = takeoff.pitch_rate_deg_s * DEGREE
-        cockpit.autopilot.take_over(state, -takeoff.pull)
+        systems.autopilot.take_over(state, -takeoff.pull)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Rotate one tick."""
-        cockpit, line = self._cockpit, self._line
-        if cockpit.airframe.main_wheel_height_m(state) > SCREEN_HEIGHT_M:
-            return ClimbOut(cockpit, line, self._then).fly(state)
+        systems, line = self._systems, self._line
+        if systems.airframe.main_wheel_height_m(state) > SCREEN_HEIGHT_M:
+            return ClimbOut(systems, line, self._then).fly(state)
         turn_rate = None
-        if cockpit.airframe.on_ground():
-            cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+        if systems.airframe.on_ground():
+            systems.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
         else:
             turn_rate = line.turn_rate(state)
-        cockpit.autopilot.rotate(state, self._pitch, self._pitch_rate, turn_rate, 1.0)
+        systems.autopilot.rotate(state, self._pitch, self._pitch_rate, turn_rate, 1.0)
         return self
 
 
@@ -132,7 +134,7 @@ class ClimbOut:
 
     Parameters
     ----------
-    cockpit, line, then
+    systems, line, then
         As for `TakeoffRoll`.
     """
 
@@ -140,15 +142,15 @@ class ClimbOut:
     commandable = True
     may_touch = False
 
-    def __init__(self, cockpit: Cockpit, line: Final, then: EnRoute) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
+        self._systems = systems
         self._line = line
         self._then = then
-        self._safety_speed = cockpit.kind.speeds.climb_safety_kt * KNOT
+        self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Climb one tick."""
-        autopilot, airframe, then = self._cockpit.autopilot, self._cockpit.airframe, self._then
+        autopilot, airframe, then = self._systems.autopilot, self._systems.airframe, self._then
         airspeed = self._safety_speed + CLIMB_SPEED_MARGIN_M_S
         turn_rate = self._line.turn_rate
         if state.vertical_rate_m_s > CLIMBING_M_S:
@@ -174,23 +176,23 @@ class RejectedTakeoff:
     commandable = False
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, line: Final) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, line: Final) -> None:
+        self._systems = systems
         self._line = line
-        self._deceleration = cockpit.kind.takeoff.rejected_deceleration_m_s2
-        cockpit.ground.reset()
-        cockpit.airframe.set_throttle(0.0)
-        cockpit.airframe.set_speed_brakes(1.0)
-        cockpit.airframe.set_ground_spoilers(1.0)
+        self._deceleration = systems.kind.takeoff.rejected_deceleration_m_s2
+        systems.ground.reset()
+        systems.airframe.set_throttle(0.0)
+        systems.airframe.set_speed_brakes(1.0)
+        systems.airframe.set_ground_spoilers(1.0)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Brake one tick."""
-        cockpit, line = self._cockpit, self._line
+        systems, line = self._systems, self._line
         if state.ground_speed_m_s < AT_REST_M_S:
-            cockpit.airframe.set_speed_brakes(0.0)
-            cockpit.airframe.set_ground_spoilers(0.0)
-            return Standing(cockpit).fly(state)
-        cockpit.ground.lower_nose()
-        cockpit.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
-        cockpit.ground.slow_down(state, self._deceleration)
+            systems.airframe.set_speed_brakes(0.0)
+            systems.airframe.set_ground_spoilers(0.0)
+            return Standing(systems).fly(state)
+        systems.ground.lower_nose()
+        systems.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
+        systems.ground.slow_down(state, self._deceleration)
         return self

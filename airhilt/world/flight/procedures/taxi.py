@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from airhilt.world.flight.phases import Cockpit, FlightPhase
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
 
@@ -22,7 +22,7 @@ class Standing:
 
     Parameters
     ----------
-    cockpit
+    systems
         Brakes that hold it.
     name
         ``lined_up`` on a runway, ready to take off.
@@ -36,15 +36,15 @@ class Standing:
     commandable = False
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, name: Stand = "standing") -> None:
+    def __init__(self, systems: AircraftSystems, name: Stand = "standing") -> None:
         self.name = name
         self.at_rest = False
-        self._cockpit = cockpit
+        self._systems = systems
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Stand one tick."""
         if not self.at_rest:
-            self._cockpit.ground.hold_speed(state, 0.0)
+            self._systems.ground.hold_speed(state, 0.0)
             self.at_rest = state.ground_speed_m_s < AT_REST_M_S
         return self
 
@@ -54,7 +54,7 @@ class Taxi:
 
     Parameters
     ----------
-    cockpit
+    systems
         Airframe and ground law with which it taxies.
     path
         Path to follow.
@@ -67,16 +67,16 @@ class Taxi:
     commandable = False
     may_touch = True
 
-    def __init__(self, cockpit: Cockpit, path: TaxiPath, way: Way, then: Stand) -> None:
-        self._cockpit = cockpit
+    def __init__(self, systems: AircraftSystems, path: TaxiPath, way: Way, then: Stand) -> None:
+        self._systems = systems
         self._path = path
         self._way: Way = way
         self._then: Stand = then
         self._holding = False
         self._stopped = False
-        cockpit.airframe.set_speed_brakes(0.0)
-        cockpit.airframe.set_ground_spoilers(0.0)
-        cockpit.ground.reset()
+        systems.airframe.set_speed_brakes(0.0)
+        systems.airframe.set_ground_spoilers(0.0)
+        systems.ground.reset()
 
     @property
     def name(self) -> str:
@@ -90,16 +90,16 @@ class Taxi:
     def resume(self) -> None:
         """Go on after a hold."""
         self._holding = self._stopped = False
-        self._cockpit.ground.reset()
+        self._systems.ground.reset()
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Taxi one tick."""
-        ground, path = self._cockpit.ground, self._path
+        ground, path = self._systems.ground, self._path
         along = path.along_m(state)
         slow = state.ground_speed_m_s < AT_REST_M_S
         self._stopped = slow and self._holding
         if slow and not self._holding and path.length_m - along < END_M:
-            return Standing(self._cockpit, self._then).fly(state)
+            return Standing(self._systems, self._then).fly(state)
         ground.lower_nose()
         ground.steer(state, path.yaw_rate(state, along))
         ground.hold_speed(state, 0.0 if self._holding else path.speed_m_s(along))
