@@ -47,7 +47,9 @@ def _charted(layout: Layout) -> AirportBriefing:
 
     runways = []
     for strip in layout.strips.values():
-        area = [layout.frame.to_place(*xy) for xy in strip.protected_area.exterior.coords[:-1]]
+        area = [
+            layout.local_frame.to_place(*xy) for xy in strip.protected_area.exterior.coords[:-1]
+        ]
         runways += [
             RunwayBriefing(
                 ident=end.ident,

@@ -37,7 +37,7 @@ class ReportAirport:
 
     def __init__(self, name: str) -> None:
         layout = Layout(load_airport(name))
-        self._frame = layout.frame
+        self._frame = layout.local_frame
         self._plan = ground_plan(layout)
 
     def locate(self, place: Place, height_m: float) -> Local:  # noqa: ARG002

@@ -1,1 +1,1 @@
-"""The shapes of what moves: aircraft, vehicles, animals."""
+"""Shapes of aircraft, vehicles and animals: meshes, lights and outlines."""

@@ -1,4 +1,4 @@
-"""How a body looks: its meshes and its lights."""
+"""The appearance of a body: its meshes and its lights."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from airhilt.shapes.mesh import Mesh
 
 @dataclass(frozen=True)
 class Appearance:
-    """How bodies of one kind look.
+    """Meshes and lights of the bodies of one kind.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Triangles with colours, and the few solids of which everything that cameras see is made.
+"""Triangles with colours, and the solids from which all bodies in pictures are made.
 
 Axes of a body: x to the right, y ahead, z up, in metres. Colours are linear RGB reflectances.
 """
@@ -33,18 +33,18 @@ def _linear(value: float) -> float:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles that share nothing.
+    """Triangles that share no corners.
 
     Attributes
     ----------
     corners, normals
-        Of each triangle, shape (n, 3, 3).
+        Corners of each triangle and normals there, shape (n, 3, 3).
     colours
-        Of each triangle, shape (n, 3).
+        Colour of each triangle, shape (n, 3).
     glow
-        Light that each gives off at night, times its colour; shape (n,).
+        Light that each triangle gives off at night, times its colour; shape (n,).
     sunlit
-        Part of the direct sun that reaches each; shape (n,).
+        Share of the direct sun that reaches each triangle, shape (n,).
     """
 
     corners: Floats
@@ -92,24 +92,24 @@ class Mesh:
         )
 
     def moved(self, right_m: float = 0.0, ahead_m: float = 0.0, up_m: float = 0.0) -> Mesh:
-        """Return it somewhere else."""
+        """Return the mesh moved by an offset."""
         offset = np.array((right_m, ahead_m, up_m), dtype=np.float32)
         return replace(self, corners=self.corners + offset)
 
     def turned(self, rotation: npt.ArrayLike) -> Mesh:
-        """Return it turned by a matrix that takes its axes to others."""
+        """Return the mesh turned by a rotation matrix."""
         matrix = np.asarray(rotation, dtype=np.float32)
         return replace(self, corners=self.corners @ matrix.T, normals=self.normals @ matrix.T)
 
     def stretched(self, right: float, ahead: float, up: float) -> Mesh:
-        """Return it with its axes stretched."""
+        """Return the mesh stretched along its axes."""
         factors = np.array((right, ahead, up), dtype=np.float32)
         normals = self.normals / factors
         normals /= np.linalg.norm(normals, axis=2, keepdims=True)
         return replace(self, corners=self.corners * factors, normals=normals)
 
     def mirrored(self) -> Mesh:
-        """Return the left one to a right one."""
+        """Return the mesh mirrored from right to left."""
         flip = np.array((-1.0, 1.0, 1.0), dtype=np.float32)
         return replace(
             self, corners=(self.corners * flip)[:, ::-1], normals=(self.normals * flip)[:, ::-1]
@@ -117,21 +117,21 @@ class Mesh:
 
     @property
     def face_normals(self) -> Floats:
-        """Of each triangle, shape (n, 3)."""
+        """Normal of each triangle, shape (n, 3)."""
         across = _cross(self.corners)
         length = np.linalg.norm(across, axis=1, keepdims=True)
         return np.asarray(across / np.maximum(length, 1e-12), dtype=np.float32)
 
     @property
     def mean_normals(self) -> Floats:
-        """Of each triangle, over its corners; shape (n, 3)."""
+        """Mean of the normals at the corners of each triangle, shape (n, 3)."""
         total = self.normals.sum(axis=1)
         length = np.linalg.norm(total, axis=1, keepdims=True)
         return np.asarray(total / np.maximum(length, 1e-12), dtype=np.float32)
 
     @property
     def lowest_m(self) -> float:
-        """Height of its lowest point."""
+        """Height of the lowest point."""
         return float(self.corners[..., 2].min())
 
 

@@ -1,4 +1,4 @@
-"""How large something is."""
+"""Sizes of bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all that moves has in common, and how what moves over the surface says where it is."""
+"""Protocols of bodies that move, and the state of those on or near the ground."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from airhilt.shapes.sizes import Size
 
 
 class SurfaceState(NamedTuple):
-    """The true state of something that moves on or near the ground, at one instant.
+    """True state of a body on or near the ground at one instant.
 
-    The place is that of its middle, the altitude that of its lowest point: wheels, feet, or the
-    lowest bird of a flock.
+    The place is that of the body's middle. The altitude is that of its lowest point: wheels, feet,
+    or the lowest bird of a flock.
     """
 
     latitude_rad: float
@@ -23,13 +23,13 @@ class SurfaceState(NamedTuple):
     altitude_m: float
     """Geodetic height above WGS84."""
     height_agl_m: float
-    """Above the ground; 0 on it."""
+    """Height above the ground; 0 on it."""
     velocity_north_m_s: float
-    """Over the ground, like the next two."""
+    """Velocity over the ground, like the next two."""
     velocity_east_m_s: float
     velocity_down_m_s: float
     heading_rad: float
-    """True, in [0, 2 pi)."""
+    """True heading, in [0, 2 pi)."""
 
     @property
     def ground_speed_m_s(self) -> float:
@@ -48,7 +48,7 @@ class SurfaceState(NamedTuple):
 
 
 class Motion(Protocol):
-    """What `SurfaceState` and the state of an aircraft both tell, in the same words."""
+    """Place and movement, which `SurfaceState` and the state of an aircraft both have."""
 
     @property
     def latitude_rad(self) -> float: ...  # noqa: D102
@@ -78,7 +78,7 @@ M = TypeVar("M", bound=Motion)
 
 
 def carried_on(state: M, elapsed_s: float) -> M:
-    """Return a state, a named tuple, a fraction of a tick later, moving straight on."""
+    """Return a state, which is a named tuple, a fraction of a tick later in straight movement."""
     if elapsed_s == 0.0:
         return state
     latitude, longitude = displaced(
@@ -96,26 +96,26 @@ def carried_on(state: M, elapsed_s: float) -> M:
 
 
 class Mover(Protocol):
-    """Anything that moves: an aircraft, a vehicle, an animal."""
+    """A body that moves: an aircraft, a vehicle, an animal."""
 
     ended: str | None
-    """Why it moves no more, None while it does. Whoever finds out may say so."""
+    """Reason for which it moves no more; None while it does. Those who find the reason set it."""
 
     @property
     def state(self) -> Motion:
-        """Where it is and how it moves now."""
+        """Place and movement now."""
 
     @property
     def dimensions(self) -> Size:
-        """How large it is now."""
+        """Size now."""
 
     @property
     def phase(self) -> str:
-        """What it is doing, in one word."""
+        """Activity now, in one word."""
 
     @property
     def on_ground(self) -> bool:
-        """Whether the ground carries it."""
+        """True if the ground carries it."""
 
     def advance(self) -> None:
         """Move on by one tick; do nothing once it has ended."""
@@ -123,7 +123,7 @@ class Mover(Protocol):
 
 @runtime_checkable
 class Driven(Mover, Protocol):
-    """A mover that somebody steers along a path; its phase is ``driving`` while it follows it."""
+    """A mover that is steered along a path; its phase is ``driving`` while it follows one."""
 
     def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
         """Follow a path, at most at a speed, and stop at its end."""
@@ -141,7 +141,7 @@ class Creature(Mover, Protocol):
 
     @property
     def startled(self) -> bool:
-        """Whether something has startled it, and it does not rest again yet."""
+        """True from a fright until it rests again."""
 
     def stand(self) -> None:
         """Come to a stand; out of the air, land first."""
@@ -156,4 +156,4 @@ class Creature(Mover, Protocol):
         """Fly to a place at a height above the ground."""
 
     def startle(self, away_from: Place) -> None:
-        """Take fright at something, and flee from it."""
+        """Flee from a place."""

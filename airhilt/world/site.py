@@ -60,7 +60,7 @@ class ScenarioSite:
         from airhilt.world.surface.layout import Layout
 
         layout = Layout(load_airport(scene.airport))
-        latitude, longitude = layout.frame.to_place(0.0, 0.0)
+        latitude, longitude = layout.local_frame.to_place(0.0, 0.0)
         centre = GeodeticPosition(
             type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE
         )

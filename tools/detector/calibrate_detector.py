@@ -127,7 +127,7 @@ def shots(
     seconds: float,
 ) -> Iterator[Exposure]:
     """Yield the pictures of a camera while its aircraft, if it has one, goes on."""
-    frame = sitting.layout.frame if sitting.layout is not None else LocalFrame((0.8, 0.0))
+    frame = sitting.layout.local_frame if sitting.layout is not None else LocalFrame((0.8, 0.0))
     carrier = sitting.cameras[camera].carrier
     for index in range(round(seconds * RATE_HZ)):
         t_s = index / RATE_HZ

@@ -304,9 +304,9 @@ def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     from airhilt.world.surface.layout import Layout
 
     layout = Layout(load_airport("LSZH"))
-    light = _light(layout.frame.origin[0], solar_time_h, False)
+    light = _light(layout.local_frame.origin[0], solar_time_h, False)
     end = layout.runway("14")
-    east, north = layout.frame.to_local(end.threshold)
+    east, north = layout.local_frame.to_local(end.threshold)
     sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
     at = east + 45.0 * cos, north - 45.0 * sin, 6.0
     pose = Pose.of(at, end.course_rad + math.pi, math.radians(3.0))

@@ -72,7 +72,7 @@ class Camera:
 def local_frame_of(site: ScenarioSite) -> LocalFrame:
     """Return the local frame in which a setting is drawn."""
     if site.layout is not None:
-        return site.layout.frame
+        return site.layout.local_frame
     return LocalFrame((site.centre.lat_deg * DEGREE, site.centre.lon_deg * DEGREE))
 
 

@@ -1,4 +1,4 @@
-"""What all parts of an aircraft's mesh are measured by."""
+"""Measures that all parts of an aircraft's mesh share."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Proportions:
     mesh
         The free shape parameters of its type.
     coarse
-        Whether it is drawn with few triangles.
+        True if it is drawn with few triangles.
     radius
         Radius of the fuselage.
     ground
@@ -103,7 +103,7 @@ class Proportions:
 
     @property
     def is_high_wing(self) -> bool:
-        """Whether the wing is above the fuselage."""
+        """True if the wing is above the fuselage."""
         return self.mesh.wing_position == "high"
 
     @property

@@ -48,7 +48,7 @@ class AircraftMesh(_Section):
 
 
 class AircraftShape(Protocol):
-    """What an aircraft type says about its shape."""
+    """Shape of an aircraft type: its category, its size and the numbers of its mesh."""
 
     @property
     def category(self) -> AircraftCategory: ...  # noqa: D102

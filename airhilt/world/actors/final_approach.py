@@ -18,8 +18,8 @@ class FinalApproach:
 
     def __init__(self, airport: Layout, runway: RunwayEnd) -> None:
         self.runway = runway
-        self._frame = airport.frame
-        self._east, self._north = airport.frame.to_local(runway.threshold)
+        self._frame = airport.local_frame
+        self._east, self._north = airport.local_frame.to_local(runway.threshold)
         self._sin, self._cos = math.sin(runway.course_rad), math.cos(runway.course_rad)
 
     def before_m(self, here: Place) -> float:

@@ -66,7 +66,7 @@ class ReferencePoint(_Located):
 
 
 class MagneticVariation(_Section):
-    """Of magnetic north from true north at the reference point."""
+    """Angle from true north to magnetic north at the reference point."""
 
     east_deg: float = Field(ge=-180.0, le=180.0, description="negative is west")
     epoch: float = Field(description="the year for which it holds")
@@ -93,7 +93,7 @@ class Runway(_Section):
 
     @property
     def name(self) -> str:
-        """Such as ``01/19``."""
+        """Name such as ``01/19``."""
         return "/".join(end.ident for end in self.ends)
 
 

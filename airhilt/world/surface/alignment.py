@@ -16,19 +16,19 @@ from airhilt.units import wrap_angle
 Local = tuple[float, float]
 
 CORNER_CUT_M = 3.0
-"""By which a corner is cut at most, where the least radius does not ask for more."""
+"""Greatest distance by which a corner is cut, in m, unless the least radius asks for more."""
 SAME_PLACE_M = 0.01
-"""Points nearer to each other than this are one."""
+"""Distance below which two points are one, in m."""
 SHORTEST_M = 1e-6
 STRAIGHT_RAD = 1e-9
-"""A smaller change of heading is none."""
+"""Change of heading below which a path is straight, in rad."""
 
 
 class Element(NamedTuple):
     """A straight or an arc."""
 
     east_m: float
-    """Of its beginning, like the next two."""
+    """East of its beginning, in m; north and heading are those of the beginning too."""
     north_m: float
     heading_rad: float
     curvature_per_m: float

@@ -1,4 +1,4 @@
-"""Animals and flocks: they stand, walk, run, fly, and take fright."""
+"""Bodies of animals and flocks: they stand, walk, run, fly, and flee."""
 
 from __future__ import annotations
 
@@ -17,34 +17,36 @@ if TYPE_CHECKING:
     from airhilt.world.surface.animal_kind import AnimalKind, Flight
 
 ARRIVED_M = 0.3
-"""An animal on the ground that is nearer than this is there."""
+"""Distance below which an animal on the ground has arrived, in m."""
 WANDER_INTERVAL_S = 1.0
-"""Between draws of the wandering."""
+"""Time between two draws of the wandering, in s."""
 WANDER_MEMORY = 0.8
 """Correlation of one draw with the next."""
 WANDER_FADES_M = 15.0
-"""From here on an animal wanders less and less off the way to where it goes."""
+"""Distance to the goal from which on an animal wanders less and less, in m."""
 SPEED_SIGMA = 0.08
-"""Of the speed's wandering, as a fraction; only ever slower than the gait."""
+"""Standard deviation of the speed, as a share of the gait's; it is never faster than the gait."""
 STEERING_S = 0.3
-"""Time in which a change of direction would be done, were there no limits."""
+"""Time constant of a change of direction without limits, in s."""
 REACTION_SIGMA = 0.3
-"""Of the lognormal reaction time."""
+"""Sigma of the lognormal reaction time."""
 FLIGHT_SPREAD_RAD = math.radians(25.0)
+"""Standard deviation of the direction in which an animal flees, about straight away, in rad."""
 GREATEST_SPREAD_RAD = math.radians(60.0)
-"""An animal flees straight away from what frightens it, give or take a normal draw, cut off."""
+"""Greatest deviation from straight away, in rad."""
 HEIGHT_LAG_S = 2.0
-"""Of levelling off at a height."""
+"""Time constant of levelling off at a height, in s."""
 VERTICAL_ACCELERATION_M_S2 = 3.0
 GLIDE_SHARE = 0.5
-"""Of the greatest rate of descent, used on the way down to land."""
+"""Share of the greatest rate of descent that is used on the way down to land."""
 FLARE_S = 1.0
-"""The last of the height is lost with this time constant,"""
+"""Time constant of the descent just above the ground, in s."""
 TOUCHDOWN_M_S = 0.3
-"""until this rate is left."""
+"""Least rate of descent just above the ground, in m/s."""
 LANDING_SPEED_SHARE = 0.5
-"""Of the speed of flight, below `LANDING_HEIGHT_M` when landing."""
+"""Share of the speed of flight that is flown below `LANDING_HEIGHT_M` when landing."""
 LANDING_HEIGHT_M = 5.0
+"""Height below which a landing bird slows down, in m."""
 AnimalPhase = Literal["standing", "walking", "running", "flying", "fleeing"]
 Gait = Literal["walking", "running", "flying"]
 
@@ -58,24 +60,24 @@ class AnimalBody:
     Parameters
     ----------
     kind
-        What it can do.
+        Its kind, which says what it can do.
     place, heading_rad
         Where its middle is, and its true heading.
     ground_m
         Height of the ground above WGS84.
     tick_s
-        By which `advance` goes on.
+        Time by which `advance` goes on.
     seed
-        Of its wandering and its reactions.
+        Seed of its wandering and its reactions.
     height_m
-        Above the ground. Beginning in the air, it flies straight on.
+        Height above the ground. One that begins in the air flies straight on.
 
     Attributes
     ----------
     state
-        Where it is and how it moves now.
+        Place and movement now.
     ended
-        Why it moves no more, None while it does.
+        Reason for which it moves no more; None while it does.
 
     Raises
     ------
@@ -110,16 +112,16 @@ class AnimalBody:
         self._climb = 0.0
 
         self._gait: Gait | None = None
-        """None: it stands, or comes to a stand."""
+        """Gait; None for one that stands, or comes to a stand."""
         self._goal: tuple[float, float] | None = None
-        """None: straight ahead."""
+        """Goal in the local frame; None for straight ahead."""
         self._goal_height = height_m
         self._lands = False
         self._descends = False
-        """To the ground, and will not climb again before it is there."""
+        """True on the way down to the ground: it does not climb before it is there."""
 
         self._alarm_ticks = 0
-        """Until it flees."""
+        """Ticks until it flees."""
         self._escape = 0.0
         self._fleeing = False
         self._flee_left_m = 0.0
@@ -136,22 +138,22 @@ class AnimalBody:
 
     @property
     def count(self) -> int:
-        """How many animals it is."""
+        """Number of animals."""
         return self.kind.count
 
     @property
     def on_ground(self) -> bool:
-        """Whether the ground carries it."""
+        """True if the ground carries it."""
         return self._height <= 0.0
 
     @property
     def dimensions(self) -> Dimensions:
-        """How large it is now: in the air wings are spread, and flocks have other shapes."""
+        """Size now: in the air wings are spread, and flocks have other shapes."""
         return self.kind.dimensions if self._height <= 0.0 else self._flight.dimensions
 
     @property
     def startled(self) -> bool:
-        """Whether something has startled it, and its flight is not over yet."""
+        """True from a fright until its flight is over."""
         return self._fleeing or self._alarm_ticks > 0
 
     @property
@@ -203,7 +205,7 @@ class AnimalBody:
     def startle(self, away_from: Place) -> None:
         """Flee from a place after a reaction time, running or, if it can, flying.
 
-        From the ground it flies away and lands; from the air it goes on flying. One that is
+        A bird on the ground flies away and lands; one in the air goes on flying. One that is
         startled already takes no notice.
 
         Raises

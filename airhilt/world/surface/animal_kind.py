@@ -19,7 +19,7 @@ from airhilt.world.surface.kind import BODY, CreatureKind
 
 
 class Flight(BaseModel):
-    """How a bird flies.
+    """Numbers of a bird's flight, and its mesh in the air.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class AnimalKind(CreatureKind, BaseModel):
     flees_for_m
         Distance after which a flight from danger ends.
     flight
-        How it flies; None if it does not.
+        Its flight; None if it does not fly.
     radar_cross_section_m2
         Radar cross section of all that move as one.
     """

@@ -25,11 +25,11 @@ from airhilt.world.surface.airport import (
     Taxiways,
 )
 from airhilt.world.surface.airport import Point as Corner
-from airhilt.world.surface.layout import runway_strip
 from airhilt.world.surface.path import Local
+from airhilt.world.surface.strips import runway_strip
 
 DECIMALS = 7
-"""Of degrees: a centimetre."""
+"""Decimals of degrees: a centimetre."""
 
 
 class Draft:
@@ -40,16 +40,16 @@ class Draft:
     reference
         Origin of the local metres.
     runways
-        What the taxiways lead to.
+        Runways to which the taxiways lead.
     width_m
-        Of all taxiways.
+        Width of all taxiways.
     """
 
     def __init__(
         self, reference: ReferencePoint, runways: Sequence[Runway], width_m: float
     ) -> None:
-        self.frame = LocalFrame(reference.place)
-        self.strips = {runway.name: runway_strip(runway, self.frame) for runway in runways}
+        self.local_frame = LocalFrame(reference.place)
+        self.strips = {runway.name: runway_strip(runway, self.local_frame) for runway in runways}
         self.width_m = width_m
         self.at: dict[str, Local] = {}
         self._nodes: list[Node] = []
@@ -58,7 +58,7 @@ class Draft:
 
     @property
     def taxiways(self) -> Taxiways:
-        """What has been drawn."""
+        """The taxiways drawn so far."""
         return Taxiways(nodes=tuple(self._nodes), edges=tuple(self._edges))
 
     def beside(self, runway: str, along_m: float, right_m: float) -> Local:
@@ -112,7 +112,7 @@ class Draft:
 
     def degrees(self, at: Local) -> Corner:
         """Return a point as latitude and longitude in degrees."""
-        latitude, longitude = self.frame.to_place(*at)
+        latitude, longitude = self.local_frame.to_place(*at)
         return round(latitude / DEGREE, DECIMALS), round(longitude / DEGREE, DECIMALS)
 
     def camera(self, name: str, at: Local, height_m: float, azimuth_deg: float) -> Camera:

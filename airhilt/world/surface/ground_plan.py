@@ -15,9 +15,10 @@ from functools import cached_property
 
 from airhilt.units import DEGREE
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.layout import Hold, Layout, RunwayStrip
+from airhilt.world.surface.layout import Hold, Layout
 from airhilt.world.surface.path import Local
 from airhilt.world.surface.runway import RunwayEnd
+from airhilt.world.surface.strips import RunwayStrip
 
 HALF_HOLD_LINE_M = 16.0
 """Half the length of a hold line, in m: it is drawn wider than its taxiway."""
@@ -175,7 +176,7 @@ class GroundPlan:
 
 def ground_plan(layout: Layout) -> GroundPlan:
     """Return the shapes of an airport."""
-    airport, frame = layout.airport, layout.frame
+    airport, frame = layout.airport, layout.local_frame
 
     def outline(corners: Iterable[tuple[float, float]]) -> Outline:
         return tuple(frame.to_local((lat * DEGREE, lon * DEGREE)) for lat, lon in corners)
@@ -217,7 +218,9 @@ def _runway(layout: Layout, strip: RunwayStrip) -> RunwayShape:
 
 
 def _runway_end(layout: Layout, end: RunwayEnd) -> RunwayEndShape:
-    start, threshold, far_end = map(layout.frame.to_local, (end.start, end.threshold, end.end))
+    start, threshold, far_end = map(
+        layout.local_frame.to_local, (end.start, end.threshold, end.end)
+    )
     return RunwayEndShape(
         end.ident,
         start,
@@ -231,11 +234,11 @@ def _runway_end(layout: Layout, end: RunwayEnd) -> RunwayEndShape:
 
 
 def _leg(layout: Layout, nodes: tuple[str, str]) -> Leg:
-    first, second = (layout.frame.to_local(layout.node(name)) for name in nodes)
+    first, second = (layout.local_frame.to_local(layout.node(name)) for name in nodes)
     return first, second
 
 
 def _hold_line(layout: Layout, hold: Hold) -> HoldLine:
     along = lines.unit(*layout.strips[hold.runway].centreline.coords)
-    middle = layout.frame.to_local(hold.place)
+    middle = layout.local_frame.to_local(hold.place)
     return HoldLine(hold.name, hold.position, hold.runway, middle, along)

@@ -1,4 +1,4 @@
-"""What a kind of vehicle or wildlife is: all that AIRHILT needs to know about it, in one object."""
+"""Kinds of vehicles and wildlife: all that AIRHILT needs to know about one, in one object."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Kind(Protocol[M]):
 
     @property
     def category(self) -> Category:
-        """Whether somebody drives it."""
+        """Sort of actor: one with a driver, or wildlife."""
 
     @property
     def dimensions(self) -> Size:
@@ -59,7 +59,7 @@ class Kind(Protocol[M]):
 
     @property
     def emitter_category(self) -> EmitterCategory:
-        """What its transponder says that it is."""
+        """ADS-B emitter category that its transponder sends."""
 
     @property
     def radar_cross_section_m2(self) -> float:
@@ -112,7 +112,7 @@ class Kind(Protocol[M]):
         Returns
         -------
         bool
-            Whether there was anything to do.
+            True if there was anything to do.
 
         Raises
         ------
@@ -125,7 +125,7 @@ class Kind(Protocol[M]):
 
 
 class DrivenKind:
-    """What kinds of vehicles have in common: drivers, who keep to the airport's ways.
+    """Common part of the kinds of vehicles: drivers, who keep to the airport's ways.
 
     A driver understands `TaxiCommand`, `HoldPositionCommand` and `ContinueCommand`, and follows the
     recommendation to hold position. A kind that says nothing else about its looks is a van.
@@ -179,7 +179,7 @@ class DrivenKind:
 
 
 class CreatureKind:
-    """What kinds of wildlife have in common: they move as their plan says, and heed nobody."""
+    """Common part of the kinds of wildlife: they move by their plan, and follow no advisories."""
 
     category: ClassVar[Literal["wildlife"]] = "wildlife"
     emitter_category: ClassVar[EmitterCategory] = "A0"

@@ -11,7 +11,7 @@ from airhilt.world.surface.airport import MagneticVariation, Runway, RunwayThres
 
 MODEL = "WMM_2025"
 FIRST_YEAR, LAST_YEAR = 2025.0, 2030.0
-"""For which the coefficients hold."""
+"""First and last year for which the coefficients hold."""
 SOURCE = Source(
     text="World Magnetic Model 2025 (NOAA/NCEI and British Geological Survey), by pygeomag"
 )

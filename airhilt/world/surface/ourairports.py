@@ -53,23 +53,24 @@ ROLES: dict[str, Role] = {
     "UNIC": "unicom",
     "CTAF": "unicom",
 }
-"""By the first word of OurAirports' type; every other is ``other``."""
+"""Role by the first word of OurAirports' type; every other is ``other``."""
 DECIMALS = 7
-"""Of degrees: a centimetre."""
+"""Decimals of degrees: a centimetre."""
 USUAL_WIDTH_FT = 100.0
-"""For runways whose width is not given."""
+"""Width of runways whose width is not given, in ft."""
 LENGTHS_DISAGREE_M = 25.0
-"""Coordinates that are this much closer or farther than the length says are worth a note."""
+"""Difference between coordinates and published length from which on there is a note, in m."""
 HOLD_DISTANCES_M = ((800.0, 30.0), (1200.0, 40.0), (math.inf, 90.0))
-"""Of holding positions, by runway length: ICAO Annex 14 volume I, table 3-2, code numbers 1 and 2
-without instrument approaches, 3 and 4 with precision approaches of category I."""
+"""Runway lengths, and distances of holding positions from the centre line of shorter runways, in m:
+ICAO Annex 14 volume I, table 3-2, code numbers 1 and 2 without instrument approaches, 3 and 4
+with precision approaches of category I."""
 HOLD_DISTANCE_FAA_M = 250.0 * FOOT
 """FAA AC 150/5300-13B, appendix G: approach categories C and D, design groups I to IV."""
 
 
 @dataclass(frozen=True)
 class Runways:
-    """What a file says of the runways of an airport, and what it leaves open."""
+    """Runways of an airport as a file has them, and notes on what it leaves open."""
 
     runways: tuple[Runway, ...]
     notes: tuple[str, ...]

@@ -12,10 +12,10 @@ Local = tuple[float, float]
 """East and north in metres."""
 
 ARC_STEP_M = 3.0
-"""Between points on a rounded corner."""
+"""Greatest distance between points on a rounded corner, in m."""
 SHORTEST_LEG_M = 0.01
 STRAIGHT_M = 0.05
-"""A point that lies this close to the line between its neighbours is no corner."""
+"""Distance from the line between its neighbours below which a point is no corner, in m."""
 
 
 def length(points: Sequence[Local]) -> float:
@@ -37,9 +37,9 @@ def rounded(points: Sequence[Local], radius_m: float, first_radius_m: float = 0.
     Parameters
     ----------
     radius_m
-        Of the arcs; smaller where the legs beside a corner are too short for it.
+        Radius of the arcs; smaller where the legs beside a corner are too short for it.
     first_radius_m
-        Of the first arc, if it is another one.
+        Radius of the first arc, if it differs.
     """
     points = without_straight_points(points)
     path = list(points[:1])

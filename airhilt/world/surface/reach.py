@@ -1,4 +1,4 @@
-"""How far a vehicle or an animal can be told to go at once."""
+"""The greatest distance that a vehicle or an animal can go at once."""
 
 from __future__ import annotations
 

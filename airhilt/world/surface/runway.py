@@ -1,4 +1,4 @@
-"""One direction of a runway, as those who take off and land on it need it."""
+"""One direction of a runway, for takeoffs and landings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ Place = tuple[float, float]
 """Geodetic latitude and longitude, WGS84, in radians."""
 
 GLIDE_PATH_RAD = math.radians(3.0)
-"""ICAO Annex 14 volume I, 5.3.5.36, and Annex 10 volume I, 3.1.5.1.2.1, recommend 3 degrees."""
+"""Glide path angle, in rad: 3 degrees (ICAO Annex 14 volume I, 5.3.5.36, and Annex 10 volume I,
+3.1.5.1.2.1)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,21 +20,21 @@ class RunwayEnd:
     Attributes
     ----------
     ident
-        Such as ``01`` or ``18C``.
+        Designator such as ``01`` or ``18C``.
     start
-        Where the pavement begins on the centre line: a takeoff may begin here.
+        Beginning of the pavement on the centre line: a takeoff may begin here.
     threshold
-        Where landings may begin: ``start``, or ``displaced_m`` beyond it.
+        Beginning of the part for landings: ``start``, or ``displaced_m`` beyond it.
     end
-        Where the pavement ends.
+        End of the pavement on the centre line.
     elevation_m
-        Of the threshold.
+        Elevation of the threshold.
     width_m, length_m
-        Of the pavement.
+        Width and length of the pavement.
     displaced_m
-        From ``start`` to ``threshold``.
+        Distance from ``start`` to ``threshold``.
     course_rad
-        True, from ``start`` to ``end``, in [0, 2 pi).
+        True course from ``start`` to ``end``, in [0, 2 pi).
     """
 
     ident: str

@@ -1,4 +1,4 @@
-"""Ground vehicles: they follow paths, within what their wheels, engines and brakes can do."""
+"""Bodies of ground vehicles: they follow paths within the limits of their kind."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from airhilt.world.surface.vehicle_kind import VehicleKind
 
 STANDING_M_S = 1e-6
-"""Slower than this is no movement."""
+"""Speed below which a vehicle stands, in m/s."""
 SAME_END_M = 1e-6
-"""Nearer than this to the end of the path is there."""
+"""Distance below which a vehicle is at the end of its path, in m."""
 
 VehiclePhase = Literal["standing", "driving", "stopping"]
 
@@ -28,7 +28,7 @@ class _Stage(NamedTuple):
 
     element: Element
     limit_m_s: float
-    """In it, for the acceleration across."""
+    """Greatest speed in it, for the acceleration across."""
     exit_squared: float
     """Greatest square of the speed at its end from which braking is enough for all that comes."""
     beyond_m: float
@@ -45,22 +45,22 @@ class Vehicle:
     Parameters
     ----------
     kind
-        What it can do.
+        Its kind, which says what it can do.
     place, heading_rad
         Where its middle stands, and its true heading.
     ground_m
         Height of the ground above WGS84.
     tick_s
-        By which `advance` goes on.
+        Time by which `advance` goes on.
 
     Attributes
     ----------
     state
-        Where it is and how it moves now.
+        Place and movement now.
     phase
         ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
     ended
-        Why it moves no more, None while it does.
+        Reason for which it moves no more; None while it does.
 
     Raises
     ------
@@ -97,7 +97,7 @@ class Vehicle:
 
     @property
     def distance_to_go_m(self) -> float:
-        """Left of the path; 0 without one."""
+        """Length of what is left of the path; 0 without a path."""
         if not self._stages:
             return 0.0
         stage = self._stages[self._index]
@@ -106,8 +106,8 @@ class Vehicle:
     def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
         """Follow a path from here, and stop exactly at its end.
 
-        What is too near to be reached within the limits is passed: the vehicle brakes on its
-        heading, turns, and comes back.
+        A vehicle passes a point that is too near to be reached within the limits: it brakes on
+        its heading, turns, and comes back.
 
         Parameters
         ----------
@@ -155,8 +155,8 @@ class Vehicle:
     def advance(self) -> None:
         """Move on by one tick; do nothing once it has ended.
 
-        Of the braking distance, v2 = exit2 + 2 b d, the greatest speed is taken from which it is
-        still kept when the tick, driven at the mean of old and new speed, is over.
+        The new speed is the greatest one from which the braking distance, v2 = exit2 + 2 b d, is
+        still long enough after the tick, which is driven at the mean of old and new speed.
         """
         if self.phase == "standing" or self.ended is not None:
             return

@@ -1,4 +1,4 @@
-"""Ways over an airport by which an actor can do what it is told."""
+"""Ways over an airport, from a place to the end of a taxi command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How near two bodies are to each other, by their outlines and heights."""
+"""Distances between bodies, by their outlines and heights."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Gap(NamedTuple):
 
     @property
     def touches(self) -> bool:
-        """Whether they touch."""
+        """True if they touch."""
         return self.horizontal_m <= 0.0 and self.vertical_m <= 0.0
 
     @property
@@ -39,7 +39,7 @@ def gap(first: Mover, second: Mover, at_s: float = 0.0) -> Gap:
     Parameters
     ----------
     at_s
-        How long from now, both moving straight on; negative for the past.
+        Time from now, in s, in straight movement; negative for the past.
     """
     import shapely
 

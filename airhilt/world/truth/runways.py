@@ -13,7 +13,8 @@ from airhilt.world.actors.actor import Actor
 from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
-    from airhilt.world.surface.layout import Layout, RunwayStrip
+    from airhilt.world.surface.layout import Layout
+    from airhilt.world.surface.strips import RunwayStrip
 
 ROLLING = frozenset({"takeoff_roll", "rotate"})
 """Phases of an aircraft that takes off."""
@@ -124,7 +125,7 @@ class RunwayMonitor:
         self._incurred = incurred
         self._axes = {
             end.ident: (
-                *layout.frame.to_local(end.threshold),
+                *layout.local_frame.to_local(end.threshold),
                 math.sin(end.course_rad),
                 math.cos(end.course_rad),
             )
@@ -184,7 +185,7 @@ class RunwayMonitor:
 
     def _local(self, actor: Actor) -> tuple[float, float]:
         state = actor.body.state
-        return self._layout.frame.to_local((state.latitude_rad, state.longitude_rad))
+        return self._layout.local_frame.to_local((state.latitude_rad, state.longitude_rad))
 
     def _positions(self) -> dict[str, _Position]:
         return {

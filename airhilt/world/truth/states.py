@@ -55,5 +55,5 @@ def zone_of(site: ScenarioSite) -> FixedSite | None:
     """Return the centre of the tower's zone, if there is an airport."""
     if site.layout is None:
         return None
-    centre = site.layout.frame.to_place(0.0, 0.0)
+    centre = site.layout.local_frame.to_place(0.0, 0.0)
     return FixedSite(*centre, altitude_m=site.ground_m)

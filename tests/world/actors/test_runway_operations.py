@@ -277,7 +277,7 @@ def test_taxiing_to_a_hold_its_nose_stops_short_of_the_line() -> None:
     hold = {"type": "hold_short", "runway": "01", "taxiway": "E"}
     tell(crew_of(plane), "taxi", to=hold)
     (_, path, _) = plane.told[0]
-    frame, line = kdca().airport.frame, kdca().airport.hold("01", "E").place
+    frame, line = kdca().airport.local_frame, kdca().airport.hold("01", "E").place
     short = math.dist(frame.to_local(path[-1]), frame.to_local(line))
     assert short == pytest.approx(B737.dimensions.length_m / 2 + 3.0, abs=0.1)
 

@@ -159,7 +159,9 @@ def test_the_example_of_the_guide_is_an_airport(tmp_path: Path) -> None:
     hold = layout.hold("18", "A")
     assert hold.heading_rad == pytest.approx(math.pi / 2.0, abs=1e-3)
     strip = layout.strips["18/36"]
-    assert strip.protected_area.exterior.distance(Point(layout.frame.to_local(hold.place))) < 0.1
+    assert (
+        strip.protected_area.exterior.distance(Point(layout.local_frame.to_local(hold.place))) < 0.1
+    )
 
 
 def test_unknown_fields_are_refused_with_their_place(

@@ -66,7 +66,7 @@ def test_taxiways_enter_protected_areas_only_past_a_hold(ident: str) -> None:
     layout = Layout(airport)
     kinds = {node.name: node.kind for node in airport.taxiways.nodes}
     for edge in airport.taxiways.edges:
-        inside = layout._graph.edges[edge.nodes]["inside"]
+        inside = layout.taxiways.runways_entered(*edge.nodes)
         assert bool(inside) == (sorted(kinds[node] for node in edge.nodes) == ["hold", "runway"])
 
 

@@ -32,7 +32,7 @@ def washington() -> Layout:
 
 
 def local(layout: Layout, places: Sequence[Place]) -> list[tuple[float, float]]:
-    return [layout.frame.to_local(place) for place in places]
+    return [layout.local_frame.to_local(place) for place in places]
 
 
 def midway(layout: Layout, first: str, second: str) -> tuple[float, float]:
@@ -69,7 +69,7 @@ def all_ends(layout: Layout) -> list[str]:
 def test_the_three_runways_of_washington_cross_each_other(washington: Layout) -> None:
     crossings = {(first, second): at for first, second, at in washington.intersections}
     assert set(crossings) == {("01/19", "04/22"), ("01/19", "15/33"), ("04/22", "15/33")}
-    threshold = washington.frame.to_local(washington.runway("01").threshold)
+    threshold = washington.local_frame.to_local(washington.runway("01").threshold)
     assert math.dist(threshold, crossings["01/19", "04/22"]) == pytest.approx(609.0, abs=2.0)
     assert math.dist(threshold, crossings["01/19", "15/33"]) == pytest.approx(1504.5, abs=2.0)
 
@@ -111,14 +111,14 @@ def test_an_unknown_runway_is_answered_with_those_that_exist(washington: Layout)
 def test_hold_lines_lie_on_the_edge_of_the_area_that_they_protect(layout: Layout) -> None:
     for hold in layout.holds.values():
         strip = layout.strips[hold.runway]
-        at = Point(layout.frame.to_local(hold.place))
+        at = Point(layout.local_frame.to_local(hold.place))
         assert strip.protected_area.exterior.distance(at) < 0.02, hold.name
         assert strip.centreline.distance(at) >= strip.hold_distance_m - 0.02, hold.name
 
 
 def test_holds_are_clear_of_every_pavement_and_of_other_protected_areas(layout: Layout) -> None:
     for hold in layout.holds.values():
-        at = Point(layout.frame.to_local(hold.place))
+        at = Point(layout.local_frame.to_local(hold.place))
         for strip in layout.strips.values():
             assert strip.pavement.distance(at) > 25.0, hold.name
             if strip.name != hold.runway:
@@ -128,7 +128,7 @@ def test_holds_are_clear_of_every_pavement_and_of_other_protected_areas(layout: 
 def test_holds_face_the_runway(layout: Layout) -> None:
     for hold in layout.holds.values():
         strip = layout.strips[hold.runway]
-        east, north = layout.frame.to_local(hold.place)
+        east, north = layout.local_frame.to_local(hold.place)
         ahead = Point(
             east + 30.0 * math.sin(hold.heading_rad), north + 30.0 * math.cos(hold.heading_rad)
         )
@@ -138,9 +138,9 @@ def test_holds_face_the_runway(layout: Layout) -> None:
 def test_every_runway_direction_can_be_entered_near_its_start(layout: Layout) -> None:
     for ident in all_ends(layout):
         end, strip = layout.runway(ident), layout.strip_of(ident)
-        start = layout.frame.to_local(end.start)
+        start = layout.local_frame.to_local(end.start)
         along = [
-            math.dist(start, layout.frame.to_local(hold.place))
+            math.dist(start, layout.local_frame.to_local(hold.place))
             for hold in layout.holds.values()
             if hold.runway == strip.name
         ]
@@ -206,20 +206,20 @@ def test_the_way_to_the_end_of_15_or_04_crosses_no_runway(washington: Layout) ->
 def test_via_leads_over_the_taxiways_that_it_names(washington: Layout) -> None:
     direct = washington.taxi_route("gate_b12", "01/19 E")
     detour = washington.taxi_route("gate_b12", "01/19 E", via=("F", "J"))
-    junction = Point(washington.frame.to_local(washington.node("J/F")))
+    junction = Point(washington.local_frame.to_local(washington.node("J/F")))
     assert LineString(local(washington, direct)).distance(junction) > 200.0
     assert LineString(local(washington, detour)).distance(junction) < 15.0
 
 
 def test_a_route_from_a_place_begins_there(washington: Layout) -> None:
-    place = washington.frame.to_place(-125.0, -100.0)
+    place = washington.local_frame.to_place(-125.0, -100.0)
     route = washington.taxi_route(place, "gate_b12")
     assert route[0] == pytest.approx(place)
     assert route[-1] == pytest.approx(washington.node("gate_b12"))
 
 
 def test_a_route_between_two_places_on_one_leg_is_straight(washington: Layout) -> None:
-    a, b = (washington.frame.to_place(-128.6 - 0.0786 * n, n) for n in (-150.0, -50.0))
+    a, b = (washington.local_frame.to_place(-128.6 - 0.0786 * n, n) for n in (-150.0, -50.0))
     route = local(washington, washington.taxi_route(a, b))
     assert length(route) == pytest.approx(100.3, abs=0.5)
 
@@ -233,8 +233,8 @@ def test_a_route_to_a_place_on_a_runway_enters_it_by_a_taxiway(washington: Layou
     place = onward(runway.threshold, runway.course_rad, 920.0)
     route = local(washington, washington.taxi_route("fire_station", place))
     strip, way = washington.strips["01/19"], LineString(route)
-    assert math.dist(route[-1], washington.frame.to_local(place)) < 0.01
-    hold = Point(washington.frame.to_local(washington.hold("01", "D").place))
+    assert math.dist(route[-1], washington.local_frame.to_local(place)) < 0.01
+    hold = Point(washington.local_frame.to_local(washington.hold("01", "D").place))
     assert way.distance(hold) < 0.1
     assert way.intersection(strip.centreline.buffer(0.5)).length == pytest.approx(90.0, abs=5.0)
 
@@ -246,7 +246,7 @@ def test_two_places_on_one_runway_are_joined_along_it(washington: Layout) -> Non
 
 
 def test_a_heading_makes_the_way_go_on_rather_than_turn_round(washington: Layout) -> None:
-    place = washington.frame.to_place(*midway(washington, "J/E", "J/F"))
+    place = washington.local_frame.to_place(*midway(washington, "J/E", "J/F"))
     south, north = math.radians(175.5), math.radians(355.5)
     straight, round_about = (
         length(local(washington, washington.taxi_route(place, "gate_b12", heading_rad=heading)))
@@ -259,7 +259,7 @@ def test_a_heading_makes_the_way_go_on_rather_than_turn_round(washington: Layout
 
 def test_a_route_from_off_the_airport_is_refused(washington: Layout) -> None:
     with pytest.raises(ScenarioError, match=r"start of the taxi route is \d+ m from the nearest"):
-        washington.taxi_route(washington.frame.to_place(3000.0, 0.0), "gate_b12")
+        washington.taxi_route(washington.local_frame.to_place(3000.0, 0.0), "gate_b12")
 
 
 def test_an_unknown_node_gets_the_nearest(washington: Layout) -> None:
@@ -294,7 +294,7 @@ def test_entry_paths_end_lined_up_on_the_centre_line(layout: Layout) -> None:
         assert math.cos(azimuth - end.course_rad) > math.cos(math.radians(0.1))
         centreline = layout.strips[hold.runway].centreline
         for place in path[-8:]:
-            assert centreline.distance(Point(layout.frame.to_local(place))) < 0.1
+            assert centreline.distance(Point(layout.local_frame.to_local(place))) < 0.1
 
 
 def test_entry_paths_can_be_steered_and_are_dense(layout: Layout) -> None:
@@ -306,8 +306,10 @@ def test_entry_paths_can_be_steered_and_are_dense(layout: Layout) -> None:
 
 def test_an_entry_from_the_end_is_lined_up_within_a_hundred_metres(washington: Layout) -> None:
     path = washington.entry_path(washington.hold("01", "A"), "01")
-    start = washington.frame.to_local(washington.runway("01").start)
-    assert math.dist(start, washington.frame.to_local(path[-1])) == pytest.approx(100.0, abs=1.0)
+    start = washington.local_frame.to_local(washington.runway("01").start)
+    assert math.dist(start, washington.local_frame.to_local(path[-1])) == pytest.approx(
+        100.0, abs=1.0
+    )
 
 
 def test_a_hold_of_another_runway_is_no_way_in(washington: Layout) -> None:
@@ -344,14 +346,16 @@ def test_exits_begin_on_the_centre_line_and_end_clear_of_the_runway(washington: 
             assert strip.centreline.distance(Point(path[0])) < 0.1
             assert not strip.protected_area.contains(Point(path[-1])), way.hold
             past = LineString(path)
-            hold = past.project(Point(washington.frame.to_local(washington.holds[way.hold].place)))
+            hold = past.project(
+                Point(washington.local_frame.to_local(washington.holds[way.hold].place))
+            )
             assert past.length - hold == pytest.approx(CLEAR_OF_HOLD_M, abs=0.5), way.hold
 
 
 def test_exits_do_not_end_in_the_protected_area_of_another_runway(layout: Layout) -> None:
     for ident in all_ends(layout):
         for way in layout.exits(ident):
-            end = Point(layout.frame.to_local(way.path[-1]))
+            end = Point(layout.local_frame.to_local(way.path[-1]))
             for strip in layout.strips.values():
                 assert strip.protected_area.buffer(-0.1).disjoint(end), (ident, way.hold)
 

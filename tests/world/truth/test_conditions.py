@@ -166,11 +166,11 @@ class Airport(Case):
     def __init__(self, condition, along_m=-3_000.0, speed=72.0, car_along_m=800.0, **aircraft):
         layout = Layout(load_airport("KDCA"))
         end = layout.runway("01")
-        east, north = layout.frame.to_local(end.threshold)
+        east, north = layout.local_frame.to_local(end.threshold)
         sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
 
         def at(body, along):
-            place = layout.frame.to_place(east + along * sin, north + along * cos)
+            place = layout.local_frame.to_place(east + along * sin, north + along * cos)
             body.state = body.state._replace(latitude_rad=place[0], longitude_rad=place[1])
             return body
 

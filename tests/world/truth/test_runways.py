@@ -44,13 +44,13 @@ class Body:
     @property
     def state(self) -> SurfaceState:
         end = kdca().runway(self.runway)
-        east, north = kdca().frame.to_local(end.threshold)
+        east, north = kdca().local_frame.to_local(end.threshold)
         sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
         east += self.along_m * sin + self.right_m * cos
         north += self.along_m * cos - self.right_m * sin
         speed = self.speed_kt * KNOT
         return SurfaceState(
-            *kdca().frame.to_place(east, north),
+            *kdca().local_frame.to_place(east, north),
             altitude_m=self.height_m,
             height_agl_m=self.height_m,
             velocity_north_m_s=speed * cos,

@@ -198,7 +198,7 @@ def _on_final(
     """Return a place on the glide path of a runway, and the heading of who flies there."""
     ends = [end for strip in layout.strips.values() for end in strip.ends]
     end = ends[int(draws.integers(len(ends)))]
-    east, north = layout.frame.to_local(end.threshold)
+    east, north = layout.local_frame.to_local(end.threshold)
     before = math.exp(draws.uniform(math.log(150.0), math.log(12_000.0)))
     aside = float(draws.normal(0.0, 0.01)) * before
     sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
@@ -213,7 +213,7 @@ def _on_pavement(layout: Layout, draws: np.random.Generator) -> tuple[tuple[floa
     edges = airport.taxiways.edges
     if edges and draws.random() < 0.6:
         nodes = edges[int(draws.integers(len(edges)))].nodes
-        start, end = (np.asarray(layout.frame.to_local(layout.node(name))) for name in nodes)
+        start, end = (np.asarray(layout.local_frame.to_local(layout.node(name))) for name in nodes)
     else:
         strip = list(layout.strips.values())[int(draws.integers(len(layout.strips)))]
         start, end = (np.asarray(corner) for corner in strip.centreline.coords)

@@ -113,7 +113,7 @@ class Casting:
         place = list(self._layouts)[number % len(self._layouts)]
         layout = self._layouts[place]
         latitude = math.radians(float(draws.uniform(*FLIGHT_LATITUDES)))
-        local_frame = LocalFrame((latitude, 0.0)) if layout is None else layout.frame
+        local_frame = LocalFrame((latitude, 0.0)) if layout is None else layout.local_frame
         weather, daylight, light = _weather(local_frame, layout is None, draws)
         height = math.exp(draws.uniform(math.log(400.0), math.log(9000.0)))
         if layout is not None:
@@ -202,7 +202,7 @@ def _standpoint(layout: Layout, draws: np.random.Generator) -> Pose:
     level = float(draws.normal(-2.0, 4.0)) * DEGREE
     choice = draws.random()
     if choice < 0.3 and airport.tower is not None:
-        east, north = layout.frame.to_local(airport.tower.place)
+        east, north = layout.local_frame.to_local(airport.tower.place)
         up = airport.tower.height_m + float(draws.uniform(1.0, 15.0))
         return Pose.of((east, north, up), azimuth, level - 2.0 * DEGREE)
     strip = list(layout.strips.values())[int(draws.integers(len(layout.strips)))]

@@ -137,10 +137,10 @@ class _Airport:
     def __init__(self, layout: Layout, light: Illumination) -> None:
         self._layout = layout
         self._airport = layout.airport
-        self._plane = layout.frame
+        self._plane = layout.local_frame
         self._light = light
         self._seed = _seed(layout.airport.icao)
-        to_local = layout.frame.to_local
+        to_local = layout.local_frame.to_local
         nodes = {node.name: to_local(node.place) for node in self._airport.taxiways.nodes}
         self._legs = [
             ((nodes[edge.nodes[0]], nodes[edge.nodes[1]]), edge.width_m)

@@ -40,7 +40,7 @@ def airport_lights(layout: Layout) -> tuple[Light, ...]:
 def _runway_lights(layout: Layout) -> Iterator[Light]:
     for strip in layout.strips.values():
         first, second = strip.ends
-        low, high = (layout.frame.to_local(end.start) for end in (first, second))
+        low, high = (layout.local_frame.to_local(end.start) for end in (first, second))
         along = np.subtract(high, low)
         length = float(np.hypot(*along))
         ahead = along / length
@@ -64,7 +64,7 @@ def _runway_lights(layout: Layout) -> Iterator[Light]:
 
 
 def _taxiway_lights(layout: Layout) -> Iterator[Light]:
-    nodes = {n.name: layout.frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
+    nodes = {n.name: layout.local_frame.to_local(n.place) for n in layout.airport.taxiways.nodes}
     runways = [strip.pavement.buffer(20.0) for strip in layout.strips.values()]
     for edge in layout.airport.taxiways.edges:
         start, end = (np.asarray(nodes[name]) for name in edge.nodes)

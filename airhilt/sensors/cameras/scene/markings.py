@@ -19,9 +19,10 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.units import FOOT
 
 if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
-    from airhilt.world.surface.layout import Hold, RunwayStrip
+    from airhilt.world.surface.layout import Hold
     from airhilt.world.surface.path import Local
     from airhilt.world.surface.runway import RunwayEnd
+    from airhilt.world.surface.strips import RunwayStrip
 
 THRESHOLD_STRIPES = ((60.0, 4), (75.0, 6), (100.0, 8), (150.0, 12), (200.0, 16))
 """Runway width in feet, number of stripes: table 2-2."""
