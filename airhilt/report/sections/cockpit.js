@@ -1,12 +1,12 @@
 const INSTRUMENTS = [
   ["Airspeed (kt)", (state) => whole(state.airspeed_kt)], ["Mach", (state) => fixed(state.mach, 2)], ["Altitude (ft)", (state) => whole(state.altitude_ft)],
-  ["Vertical speed (ft/min)", (state) => whole(state.vertical_speed_fpm)], ["Heading (°)", (state) => fixed(state.heading_deg, 0)], ["Track (°)", (state) => fixed(state.track_deg, 0)],
-  ["Ground speed (kt)", (state) => whole(state.ground_speed_kt)], ["Selected altitude (ft)", (state) => whole(state.selected_altitude_ft)], ["Mode", (state) => words(state.mode)],
+  ["V/S (ft/min)", (state) => whole(state.vertical_speed_fpm)], ["Heading (°)", (state) => bearing(state.heading_deg).slice(0, -1)], ["Track (°)", (state) => bearing(state.track_deg).slice(0, -1)],
+  ["GS (kt)", (state) => whole(state.ground_speed_kt)], ["Selected (ft)", (state) => whole(state.selected_altitude_ft)], ["Mode", (state) => words(state.mode)],
 ];
 
 function drawCockpits() {
   byId("cockpit").hidden = !data.length;
-  const kind = (name) => (name === "Mode" ? "" : "number");
+  const kind = (name) => (name === "Mode" ? "kind" : "number");
   const cells = data.map(() => INSTRUMENTS.map(([name]) => html("td", { class: kind(name) })));
   byId("instruments").replaceChildren(html("thead", {}, html("tr", {}, html("th", { scope: "col" }, "Aircraft"), ...INSTRUMENTS.map(([name]) => html("th", { scope: "col", class: kind(name) }, name)))),
     html("tbody", {}, ...data.map(({ callsign }, i) => html("tr", {}, html("th", { scope: "row", style: `color: ${colourOf(callsign)}` }, callsign), ...cells[i]))));
