@@ -88,10 +88,8 @@ def _quadruped(
             )
         )
         for at, stride in ((front, 0.07), (back, -0.06)):
-            knee = (side * 0.24 * width, at + 0.4 * stride * side * length, 0.48 * top)
-            foot = (side * 0.24 * width, at + stride * side * length, 0.0)
-            parts.append(tube((side * 0.24 * width, at, top), knee, (0.28 * deep, 0.035), coat, 7))
-            parts.append(tube(knee, foot, (0.035, 0.022), coat, 6))
+            hip = (side * 0.24 * width, at, top)
+            parts += _leg(hip, stride * side * length, 0.28 * deep, coat)
         if antlers:
             parts += _antler(side, head_at, height)
     parts.append(
@@ -108,6 +106,18 @@ def _quadruped(
         )
     )
     return join(parts)
+
+
+def _leg(
+    hip: tuple[float, float, float], stride_m: float, thigh_m: float, coat: Colour
+) -> list[Mesh]:
+    """Return a leg from the hip to a foot on the ground, a stride ahead."""
+    right, at, top = hip
+    knee = (right, at + 0.4 * stride_m, 0.48 * top)
+    return [
+        tube(hip, knee, (thigh_m, 0.035), coat, 7),
+        tube(knee, (right, at + stride_m, 0.0), (0.035, 0.022), coat, 6),
+    ]
 
 
 def _antler(side: float, head: tuple[float, float, float], height: float) -> list[Mesh]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from airhilt.world.surface.airport import (
     Airport,
+    Block,
     Building,
     MagneticVariation,
     ReferencePoint,
@@ -63,7 +64,6 @@ def import_airport(
         variation = MagneticVariation(east_deg=variation_deg, epoch=year)
         variation_source = Source(text="Stated by the user")
     plan = TaxiwayPlan(reference, read.runways)
-    invented = Source(text=INVENTED, synthetic=True, note="not the real ones")
     apron = plan.apron
     latitude, longitude = plan.draft.degrees(apron.point(0.0, 130.0))
     return Airport(
@@ -81,23 +81,29 @@ def import_airport(
         ),
         frequencies=read_frequencies(frequencies, ident),
         cameras=plan.cameras(TOWER_HEIGHT_M),
-        sources={
-            "reference": Source(text="Middle of the runway ends"),
-            "elevation_ft": Source(text=f"Highest runway end of {CREDIT}"),
-            "magnetic_variation": variation_source,
-            "runways": Source(
-                text=f"{CREDIT}; hold distances: ICAO Annex 14 volume I, table 3-2, and FAA "
-                "AC 150/5300-13B; magnetic headings from the coordinates and the variation",
-                note="; ".join(read.notes),
-            ),
-            "taxiways": invented,
-            "holds": invented,
-            "tower": invented,
-            "buildings": invented,
-            "frequencies": Source(text=CREDIT),
-            "cameras": invented,
-        },
+        sources=_sources(variation_source, read.notes),
     )
+
+
+def _sources(variation: Source, notes: tuple[str, ...]) -> dict[Block, Source]:
+    """Return where the numbers of an imported airport come from."""
+    invented = Source(text=INVENTED, synthetic=True, note="not the real ones")
+    return {
+        "reference": Source(text="Middle of the runway ends"),
+        "elevation_ft": Source(text=f"Highest runway end of {CREDIT}"),
+        "magnetic_variation": variation,
+        "runways": Source(
+            text=f"{CREDIT}; hold distances: ICAO Annex 14 volume I, table 3-2, and FAA "
+            "AC 150/5300-13B; magnetic headings from the coordinates and the variation",
+            note="; ".join(notes),
+        ),
+        "taxiways": invented,
+        "holds": invented,
+        "tower": invented,
+        "buildings": invented,
+        "frequencies": Source(text=CREDIT),
+        "cameras": invented,
+    }
 
 
 def _centre(runways: tuple[Runway, ...]) -> ReferencePoint:
