@@ -156,7 +156,7 @@ def test_the_example_on_the_sdk_works(encounter: Scenario, tmp_path: Path) -> No
         result = run(encounter, out=tmp_path / "run", listen=endpoint, attach=("simple",))
         assert worker.wait(timeout=10.0) == 0
     assert result.summary.assistant == "external"
-    assert [told.id for told in result.summary.advisories] == ["a1b2c3-a4d5e6"]
+    assert [told.id for told in result.summary.advisories] == ["simple-a1b2c3-a4d5e6"]
     assert replay(result.folder).identical
 
 
