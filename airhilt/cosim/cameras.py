@@ -1,4 +1,4 @@
-"""The vision of a run: its cameras, what is kept of their pictures, or why there are none."""
+"""The cameras of a run, what is kept of their pictures, or why there are none."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class Recorder(Protocol):
 
 
 class Vision:
-    """The cameras of a run; without any, `mount`, `start` and `finish` do nothing.
+    """The cameras of a run; without a renderer, `mount`, `start` and `finish` do nothing.
 
     Parameters
     ----------
     process
-        What draws; None where nothing is to be drawn, or nothing can.
+        Process that draws; None where nothing is to be drawn, or nothing can.
     unavailable_reason
         Why pictures that somebody would look at cannot be drawn; empty if they can.
     is_watched
@@ -77,7 +77,7 @@ class Vision:
 
     @property
     def state(self) -> tuple[ModalityState, str]:
-        """State of the modality vision when the run begins, and its cause."""
+        """State of vision when the run begins, and its cause."""
         if self._unavailable_reason:
             return "not evaluated", self._unavailable_reason
         return "on" if self._process is not None and self._is_watched else "off", ""
@@ -91,7 +91,7 @@ class Vision:
         closest_ns: Callable[[], int | None],
         lost: Callable[[str], None],
     ) -> None:
-        """Put the cameras into the world of a run, and let its recorders hear what is published.
+        """Add the cameras to a run, and let recorders take what is published.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class Vision:
         )
 
     def start(self) -> None:
-        """Tell of the cameras, and let them expose."""
+        """Publish what never changes about the cameras, and schedule their exposures."""
         if self._sensor is not None:
             self._sensor.start()
 
@@ -180,7 +180,7 @@ def open_vision(
     link: RendererLink | None,
     notice: Callable[[str], None],
 ) -> Iterator[Vision]:
-    """Let the renderer be there for the time of a run, if somebody might look at its pictures.
+    """Open the renderer for the time of a run, if somebody might look at its pictures.
 
     Parameters
     ----------

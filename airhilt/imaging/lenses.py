@@ -1,4 +1,4 @@
-"""Which lenses cameras may have, whether a scenario declares them or the file of an airport."""
+"""Limits of lenses, for cameras of scenarios and of airports."""
 
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ SMALLEST_SIDE_PX = 16
 GREATEST_SIDE_PX = 4096
 
 FieldOfView = Annotated[float, Field(ge=NARROWEST_DEG, le=WIDEST_DEG)]
-"""From side to side of a picture, in degrees."""
+"""Horizontal field of view in degrees."""
 SidePx = Annotated[int, Field(ge=SMALLEST_SIDE_PX, le=GREATEST_SIDE_PX)]
 """Width or height of a picture in pixels."""

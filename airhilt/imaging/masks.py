@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 Mask = npt.NDArray[np.bool_]
-"""Of the pixels of a picture, shape (rows, columns)."""
+"""Mask of the pixels of a picture, shape (rows, columns)."""
 
 
 def runs_of(mask: Mask) -> tuple[int, ...]:

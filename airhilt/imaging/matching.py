@@ -1,4 +1,4 @@
-"""Which detection is about which actor in a picture.
+"""Matching of detections with the actors in a picture.
 
 A detection is about an actor if their boxes overlap by `OVERLAP`, or, where the actor is shorter
 than `SMALL_PX` or thinner than `THIN_PX`, if the middle of the detection lies in the actor's box or

@@ -1,6 +1,6 @@
-"""How a camera, as its messages describe it, maps directions of the world to its picture.
+"""The pinhole camera that messages describe: from directions of the world to its picture.
 
-Whoever draws has `airhilt.imaging.view`; this is for all that has nothing but the messages.
+`airhilt.imaging.view` is for drawing; this is for workers, which have the messages alone.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from airhilt.messages import CameraView
 from airhilt.units import DEGREE
 
 LEAST_AHEAD = 1e-3
-"""Of a direction's length: what is less far ahead of a camera is beside or behind it."""
+"""Least part of a direction's length that points ahead; less is beside or behind the camera."""
 
 
 class Pinhole:
@@ -39,7 +39,7 @@ class Pinhole:
 
     @cached_property
     def axes(self) -> npt.NDArray[np.float64]:
-        """Its axes in east, north and up, as columns."""
+        """Axes of the camera in east, north and up, as columns."""
         view = self._view
         right, ahead, up = attitude(
             view.heading_deg * DEGREE, view.pitch_deg * DEGREE, view.roll_deg * DEGREE

@@ -20,9 +20,9 @@ from airhilt.imaging.lenses import GREATEST_SIDE_PX, NARROWEST_DEG, SMALLEST_SID
 Floats = npt.NDArray[np.float32]
 Matrix = npt.NDArray[np.float64]
 NEAR_M = 0.3
-"""Nothing nearer is drawn."""
+"""Least depth that is drawn, in m."""
 LARGEST_MB = 8 * GREATEST_SIDE_PX**2 // 10**6
-"""Colour, instance and distance of the largest picture."""
+"""Size of the largest picture in MB: colour, instance and distance."""
 
 
 @dataclass(frozen=True)
@@ -121,17 +121,17 @@ class Window:
 
     @property
     def width(self) -> int:
-        """In pixels."""
+        """Width in pixels."""
         return self.right - self.left
 
     @property
     def height(self) -> int:
-        """In pixels."""
+        """Height in pixels."""
         return self.bottom - self.top
 
     @property
     def area(self) -> int:
-        """In pixels; 0 where it is empty."""
+        """Area in pixels; 0 where it is empty."""
         return max(self.width, 0) * max(self.height, 0)
 
     @property

@@ -15,7 +15,7 @@ from airhilt.shapes.mesh import Floats
 
 @dataclass(frozen=True)
 class Sighting:
-    """What is true of a body in a picture.
+    """The truth about a body in a picture.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Sighting:
 
     @property
     def occlusion(self) -> float:
-        """Part of the body's area within the picture that something hides."""
+        """Hidden part of the body's area within the picture."""
         return 1.0 - self.visible_fraction
 
 

@@ -19,7 +19,8 @@ from airhilt.world.surface.airport import Camera as AirportCamera
 
 AIRPORT_CAMERA_PX = (640, 360)
 NOSE_LOOKS_DOWN_RAD = 4.0 * DEGREE
-"""About the angle of attack of an airliner in level flight: the horizon is in the middle."""
+"""Angle below the body axis, in rad: about an airliner's angle of attack in level flight, so that
+the horizon is in the middle."""
 TAIL_LOOKS_DOWN_RAD = 7.0 * DEGREE
 
 
@@ -45,7 +46,7 @@ class Camera:
 
     @property
     def is_fixed(self) -> bool:
-        """Whether it never moves."""
+        """The camera never moves."""
         return isinstance(self.at, Pose)
 
     @property
@@ -70,7 +71,7 @@ class Camera:
 
 
 def local_frame_of(site: ScenarioSite) -> LocalFrame:
-    """Return the local frame in which a setting is drawn."""
+    """Return the local frame in which a site is drawn."""
     if site.layout is not None:
         return site.layout.local_frame
     return LocalFrame((site.centre.lat_deg * DEGREE, site.centre.lon_deg * DEGREE))

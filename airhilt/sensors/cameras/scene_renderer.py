@@ -34,23 +34,23 @@ from airhilt.sensors.cameras.scene.shadows import darken
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
 
-FINENESS = ((900, 4), (2500, 3), (16_000, 2))
-"""Pixels of a window at most, samples along each side of a pixel; larger windows have one."""
+SAMPLES_OF_AREA = ((900, 4), (2500, 3), (16_000, 2))
+"""Area of a window in pixels, at most, and samples along each side of its pixels; larger windows
+have one sample a pixel."""
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
-"""That the numbers of ``Frame.instance`` tell apart."""
+"""Number of actors that ``Frame.instance`` tells apart."""
 FAINTEST = 1.0 / 512.0
-"""Pixels, times what the air leaves of their contrast: less changes no level of any pixel."""
+"""Least area in pixels, times the contrast that the air leaves, that changes a level of a pixel."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
 SMALL_PX = 4000
-"""Area of a window in which a body may be coarse."""
+"""Area of a window, in pixels, below which a body is drawn coarsely."""
 OWN_SAMPLES = 2
 OWN_MARGIN_PX = 2
-"""By which the mask of the own aircraft is larger than what is seen of it."""
+"""Margin of the mask of the own aircraft, in pixels."""
 AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
-"""A picture of the own aircraft is kept while the light turns less than a step of this part of
-a radian."""
+"""Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""
 
 
 class _Seen(NamedTuple):
@@ -86,8 +86,8 @@ class SceneRenderer:
     models
         How each actor looks, by callsign.
     rain_mm_h
-        Of which streaks are drawn; what the rain does to the visibility is in ``light``.
-    fine
+        Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
+    supersampling
         Samples along each side of a pixel, at least.
 
     Attributes
@@ -156,11 +156,11 @@ class SceneRenderer:
 
     @property
     def actors(self) -> tuple[str, ...]:
-        """Those of the numbers in ``Frame.instance``, from 1."""
+        """Actors of the numbers in ``Frame.instance``, from 1."""
         return tuple(self._numbers)
 
     def close(self) -> None:
-        """Give back what was taken."""
+        """Release what the renderer holds."""
         self._renderer.close()
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
@@ -327,11 +327,11 @@ class SceneRenderer:
         if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
             return None
         window = box.window(view)
-        samples = max(min(_fineness(window), 2), self._supersampling)
+        samples = max(min(_samples_of(window), 2), self._supersampling)
         return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
 
     def _samples(self, window: Window) -> int:
-        return max(_fineness(window), self._supersampling)
+        return max(_samples_of(window), self._supersampling)
 
     # --- lights and truth -----------------------------------------------------------------
 
@@ -399,5 +399,5 @@ class SceneRenderer:
         return f"{self._models[body.actor].kind}/{body.shape}"
 
 
-def _fineness(window: Window) -> int:
-    return next((samples for area, samples in FINENESS if window.area <= area), 1)
+def _samples_of(window: Window) -> int:
+    return next((samples for area, samples in SAMPLES_OF_AREA if window.area <= area), 1)

@@ -1,4 +1,4 @@
-"""The cameras of a run: when they expose, and what they give out."""
+"""The cameras of a run: when they expose, and what they publish."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ from airhilt.world.site import ScenarioSite
 
 
 class FrameSource(Protocol):
-    """Takes the pictures of all cameras that are due at an instant."""
+    """Source of the pictures of all cameras that are due at an instant."""
 
     own_aircraft: Mapping[str, npt.NDArray[np.bool_]]
     """Pixels that a camera's own aircraft may cover, by camera."""
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
-        """Take them.
+        """Take the pictures.
 
         Raises
         ------
@@ -117,7 +117,7 @@ class CameraSensor:
         self._sha256: dict[str, str] = {}
 
     def start(self) -> None:
-        """Tell what never changes about each camera, and schedule the first exposures."""
+        """Publish what never changes about each camera, and schedule the first exposures."""
         for camera in self._cameras.values():
             own = self._frame_source.own_aircraft.get(camera.name)
             self._publish(
@@ -153,7 +153,7 @@ class CameraSensor:
             self._lost(str(error))
             return
         for frame in frames:
-            self._give_out(frame, self._taken[frame.camera])
+            self._publish_frame(frame, self._taken[frame.camera])
         for name in due:
             self._taken[name] += 1
         self._schedule()
@@ -171,7 +171,7 @@ class CameraSensor:
             self._state_at_ns(),
         )
 
-    def _give_out(self, frame: Frame, seq: int) -> None:
+    def _publish_frame(self, frame: Frame, seq: int) -> None:
         now_ns, name = self._director.now_ns, frame.camera
         pixels = frame.colour.tobytes()
         if not frame.unchanged or name not in self._sha256:
@@ -196,7 +196,7 @@ class CameraSensor:
 
 
 def view_message(view: View, local_frame: LocalFrame, carrier: str | None) -> CameraView:
-    """Return a view in the words of messages."""
+    """Return a view as a message."""
     east, north, up = view.pose.position_m
     latitude, longitude = local_frame.to_place(east, north)
     heading, pitch, roll = angles_of(view.pose.rotation)

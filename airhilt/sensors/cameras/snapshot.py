@@ -1,4 +1,4 @@
-"""One picture of a scenario at a time."""
+"""Snapshots: one picture of a scenario at a time."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
-"""Control tick of the actors, as in a run."""
-FINE = 3
+"""Control tick of the actors in s, as in a run."""
+SUPERSAMPLING = 3
 """Samples along each side of a pixel."""
 
 
@@ -46,7 +46,7 @@ def snapshot(
     ticks = now_ns // tick_ns
     realised, _ = draw(scenario, seed)
     site = ScenarioSite.of(realised)
-    with RendererProcess(realised, [camera], renderer, FINE) as scene_renderer:
+    with RendererProcess(realised, [camera], renderer, SUPERSAMPLING) as scene_renderer:
         actors = build_actors(realised, site, seed, TICK_S)
         for _ in range(ticks):
             for actor in actors.values():

@@ -43,9 +43,9 @@ FIRST_CLASSES: tuple[VisibleClass, ...] = ("airplane", "truck", "bird", "deer", 
 
 Classes of other kinds follow in the order of their names."""
 QUALITY = 95
-"""Of the JPEGs; colours are not subsampled."""
+"""Quality of the JPEGs; colours are not subsampled."""
 FAINTEST_PX = 0.5
-"""Of what shows less of itself than this, nothing is said."""
+"""Least area, in pixels, of a body that is annotated."""
 LAST_INSTANT_NS = 100 * 10**9
 
 

@@ -15,12 +15,12 @@ from airhilt.units import DEGREE
 from airhilt.world.surface.layout import Layout
 
 SMALLEST_PX, LARGEST_PX = 5.0, 250.0
-"""Between which the sizes of bodies in the pictures are spread, evenly in their logarithm."""
+"""Least and greatest size of bodies in pixels; sizes are spread evenly in their logarithm."""
 FAINTEST = 0.03
 """Part of a body's contrast that the air must leave for it to be placed."""
 FARTHEST_M = 20_000.0
 TRIES = 15
-"""To place a body within a picture; some pictures have no room for one."""
+"""Number of tries to place a body within a picture; some pictures have no room for one."""
 _EXTENT_M = {kind: extent for _, group in KINDS for kind, _, extent in group}
 _OFTEN = {kind: often for _, group in KINDS for kind, often, _ in group}
 _FLYING = frozenset(kind for kind, *_ in (*AIRCRAFT, *BIRDS))

@@ -31,15 +31,15 @@ from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 
 EN_ROUTE = "en_route"
-"""In place of an airport: open country."""
+"""Name of open country, in place of an airport."""
 FIELDS_OF_VIEW = (10.0, 75.0)
-"""In degrees. Narrow ones show things as large as parts of bigger pictures do, which are looked at
-tile by tile."""
+"""Least and greatest field of view, in degrees. Narrow ones show things as large as the tiles of
+bigger pictures do."""
 FIXED_CAMERAS = 6
 SHOTS_OF_A_CAMERA = 4
-"""Few of each, so that there are many skies and grounds."""
+"""Pictures of each camera: few, so that there are many skies and grounds."""
 FLIGHT_LATITUDES = (30.0, 55.0)
-"""In degrees, of open country."""
+"""Least and greatest latitude of open country, in degrees."""
 DAYS_OF_A_YEAR = 365
 
 # Kinds, how often each is drawn, and its greatest extent in metres.

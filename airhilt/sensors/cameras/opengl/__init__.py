@@ -1,1 +1,1 @@
-"""What the OpenGL renderer is made of."""
+"""Parts of the OpenGL renderer."""

@@ -1,4 +1,4 @@
-"""What OpenGL computes for each corner and each sample, in GLSL 3.30."""
+"""Shaders in GLSL 3.30: what is computed for each corner and each sample."""
 
 from __future__ import annotations
 

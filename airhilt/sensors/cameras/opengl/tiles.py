@@ -19,12 +19,12 @@ from airhilt.shapes.mesh import Floats
 
 LEAST_TILE_M = 700.0
 SLACK = np.float32(1.0 / 32.0)
-"""Samples by which a triangle is taken for larger than it is: OpenGL rounds places."""
+"""Margin about a triangle, in samples: OpenGL rounds places."""
 Numbers = npt.NDArray[np.intp]
 
 
 class Shown(NamedTuple):
-    """What of the landscape may show in a window.
+    """Triangles of the landscape that may show in a window.
 
     Attributes
     ----------

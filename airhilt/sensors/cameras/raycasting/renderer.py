@@ -1,4 +1,4 @@
-"""Pictures of what rays meet: all of the drawing that does not depend on who casts the rays.
+"""Pictures of what rays meet: all of the drawing that is the same for every ray caster.
 
 The landscape is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel
 of every second row; where the four about a pixel meet the same piece, so does the pixel, and its
@@ -32,10 +32,10 @@ Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]
 """Numbers of pieces."""
 RAISED_M = 0.5
-"""Above the ground: what reaches higher may stand before the sky."""
+"""Height above the ground, in m: what reaches higher may stand before the sky."""
 LEAST_RADIUS_M, SQUARES = 4.0, 8.0
-"""What stands is taken together in squares whose sides are so many times the radius of its
-triangles, or of triangles of the least radius."""
+"""Least radius of triangles, in m, and side of the squares in which what stands is taken together,
+as a multiple of the radius."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -77,11 +77,11 @@ class RayRenderer:
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
-        """Take in the shape of a body."""
+        """Keep the shape of a body, to draw it by this name."""
         self._bodies[name] = _Body(self._build(mesh.corners), mesh.normals, mesh.colours, mesh.glow)
 
     def close(self) -> None:
-        """Give back what was taken."""
+        """Release the shapes."""
         self._bodies.clear()
 
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
@@ -104,7 +104,7 @@ class RayRenderer:
         inverse_depth += _of(ahead, pieces)
         with np.errstate(divide="ignore"):
             distance = np.divide(length, inverse_depth, out=inverse_depth)
-        left = np.exp(distance * np.float32(-self._light.backdrop_extinction_per_m))
+        left = np.exp(distance * np.float32(-self._light.background_extinction_per_m))
         np.copyto(left, np.float32(1.0), where=sky)
         return Samples(self._colour_of(pieces, left, glare), distance)
 

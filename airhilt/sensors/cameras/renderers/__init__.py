@@ -1,4 +1,4 @@
-"""What draws pictures: one file a renderer, each with its `RENDERER`.
+"""Renderers, which draw pictures: one file each, with its `RENDERER`.
 
 A file in this package needs no registration. A renderer outside of it is found by an entry point
 of the group ``airhilt.renderers`` that names the object, such as
@@ -24,11 +24,11 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Floats, Mesh
 
 PREFERRED = ("open3d", "embree")
-"""Renderers that ``auto`` tries, the first of which that is installed draws."""
+"""Renderers that ``auto`` tries in turn; the first that can be loaded draws."""
 
 
 class Samples(NamedTuple):
-    """What is seen in the samples of a window.
+    """The samples of a window.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class RendererBackend(Protocol):
 
     @property
     def needs(self) -> str:
-        """How to install what it needs, in one line."""
+        """Commands that install what it needs, in one line."""
 
     def open(self, landscape: Mesh, light: Illumination) -> Renderer:
         """Return a renderer of a landscape in some light.

@@ -22,9 +22,9 @@ from airhilt.shapes.mesh import Floats, Mesh
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 FAR_M = 600_000.0
 WITHIN = 0.99
-"""Of the depth of what is nearest: depths are rounded."""
+"""Near plane, as a part of the depth of what is nearest: depths are rounded."""
 SHELF_PX = 1024
-"""Width of a row of windows that are drawn together."""
+"""Width of a row of windows that are drawn together, in pixels."""
 
 
 @dataclass(frozen=True)
@@ -90,11 +90,11 @@ class ModernGLRenderer:
             ):
                 if name in program:
                     program[name] = value
-        self._landscape_program["extinction"] = light.backdrop_extinction_per_m
+        self._landscape_program["extinction"] = light.background_extinction_per_m
         self._shadow_program["sun"] = tuple(light.sun)
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
-        """Take in the shape of a body."""
+        """Keep the shape of a body, to draw it by this name."""
         self._bodies[name] = _Body(
             self._array(
                 self._body_program,
@@ -112,7 +112,7 @@ class ModernGLRenderer:
         )  # fmt: skip
 
     def close(self) -> None:
-        """Give back what was taken."""
+        """Release the context."""
         self._context.release()
 
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:

@@ -19,12 +19,12 @@ from airhilt.sensors.cameras.renderers import Renderer, Samples
 from airhilt.shapes.mesh import Floats
 
 KEPT_PX = 0.5
-"""A pixel of the landscape shows it as it was when it was within this of its place."""
+"""Greatest distance, in pixels, by which anything that is kept may be out of its place."""
 SOON_PX = 0.35
-"""A band of which something is as much out of its place is drawn together with others."""
+"""Distance, in pixels, from which a band is drawn together with others that must be."""
 BAND_ROWS = 24
 PROBE_PX = 8
-"""Of each square of this side the nearest point is watched."""
+"""Side of the squares, in pixels, of which the nearest point is watched."""
 SKY_M = 1e7
 SAMPLES_AT_ONCE = 2_500_000
 

@@ -1,4 +1,4 @@
-"""What moves before cameras: its shapes, where it is, and its lights."""
+"""Bodies before cameras: their shapes, where they are, and their lights."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from airhilt.world.mover import carried_on
 from airhilt.world.surface.kinds import load_kind
 
 LANDING_LIGHTS_BELOW_M = 3048.0
-"""FAA AIM 4-3-23: landing lights on below 10,000 ft."""
+"""Height, in m, below which landing lights are on: 10,000 ft, FAA AIM 4-3-23."""
 
 
 class BodyState(NamedTuple):
@@ -36,11 +36,11 @@ class BodyState(NamedTuple):
     roll_rad: float
     shape: str
     lit: bool
-    """Whether its landing lights are on."""
+    """Its landing lights are on."""
 
     @property
     def pose(self) -> Pose:
-        """Of its axes in the world."""
+        """Pose of its axes in the world."""
         return Pose.of(
             (self.east_m, self.north_m, self.up_m),
             self.heading_rad,
@@ -51,7 +51,7 @@ class BodyState(NamedTuple):
 
 @dataclass(frozen=True)
 class Model:
-    """How an actor looks.
+    """The looks of an actor.
 
     Attributes
     ----------

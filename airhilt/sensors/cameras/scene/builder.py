@@ -1,4 +1,4 @@
-"""From a scenario to what draws its pictures."""
+"""Builds the scene of a scenario, and what draws it."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from airhilt.world.site import ScenarioSite
 
 FOGGY_M = 3000.0
 HAZY_M = 8000.0
-"""Visibilities between which the blue of the sky goes."""
-BACKDROP_EN_ROUTE = 5.0
-"""Haze gets thinner with height, so that ground and clouds are seen farther from above than what
-flies as high as the camera, whose visibility is the scenario's."""
+"""Visibilities, in m, between which the blue of the sky goes."""
+BACKGROUND_EN_ROUTE = 5.0
+"""Factor by which ground and clouds are seen farther than bodies en route: haze gets thinner with
+height, and the scenario's visibility is that at the height of the camera."""
 CLOUDS_UNDER_TRAFFIC = 0.6
-"""Of the height of the lowest flight: no cloud hides one from another."""
+"""Height of the cloud tops, as a part of that of the lowest flight: no cloud hides a flight."""
 LOWEST_CLOUDS_M = 400.0
 
 
@@ -43,7 +43,7 @@ def air_and_sun(
     thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
     sun = sun_direction(latitude_rad, daylight.date, daylight.solar_time_h)
-    background = BACKDROP_EN_ROUTE if en_route else 1.0
+    background = BACKGROUND_EN_ROUTE if en_route else 1.0
     return Illumination(sun, visibility, overcast, background)
 
 

@@ -17,9 +17,9 @@ from airhilt.shapes.mesh import Colour, Floats, Mesh, join
 from airhilt.sim.streams import stream
 
 FLAT_M = 9000.0
-"""Around the origin the ground is flat, as it is for what moves on it; beyond it falls away."""
+"""Radius of the flat ground around the origin, in m; beyond it the Earth falls away."""
 GRID_M = 0.01
-"""Corners lie on a grid of this width, so that neighbours meet exactly."""
+"""Width of the grid on which corners lie, in m, so that neighbours meet exactly."""
 
 
 @dataclass(frozen=True)

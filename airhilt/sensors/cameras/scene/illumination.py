@@ -1,7 +1,7 @@
-"""How a scene is lit, what the sky looks like, and what the air does to both.
+"""The light of a scene, its sky, and what the air does to both.
 
-All colours are linear; `encode` makes 8-bit sRGB of them. Both backends and the cached pictures
-use the numbers of one `Illumination`, which is why they agree.
+All colours are linear; `encode` makes 8-bit sRGB of them. All renderers use the numbers of one
+`Illumination`, which is why they agree.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ import numpy.typing as npt
 from airhilt.shapes.mesh import Floats, Mesh
 
 CONTRAST_THRESHOLD = 0.02
-"""H. Koschmieder, Beitraege zur Physik der freien Atmosphaere 12 (1924) 33-55: what is just seen
-against the horizon at the meteorological visibility."""
+"""Contrast that is just seen against the horizon at the meteorological visibility: H. Koschmieder,
+Beitraege zur Physik der freien Atmosphaere 12 (1924) 33-55."""
 EXTINCTION = -math.log(CONTRAST_THRESHOLD)
-LAMPS_BELOW_M = 5000.0
-"""FAA JO 7110.65, 3-4-10: runway edge lights are on when the visibility is less than 3 miles."""
+LIGHTS_BELOW_M = 5000.0
+"""Visibility, in m, below which lights are on by day: 3 miles, FAA JO 7110.65, 3-4-10."""
 SKY_STEPS = 2048
 LOWEST_SKY = -0.25
 """Sine of the elevation where the table of the sky begins."""
 LEVELS = 4096
-"""Of linear light that are told apart when it is encoded."""
+"""Number of levels of linear light that encoding tells apart."""
 GLARE = 24.0
 """Sharpness of the bright sky about the sun, by day and in twilight; and of the sun itself."""
 TWILIGHT_GLARE = 3.5
 DISC = 9000.0
 GLARE_ENDS = 7.0
-"""Over the sharpness: nothing is left there."""
+"""Angle at which the glare ends, as 1 less its cosine, times the sharpness."""
 AFTERGLOW = (0.5, 0.19, 0.05)
 
 # Elevation of the sun in degrees; linear colours of zenith, horizon, direct light, diffuse light.
@@ -59,7 +59,7 @@ class Illumination:
         Meteorological visibility.
     overcast
         0 a blue sky, 1 none: fog and rain whiten it.
-    backdrop
+    background
         How many times farther ground and clouds are seen than bodies.
     """
 
@@ -70,7 +70,7 @@ class Illumination:
 
     @property
     def sun_elevation_rad(self) -> float:
-        """Above the horizon."""
+        """Elevation of the sun above the horizon."""
         return math.asin(min(max(float(self.sun[2]), -1.0), 1.0))
 
     @cached_property
@@ -80,12 +80,12 @@ class Illumination:
 
     @property
     def needs_lights(self) -> bool:
-        """Whether the lights of an airport are on."""
-        return self.darkness > 0.0 or self.visibility_m < LAMPS_BELOW_M
+        """The lights of an airport are on."""
+        return self.darkness > 0.0 or self.visibility_m < LIGHTS_BELOW_M
 
     @cached_property
     def extinction_per_m(self) -> float:
-        """Of the air; Koschmieder's 3.912 / V."""
+        """Extinction of the air: Koschmieder's 3.912 / V."""
         return EXTINCTION / self.visibility_m
 
     @cached_property
@@ -116,17 +116,17 @@ class Illumination:
 
     @property
     def direct(self) -> Floats:
-        """What the sun sheds on a surface that faces it."""
+        """Light of the sun on a surface that faces it."""
         return self._hour[2]
 
     @property
     def diffuse(self) -> Floats:
-        """What the sky sheds on a surface that faces up."""
+        """Light of the sky on a surface that faces up."""
         return self._hour[3]
 
     @property
     def reflected(self) -> Floats:
-        """What the ground sheds on a surface that faces down."""
+        """Light of the ground on a surface that faces down."""
         return np.asarray(0.6 * self.diffuse + 0.1 * self.direct, dtype=np.float32)
 
     @cached_property
@@ -154,7 +154,7 @@ class Illumination:
 
     @property
     def glare_sharpness(self) -> float:
-        """How fast that fades away from the sun: the afterglow is wide."""
+        """Rate at which the glare fades away from the sun: the afterglow is wide."""
         return GLARE + self._twilight * (TWILIGHT_GLARE - GLARE)
 
     @property
@@ -191,8 +191,8 @@ class Illumination:
         return lit + (mesh.glow * np.float32(self.darkness))[:, None] * mesh.colours
 
     @property
-    def backdrop_extinction_per_m(self) -> float:
-        """Of the air before ground and clouds."""
+    def background_extinction_per_m(self) -> float:
+        """Extinction of the air before ground and clouds."""
         return self.extinction_per_m / self.background
 
     def through_air(self, colours: Floats, distances_m: Floats, extinction_per_m: float) -> Floats:

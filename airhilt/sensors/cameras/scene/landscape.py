@@ -1,4 +1,4 @@
-"""What never moves: an airport and the land about it, or the land below a flight."""
+"""The landscape: an airport and the land about it, or the land below a flight."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ NEAR_M = 7000.0
 FAR_M = 70_000.0
 HORIZON_M = 420_000.0
 DEEPEST_CLOUDS_M = 1_400.0
-"""From the bases to the highest tops: fair-weather clouds are no towers."""
+"""Greatest height of clouds from their bases to the tops, in m: fair-weather clouds are low."""
 SHADOW_REACH = 6.0
-"""Metres of shadow for a metre of height, at most: the sun is that low only for minutes."""
+"""Greatest length of a shadow for its height: the sun is lower only for minutes."""
 CLEARANCE_M = 0.2
 ARC = 8
-"""Edges for a quarter of a circle: at the end of a taxiway they are within 6 cm of it."""
+"""Number of edges for a quarter of a circle: at taxiway ends they are within 6 cm of it."""
 SIGN_RED = srgb(190, 24, 28)
 
 

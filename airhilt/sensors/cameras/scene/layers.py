@@ -15,7 +15,7 @@ from airhilt.shapes.mesh import Floats
 
 Number = TypeVar("Number", bound=np.generic)
 TOUCHES_M = 0.25
-"""What is so much farther than a surface still lies on it."""
+"""Distance behind a surface, in m, up to which a body still lies on it."""
 
 
 @dataclass

@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
     from airhilt.world.surface.layout import Layout
 
 EDGE_SPACING_M = 60.0
-"""ICAO Annex 14 volume I, 5.3.9.5: at most 60 m."""
+"""Distance between two edge lights, in m: at most 60 m, ICAO Annex 14 volume I, 5.3.9.5."""
 EDGE_CD = 3000.0
 THRESHOLD_CD = 5000.0
 TAXIWAY_CD = 20.0
@@ -28,8 +28,8 @@ DAY_LUX = 3e-2
 NIGHT_LUX = 4e-6
 """Illuminance at the camera of a light that just saturates a pixel, by day and at night."""
 GREATEST_RADIUS_PX = 9.0
-FAINTEST_LAMP = 0.02
-"""Part of the light that saturates a pixel: what is fainter is not drawn."""
+FAINTEST_LIGHT = 0.02
+"""Least light that is drawn, as a part of what saturates a pixel."""
 
 
 def airport_lights(layout: Layout) -> tuple[Light, ...]:
@@ -152,7 +152,7 @@ class Lights:
         strength = self.candela / away**2 * np.exp(-light.extinction_per_m * away) / threshold
         cosine = -np.einsum("ij,ij->i", offset, self.beams) / away
         strength *= np.exp(self.sharpness * (cosine - 1.0))
-        bright = np.flatnonzero(strength > FAINTEST_LAMP)
+        bright = np.flatnonzero(strength > FAINTEST_LIGHT)
         inside = offset[bright] @ view.axes
         ahead = inside[:, 2] > NEAR_M
         bright, inside = bright[ahead], inside[ahead]

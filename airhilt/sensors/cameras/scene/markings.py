@@ -30,9 +30,9 @@ STRIPE_M = 5.75 * FOOT
 """Width of a threshold stripe, and of the gap between two: paragraph 2.5."""
 STRIPE_LENGTH_M = 150.0 * FOOT
 FIRST_STRIPE_M = 20.0 * FOOT
-"""From the threshold."""
+"""Distance of the first stripe from the threshold, in m."""
 DESIGNATOR_M = FIRST_STRIPE_M + STRIPE_LENGTH_M + 40.0 * FOOT
-"""From the threshold to the foot of the designator: figure 2-1."""
+"""Distance from the threshold to the foot of the designator, in m: figure 2-1."""
 CHARACTER_M = (20.0 * FOOT, 60.0 * FOOT)
 CENTRE_WIDTH_M = 3.0 * FOOT
 CENTRE_STRIPE_M = 120.0 * FOOT
@@ -40,14 +40,14 @@ CENTRE_GAP_M = 80.0 * FOOT
 AIM_POINT_M = 1020.0 * FOOT
 AIM_SIZE_M = (30.0 * FOOT, 150.0 * FOOT)
 AIM_INNER_M = 36.0 * FOOT
-"""From the centre line to the inner edge, of aiming point and touchdown zone."""
+"""Distance of the inner edges of aiming point and touchdown zone from the centre line, in m."""
 ZONE_BARS = ((500.0, 3), (1500.0, 2), (2000.0, 2), (2500.0, 1), (3000.0, 1))
-"""Feet from the threshold, number of bars on each side: paragraph 2.7."""
+"""Distance from the threshold in ft, and number of bars on each side: paragraph 2.7."""
 BAR_M = (6.0 * FOOT, 75.0 * FOOT)
 BAR_GAP_M = 5.0 * FOOT
 EDGE_M = 3.0 * FOOT
 TAXI_LINE_M = 1.0 * FOOT
-"""The wider of the two that paragraph 4.2 allows, for it is seen farther."""
+"""Width of a taxiway line, in m: the wider of the two that paragraph 4.2 allows."""
 HOLD_LINE_M = 1.0 * FOOT
 """Width of each of the four lines across a taxiway, and of the spaces: paragraph 4.3."""
 HOLD_DASH_M = 3.0 * FOOT

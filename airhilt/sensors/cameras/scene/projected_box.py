@@ -23,7 +23,7 @@ class Box(NamedTuple):
 
     @property
     def area(self) -> float:
-        """In square pixels; 0 where it is empty."""
+        """Area in square pixels; 0 where it is empty."""
         return max(self.right - self.left, 0.0) * max(self.bottom - self.top, 0.0)
 
     def within(self, view: View) -> Box:

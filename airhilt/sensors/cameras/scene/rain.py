@@ -11,7 +11,7 @@ from airhilt.sim.streams import stream
 
 HEAVY_MM_H = 50.0
 STREAKS = 260
-"""In a picture of 640 by 360 pixels, in heavy rain."""
+"""Number of streaks in a picture of 640 by 360 pixels, in heavy rain."""
 PATTERNS = 8
 
 

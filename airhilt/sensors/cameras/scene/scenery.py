@@ -1,4 +1,4 @@
-"""What stands about: buildings, the tower, trees, houses and clouds."""
+"""Scenery: buildings, the tower, trees, houses and clouds."""
 
 from __future__ import annotations
 
