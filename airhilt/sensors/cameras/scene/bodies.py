@@ -59,8 +59,8 @@ class Model:
         Actors of one kind share their shapes.
     shapes
         Its meshes by their names.
-    lamps
-        Return its lights, in its own axes, at a time in seconds, with landing lights or without.
+    lights
+        Returns its lights, in its own axes, at a time in seconds, with landing lights or without.
     far
         Coarser meshes of some of these names, for pictures in which it is small.
     aircraft
