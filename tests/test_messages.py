@@ -39,7 +39,7 @@ VIEW = {
 }  # fmt: skip
 BOX = [10.0, 20.0, 45.5, 31.0]
 
-EXAMPLES = {
+EXAMPLES: dict[str, dict[str, Any]] = {
     "CameraInfo": {
         "camera": "tower", "rate_hz": 16.0, "width_px": 640, "height_px": 360,
         "horizontal_fov_deg": 70.0, "own_aircraft": [100, 20, 230280],
@@ -205,12 +205,12 @@ def test_a_number_that_is_none_is_refused(model: type[Any], field: str, value: s
      ("turn", "degrees")],
 )  # fmt: skip
 def test_nobody_is_recommended_a_number_that_is_none(action: str, field: str, value: str) -> None:
-    parts = {
+    known: dict[str, dict[str, Any]] = {
         "altitude": {"sense": "climb", "altitude_ft": 1.0, "vertical_rate_fpm": 1.0},
         "maintain": {"altitude_ft": 1.0},
         "turn": {"degrees": 1.0},
-    }[action]
-    text = json.dumps({"action": action, **parts, field: "HERE"}).replace('"HERE"', value)
+    }
+    text = json.dumps({"action": action, **known[action], field: "HERE"}).replace('"HERE"', value)
     with pytest.raises(ValidationError):
         TypeAdapter(Recommendation).validate_json(text)
 

@@ -11,6 +11,7 @@ import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -59,7 +60,7 @@ def hashing_recogniser(endpoint: str) -> Iterator[subprocess.Popen[bytes]]:
         yield started
 
 
-def logged(folder: Path, prefix: str, model: type[Message]) -> list[Message]:
+def logged(folder: Path, prefix: str, model: type[Message]) -> list[Any]:
     return [
         model.model_validate_json(one.data)
         for one in read_log(folder / "log.mcap")

@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -94,7 +95,12 @@ def test_a_program_without_grants_that_dies_is_noticed_too(
 
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
-    options = {"listen": endpoint, "attach": ("plain",), "strict": strict, "observer": Kills()}
+    options: dict[str, Any] = {
+        "listen": endpoint,
+        "attach": ("plain",),
+        "strict": strict,
+        "observer": Kills(),
+    }
     with process(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
         if strict:
             with pytest.raises(RunStopped, match="plain"):
@@ -352,7 +358,7 @@ def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> 
             [Participant(Peeks.description, LocalWorker(Peeks()), where="in process")],
             parse_latency("fixed"),
             0,
-            publish=lambda key, message, worker: None,
+            publish=lambda *_, **__: None,
             done=lambda record: None,
             lost=lambda worker, cause: None,
         )

@@ -187,7 +187,7 @@ def test_a_disk_that_fills_up_with_pictures_stops_the_run_and_keeps_its_log(
     assert list(read_log(recorded.log_path))
 
 
-def full(*_: object, **__: object) -> None:
+def full(*_: object, **__: Any) -> None:
     raise OSError(28, "No space left on device")
 
 

@@ -6,6 +6,7 @@ import json
 import os
 import signal
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,7 +36,7 @@ def short() -> Scenario:
     return Scenario.model_validate(document | {"name": "short", "duration_s": 2.0})
 
 
-def log_of(scenario: Scenario, out: Path, **options: object) -> list[Logged]:
+def log_of(scenario: Scenario, out: Path, **options: Any) -> list[Logged]:
     run(scenario, SEEN.model_copy(update={"out": out, **options}))
     return list(read_log(out / "log.mcap"))
 
@@ -110,7 +111,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     opened = []
     open_scene_renderer = vision._open_renderer_process
 
-    def opening(*given: object) -> object:
+    def opening(*given: Any) -> object:
         opened.append(open_scene_renderer(*given))
         return opened[-1]
 

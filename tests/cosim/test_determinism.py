@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,7 +15,7 @@ from airhilt.cosim.replay import replay
 from airhilt.scenario import Scenario
 
 
-def log_of(scenario: Scenario, out: Path, **options: object) -> bytes:
+def log_of(scenario: Scenario, out: Path, **options: Any) -> bytes:
     return (run(scenario, out=out, **options).folder / "log.mcap").read_bytes()
 
 

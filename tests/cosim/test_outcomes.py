@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
@@ -71,7 +72,7 @@ def test_the_margin_over_tcas_is_what_the_run_without_assistant_shows(
         ("tcas_ta", warned.margin_over_tcas_ta_s),
         ("tcas_ra", warned.margin_over_tcas_ra_s),
     ):
-        expected = spoken[phase] - warned.t_first_warning_s
+        expected = spoken[cast(Any, phase)] - warned.t_first_warning_s
         assert margin == pytest.approx(expected, abs=tolerance)
 
 

@@ -25,10 +25,10 @@ DURATION_S = 75.0
 QUIET = Options(latency="fixed", assistant="none", speech=False)
 
 
-def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **options: object) -> Any:
+def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **options: Any) -> Any:
     scenario = load(name)
-    failures = (*scenario.failures, *failures)
-    scenario = scenario.model_copy(update={"failures": failures, "duration_s": DURATION_S})
+    both = (*scenario.failures, *failures)
+    scenario = scenario.model_copy(update={"failures": both, "duration_s": DURATION_S})
     run(scenario, QUIET.model_copy(update={"out": out, **options}))
     return Radio(out)
 

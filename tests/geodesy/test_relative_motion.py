@@ -61,7 +61,8 @@ class Mover:
 
 
 def geodesic_m(one: Mover, other: Mover) -> float:
-    return Geodesic.WGS84.Inverse(one.lat_deg, one.lon_deg, other.lat_deg, other.lon_deg)["s12"]
+    inverse = Geodesic.WGS84.Inverse(one.lat_deg, one.lon_deg, other.lat_deg, other.lon_deg)
+    return float(inverse["s12"])
 
 
 @st.composite

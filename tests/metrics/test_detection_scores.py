@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from airhilt.imaging.matching import matches
-from airhilt.messages import Detection, SightingTruth
+from airhilt.messages import Box, Detection, SightingTruth
 from airhilt.metrics.detection_scores import DetectionScores, must_be_found
 from airhilt.metrics.summary import VisionStatistics
 from sightings import found, frame, info, seen, sighting, truth, vision
@@ -52,7 +54,7 @@ class Watched:
         (NOWHERE, False),
     ],
 )
-def test_a_detection_is_about_what_its_box_overlaps(box: tuple, is_about: bool) -> None:
+def test_a_detection_is_about_what_its_box_overlaps(box: Box, is_about: bool) -> None:
     assert (matches([sighting(PLANE)], [found(box)])[0] is not None) is is_about
 
 
@@ -95,7 +97,7 @@ def test_nothing_can_be_about_what_no_pixel_shows() -> None:
         ({"transmission": 0.09}, False),
     ],
 )
-def test_only_what_is_large_and_clear_must_be_found(changed: dict, counts: bool) -> None:
+def test_only_what_is_large_and_clear_must_be_found(changed: dict[str, Any], counts: bool) -> None:
     assert must_be_found(sighting(**{"box": PLANE} | changed)) is counts
 
 

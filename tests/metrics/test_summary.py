@@ -1,5 +1,11 @@
 """The numbers of a run, and what they mean."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, cast
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -20,10 +26,11 @@ from airhilt.messages import (
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.roster import pair_of
-from airhilt.metrics.summary import LatencyStatistics, severest
+from airhilt.metrics.summary import LatencyStatistics, Summary, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
+from airhilt.scenario.models.scenario import Scenario
 from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
@@ -39,11 +46,11 @@ RUN = {"seed": 1, "assistant": "reference", "outcome": "finished", "inputs_dropp
        "real_time_factor": 1.0, "cpu_s": 1.0}  # fmt: skip
 
 
-def test_the_statistics_of_no_samples_are_none():
+def test_the_statistics_of_no_samples_are_none() -> None:
     assert LatencyStatistics.of([]) == LatencyStatistics(n=0, p50_s=None, p95_s=None, max_s=None)
 
 
-def test_the_statistics_of_samples_are_interpolated_between_them():
+def test_the_statistics_of_samples_are_interpolated_between_them() -> None:
     found = LatencyStatistics.of([4.0, 1.0, 3.0, 2.0])
     assert (found.n, found.p50_s, found.max_s) == (4, 2.5, 4.0)
     assert found.p95_s == pytest.approx(3.85)
@@ -51,19 +58,28 @@ def test_the_statistics_of_samples_are_interpolated_between_them():
 
 @settings(deadline=None)
 @given(st.lists(st.floats(0.0, 100.0), min_size=1, max_size=50))
-def test_half_the_samples_are_below_the_median_and_none_above_the_greatest(samples):
+def test_half_the_samples_are_below_the_median_and_none_above_the_greatest(
+    samples: list[float],
+) -> None:
     found = LatencyStatistics.of(samples)
     assert found.n == len(samples)
     assert min(samples) <= found.p50_s <= found.p95_s <= found.max_s + 1e-9
     assert found.max_s == max(samples)
 
 
-def test_the_severest_is_the_highest_in_rank_and_not_in_the_alphabet():
+def test_the_severest_is_the_highest_in_rank_and_not_in_the_alphabet() -> None:
     assert severest([Severity.ADVISORY, Severity.CAUTION, Severity.INFO]) is Severity.CAUTION
     assert severest([Severity.WARNING, Severity.INFO]) is Severity.WARNING
 
 
-def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name="a", active=True):
+def advisory(
+    t_s: float,
+    severity: str = "CAUTION",
+    traffic: tuple[Any, ...] = (FIRST, SECOND),
+    revision: int = 0,
+    name: str = "a",
+    active: bool = True,
+) -> Advisory:
     return Advisory(
         t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient="ATC",
         recipients=("ATC",), kind="loss_of_separation", severity=Severity(severity),
@@ -75,7 +91,7 @@ def advisory(t_s, severity="CAUTION", traffic=(FIRST, SECOND), revision=0, name=
 class FollowedRun:
     """A collector over a head-on encounter that meets after 60 s."""
 
-    def __init__(self, scenario=SCENARIO):
+    def __init__(self, scenario: Scenario = SCENARIO) -> None:
         self.watch = Watch(
             Straight(-15_000.0, east_m_s=250.0),
             Straight(15_000.0, east_m_s=-250.0),
@@ -84,15 +100,15 @@ class FollowedRun:
         )
         self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}))
 
-    def take(self, message):
+    def take(self, message: Any) -> Airport | FollowedRun:
         self.collector.take("", message, b"")
         return self
 
-    def summary(self, now_s=70.0):
+    def summary(self, now_s: float = 70.0) -> Summary:
         return self.collector.summary(RUN, round(now_s * SECOND_NS))
 
 
-def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken():
+def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken() -> None:
     followed = FollowedRun()
     followed.collector.window.opened_ns = 3 * SECOND_NS
     followed.take(advisory(5.0, "ADVISORY")).take(advisory(9.0, "CAUTION", revision=1))
@@ -104,20 +120,20 @@ def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken():
     assert (one.severity, one.revisions, one.t_first_s) == ("WARNING", 3, 5.0)
 
 
-def test_a_warning_before_the_conflict_opens_has_a_negative_time():
+def test_a_warning_before_the_conflict_opens_has_a_negative_time() -> None:
     followed = FollowedRun().take(advisory(9.0))
     followed.collector.window.opened_ns = 10 * SECOND_NS
     assert followed.summary().time_to_first_warning_s == -1.0
 
 
-def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic():
+def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic() -> None:
     assert FollowedRun().summary().t_first_warning_s is None
     other = FollowedRun().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
     assert other.t_first_warning_s is None
     assert other.nuisance_alerts == 1
 
 
-def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic():
+def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic() -> None:
     address = SCENARIO.actors[1].icao24
     summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, address))).summary()
     assert summary.t_first_warning_s == 9.0
@@ -126,18 +142,18 @@ def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic():
 
 
 @pytest.mark.parametrize(("severity", "alerts"), [("ADVISORY", 0), ("CAUTION", 1), ("WARNING", 1)])
-def test_only_what_is_spoken_can_be_a_nuisance(severity, alerts):
+def test_only_what_is_spoken_can_be_a_nuisance(severity: str, alerts: int) -> None:
     quiet = SCENARIO.model_copy(update={"conflict": None})
     assert FollowedRun(quiet).take(advisory(9.0, severity)).summary().nuisance_alerts == alerts
 
 
-def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warning():
+def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warning() -> None:
     summary = FollowedRun().take(advisory(1.0)).summary()
     assert summary.margin_over_tcas_ta_s == pytest.approx(60.0 - 48.0, abs=1.5)
     assert summary.margin_over_tcas_ra_s == pytest.approx(60.0 - 35.0, abs=1.5)
 
 
-def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept():
+def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept() -> None:
     followed = FollowedRun()
     assert followed.summary().avoided is None
     followed.collector.window.opened_ns = 0
@@ -152,7 +168,7 @@ def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept():
     assert summary.closest_approach.horizontal_m < 1.0
 
 
-def test_latencies_are_given_by_stage():
+def test_latencies_are_given_by_stage() -> None:
     followed = FollowedRun().take(advisory(9.0)).take(advisory(9.0))
     followed.collector.step(StepRecord("decision", 0, 0, SECOND_NS, 2 * SECOND_NS, 0.0, 1))
     for engine, t_ns in (("text", 9), ("whisper", 3 * SECOND_NS)):
@@ -169,7 +185,7 @@ def test_latencies_are_given_by_stage():
     assert latencies["adsb"].n == 0
 
 
-def test_the_pair_is_named_in_the_order_of_the_actors():
+def test_the_pair_is_named_in_the_order_of_the_actors() -> None:
     assert pair_of(SCENARIO) == (FIRST, SECOND)
     turned = SCENARIO.conflict.model_copy(update={"actors": (SECOND, FIRST)})
     assert pair_of(SCENARIO.model_copy(update={"conflict": turned})) == (FIRST, SECOND)
@@ -179,7 +195,7 @@ def test_the_pair_is_named_in_the_order_of_the_actors():
 # --- what the script still has in store -----------------------------------------------------
 
 
-def plans(*climbs):
+def plans(*climbs: tuple[float, int]) -> Plans:
     """Plans of a script in which AA is given levels (ft) at times (s)."""
     lines = [
         RadioLine(
@@ -203,28 +219,28 @@ def plans(*climbs):
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)
 
 
-def feet(altitude_at, *times_s):
+def feet(altitude_at: Callable[..., Any], *times_s: int) -> list[int]:
     return [round(altitude_at(time_s) / FOOT) for time_s in times_s]
 
 
-def test_a_climb_that_is_planned_begins_after_its_line_and_its_delay():
+def test_a_climb_that_is_planned_begins_after_its_line_and_its_delay() -> None:
     """A line of eight words at 20 s ends at 23 s; two seconds later it is carried out."""
     at = plans((20.0, 33_000)).altitude_at("AA", 0, LEVEL)
     assert feet(at, 0, 25, 65, 105, 500) == [31_000, 31_000, 32_000, 33_000, 33_000]
 
 
-def test_what_was_carried_out_already_is_in_the_profile_and_not_planned_again():
+def test_what_was_carried_out_already_is_in_the_profile_and_not_planned_again() -> None:
     climbing = VerticalProfile(32_000 * FOOT, 1_500 * FOOT_PER_MINUTE, 33_000 * FOOT)
     at = plans((20.0, 33_000)).altitude_at("AA", 65 * SECOND_NS, climbing)
     assert feet(at, 0, 20, 40, 400) == [32_000, 32_500, 33_000, 33_000]
 
 
-def test_one_climb_follows_another_from_where_it_then_is():
+def test_one_climb_follows_another_from_where_it_then_is() -> None:
     at = plans((20.0, 33_000), (60.0, 31_000)).altitude_at("AA", 0, LEVEL)
     assert feet(at, 65, 105, 300) == [32_000, 31_000, 31_000]
 
 
-def test_nothing_is_planned_for_others():
+def test_nothing_is_planned_for_others() -> None:
     assert feet(plans((20.0, 33_000)).altitude_at("BB", 0, LEVEL), 500) == [31_000]
 
 
@@ -234,11 +250,13 @@ def test_nothing_is_planned_for_others():
 class Runways:
     """What a runway monitor has found."""
 
-    def __init__(self, *incursions):
+    def __init__(self, *incursions: Incursion) -> None:
         self.incursions = dict(enumerate(incursions))
 
 
-def incursion(metres=200.0, user=FIRST, intruder=SECOND, collided=False):
+def incursion(
+    metres: float = 200.0, user: str | None = FIRST, intruder: str = SECOND, collided: bool = False
+) -> Incursion:
     closest = Gap(metres, 0.0) if user else None
     return Incursion(5 * SECOND_NS, "01/19", user, intruder, closest, collided)
 
@@ -246,10 +264,11 @@ def incursion(metres=200.0, user=FIRST, intruder=SECOND, collided=False):
 class Airport(FollowedRun):
     """A collector of a run in which some runway incursions happened."""
 
-    def __init__(self, *incursions, scenario=SCENARIO):
+    def __init__(self, *incursions: Incursion, scenario: Scenario = SCENARIO) -> None:
         super().__init__(scenario)
         plans = Plans([], {})
-        self.collector = Collector(scenario, 0.0, self.watch.monitor, Runways(*incursions), plans)
+        runways = cast(Any, Runways(*incursions))
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, runways, plans)
         self.collector.window.opened_ns = 0
 
 
@@ -258,7 +277,9 @@ class Airport(FollowedRun):
     [(10.0, "A", False), (30.0, "A", False), (31.0, "B", False), (152.0, "B", False),
      (153.0, "C", None)],
 )  # fmt: skip
-def test_a_conflict_with_an_incursion_of_category_a_or_b_was_not_avoided(metres, category, avoided):
+def test_a_conflict_with_an_incursion_of_category_a_or_b_was_not_avoided(
+    metres: float, category: str, avoided: bool | None
+) -> None:
     summary = Airport(incursion(metres)).summary()
     assert summary.runway_incursion_category == category
     assert summary.avoided is avoided
@@ -266,26 +287,26 @@ def test_a_conflict_with_an_incursion_of_category_a_or_b_was_not_avoided(metres,
     assert (one.user, one.intruder, one.t_s, one.closest_m) == (FIRST, SECOND, 5.0, metres)
 
 
-def test_neither_was_one_that_ended_in_a_collision():
+def test_neither_was_one_that_ended_in_a_collision() -> None:
     summary = Airport(incursion(300.0, collided=True)).summary()
     assert summary.runway_incursion_category == "accident"
     assert summary.avoided is False
 
 
-def test_an_incursion_of_others_is_recorded_and_leaves_the_conflict_avoided():
+def test_an_incursion_of_others_is_recorded_and_leaves_the_conflict_avoided() -> None:
     summary = Airport(incursion(10.0, intruder="DEER1"), incursion(user=None)).summary()
     assert summary.runway_incursion_category == "A"
     assert [one.category for one in summary.runway_incursions] == ["A", "D"]
     assert summary.avoided is not False
 
 
-def test_without_incursions_there_is_no_category():
+def test_without_incursions_there_is_no_category() -> None:
     summary = Airport().summary()
     assert (summary.runway_incursions, summary.runway_incursion_category) == ([], None)
     assert FollowedRun().summary().runway_incursions == []
 
 
-def runway_advisory(*traffic):
+def runway_advisory(*traffic: str) -> Advisory:
     return advisory(9.0, traffic=traffic).model_copy(update={"kind": "runway_conflict"})
 
 
@@ -294,14 +315,16 @@ def runway_advisory(*traffic):
     [((FIRST, SECOND), False), ((FIRST,), False), ((FIRST, "deer-1"), False),
      ((FIRST, "UAL7"), False), (("UAL7", "OPS9"), True), (("UAL7",), True)],
 )  # fmt: skip
-def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(traffic, nuisance):
+def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(
+    traffic: tuple[Any, ...], nuisance: bool
+) -> None:
     """It may name what it sees without a callsign; what it knows nothing of is none of the pair."""
     summary = Airport().take(runway_advisory(*traffic)).summary()
     assert summary.nuisance_alerts == int(nuisance)
     assert (summary.t_first_warning_s == 9.0) is not nuisance
 
 
-def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true():
+def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true() -> None:
     quiet = SCENARIO.model_copy(update={"conflict": None})
     followed = runway_advisory(FIRST, SECOND)
     assert Airport(scenario=quiet).take(followed).summary().nuisance_alerts == 1
@@ -314,20 +337,22 @@ def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true(
 # --- with a voice ---------------------------------------------------------------------------
 
 
-def voice(t_s, revision=0, recipient="ATC", name="a", t_dec_s=9.0):
+def voice(
+    t_s: float, revision: int = 0, recipient: str = "ATC", name: str = "a", t_dec_s: float = 9.0
+) -> AdvisoryAudio:
     return AdvisoryAudio(
         t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient=recipient, text="",
         t_dec_ns=round(t_dec_s * SECOND_NS), engine="espeak", samples=1, sha256="",
     )  # fmt: skip
 
 
-def told_aloud():
+def told_aloud() -> FollowedRun:
     followed = FollowedRun()
     followed.collector.modalities["tts"] = "on"
     return followed
 
 
-def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins():
+def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins() -> None:
     followed = told_aloud().take(advisory(9.0)).take(voice(9.8))
     summary = followed.summary()
     assert summary.t_first_warning_s == 9.8
@@ -336,19 +361,19 @@ def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins():
     assert (one.t_first_s, one.t_spoken_s) == (9.0, 9.8)
 
 
-def test_a_warning_whose_voice_never_comes_warns_nobody():
+def test_a_warning_whose_voice_never_comes_warns_nobody() -> None:
     summary = told_aloud().take(advisory(9.0)).take(voice(9.8, name="b")).summary()
     assert summary.t_first_warning_s is None
     assert summary.advisories[0].t_spoken_s is None
 
 
-def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning():
+def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning() -> None:
     followed = told_aloud().take(advisory(9.0)).take(advisory(10.0, "WARNING", revision=1))
     followed.take(voice(10.5, revision=0)).take(voice(11.0, revision=1))
     assert followed.summary().t_first_warning_s == 10.5
 
 
-def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once():
+def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once() -> None:
     followed = told_aloud().take(advisory(9.0))
     followed.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
     assert followed.summary().t_first_warning_s == 12.0
@@ -357,7 +382,7 @@ def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once():
     assert followed.take(advisory(9.0)).summary().t_first_warning_s == 9.0
 
 
-def test_the_margin_over_tcas_is_counted_from_the_voice():
+def test_the_margin_over_tcas_is_counted_from_the_voice() -> None:
     followed = told_aloud().take(advisory(0.0))
     followed.watch.fly(3.0)
     followed.take(voice(3.0, t_dec_s=0.0))
@@ -367,7 +392,7 @@ def test_the_margin_over_tcas_is_counted_from_the_voice():
 # --- with a radio ---------------------------------------------------------------------------
 
 
-def call(heard=None, snr_db=None):
+def call(heard: str | None = None, snr_db: float | None = None) -> list[Any]:
     times = {"id": "a", "frequency_khz": 134_325, "t_tx_ns": 0, "t_end_ns": SECOND_NS}
     text = f"{SPOKEN}, maintain flight level three five zero"
     said = SpokenTruth(**times, speaker="Centre", addressed=FIRST, text=text, snr_db=snr_db)
@@ -383,7 +408,7 @@ def call(heard=None, snr_db=None):
 SPOKEN = speak_callsign(FIRST, "faa")
 
 
-def test_the_radio_is_measured_with_the_callsigns_of_the_roster():
+def test_the_radio_is_measured_with_the_callsigns_of_the_roster() -> None:
     followed = FollowedRun()
     for message in call(f"{SPOKEN} maintain flight level three four zero", snr_db=10.0):
         followed.take(message)
@@ -393,15 +418,19 @@ def test_the_radio_is_measured_with_the_callsigns_of_the_roster():
 
 
 @pytest.mark.parametrize(("state", "missing"), [("on", 1), ("lost", 1), ("off", None)])
-def test_transcripts_are_missing_only_where_somebody_was_to_make_them(state, missing):
+def test_transcripts_are_missing_only_where_somebody_was_to_make_them(
+    state: str, missing: int | None
+) -> None:
     followed = FollowedRun()
-    followed.collector.modalities["asr"] = state
+    followed.collector.modalities["asr"] = cast(Any, state)
     for message in call():
         followed.take(message)
     assert followed.summary().radio.transcripts_missing == missing
 
 
-def test_the_terminal_tells_how_well_speech_was_recognised(capsys, tmp_path):
+def test_the_terminal_tells_how_well_speech_was_recognised(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     followed = FollowedRun()
     for message in call(f"{SPOKEN} maintain flight level three five zero"):
         followed.take(message)
@@ -411,6 +440,8 @@ def test_the_terminal_tells_how_well_speech_was_recognised(capsys, tmp_path):
     assert "word error rate 0.0 %, callsigns 100.0 %, slots 100.0 %, p95 250 ms after" in shown
 
 
-def test_the_terminal_says_nothing_of_recognition_where_there_was_none(capsys, tmp_path):
+def test_the_terminal_says_nothing_of_recognition_where_there_was_none(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     print_summary(FollowedRun().summary(), tmp_path)
     assert "recognition" not in capsys.readouterr().out

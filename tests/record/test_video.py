@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 pytest.importorskip("av")
@@ -59,14 +61,15 @@ def film(tmp_path: Path) -> Film:
     return Film(tmp_path)
 
 
-def is_like(pixel: np.ndarray, colour: tuple[int, int, int], within: int = 90) -> bool:
+def is_like(pixel: np.ndarray, colour: tuple[int, ...], within: int = 90) -> bool:
     """Whether a pixel has about a colour: H.264 keeps colours at half the resolution."""
     return bool(np.abs(pixel.astype(int) - colour).max() < within)
 
 
 def left_edge(picture: np.ndarray) -> np.ndarray:
     """The middle of the left side of the box: 3 px beside it, below the bar."""
-    return picture[HEAD_PX + 95, 147:149].mean(axis=0)
+    edge: npt.NDArray[Any] = picture[HEAD_PX + 95, 147:149].mean(axis=0)
+    return edge
 
 
 # --- files ------------------------------------------------------------------------------------
@@ -256,7 +259,7 @@ def test_a_video_that_ffmpeg_refuses_costs_that_video_and_is_told_once(
     tmp_path: Path, error: Exception
 ) -> None:
     film = Film(tmp_path, "tower", "runway").shoot(0).shoot(0, camera="runway")
-    film.recorder._videos["tower"]._stream = Refusing(error)
+    film.recorder._videos["tower"]._stream = cast(Any, Refusing(error))
     for seq in range(1, 5):
         film.shoot(seq).shoot(seq, camera="runway")
         film.take(seen(seq)).take(seen(seq, camera="runway"))
@@ -269,7 +272,7 @@ def test_a_video_that_ffmpeg_refuses_costs_that_video_and_is_told_once(
 def test_a_video_that_cannot_be_finished_is_told(tmp_path: Path) -> None:
     film = Film(tmp_path, "tower", "runway").shoot(0).shoot(0, camera="runway")
     film.take(seen(0)).take(seen(0, camera="runway"))
-    film.recorder._videos["tower"]._stream = Refusing(ValueError("no end"))
+    film.recorder._videos["tower"]._stream = cast(Any, Refusing(ValueError("no end")))
     assert len(film.frames("runway")) == 1
     assert len(film.told) == 1
 

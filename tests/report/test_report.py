@@ -156,7 +156,8 @@ def test_without_an_annotation_the_pair_is_the_one_of_the_summarys_closest_appro
     summary = json.loads((folder / "summary.json").read_text())
     summary["closest_approach"] = {"t_s": 5.0, "horizontal_m": 0.0, "vertical_m": 300.0}
     (folder / "summary.json").write_text(json.dumps(summary))
-    far, near, above = {"latitude_deg": 39.5}, {}, {"altitude_m": 10_968.0}
+    near: dict[str, float] = {}
+    far, above = {"latitude_deg": 39.5}, {"altitude_m": 10_968.0}
     rewrite_log(
         folder,
         *(

@@ -138,9 +138,10 @@ def test_a_profile_of_the_radio_is_one_of_those_that_there_are() -> None:
     assert "radio/profile" in message
     for name in PROFILES:
         assert name in message
-    for name in (*PROFILES, "simugan.onnx", None):
-        document["radio"]["profile"] = name
-        assert load_text(json.dumps(document), "test.json").radio.profile == name
+    profiles: tuple[str | None, ...] = (*PROFILES, "simugan.onnx", None)
+    for profile in profiles:
+        document["radio"]["profile"] = profile
+        assert load_text(json.dumps(document), "test.json").radio.profile == profile
 
 
 def test_a_scenario_is_checked_without_the_libraries_behind_sound() -> None:

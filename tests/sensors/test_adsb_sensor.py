@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -52,7 +52,7 @@ class Acting:
 def context(
     scenario: Scenario,
     director: Director,
-    actors: dict[str, Acting],
+    actors: dict[str, Any],
     reports: list[Any],
     steps: list[Any],
     latency: str = "fixed:0.05",
@@ -87,8 +87,9 @@ class Run:
             actor["transponder"]["equipped"] = equipped
         scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
-        self.reports, self.steps = [], []
-        actors = {actor.callsign: Acting(actor) for actor in scenario.actors}
+        self.reports: list[Any] = []
+        self.steps: list[Any] = []
+        actors: dict[str, Any] = {one.callsign: Acting(cast(Any, one)) for one in scenario.actors}
         self.aircraft = {callsign: acting.body for callsign, acting in actors.items()}
         self.sensor = AdsbSensor(
             context(scenario, self.director, actors, self.reports, self.steps, latency, seed)
@@ -169,8 +170,9 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter() -> None:
     seen = []
     for keep in (1, 2):
         part = replace_actors(document, keep)
-        director, reports = Director(Virtual()), []
-        actors = {actor.callsign: Acting(actor) for actor in part.actors}
+        director = Director(Virtual())
+        reports: list[Any] = []
+        actors: dict[str, Any] = {one.callsign: Acting(cast(Any, one)) for one in part.actors}
         AdsbSensor(context(part, director, actors, reports, [])).start()
         director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)
         director.run()

@@ -323,7 +323,7 @@ def test_the_intruder_of_s02c_is_seen_as_primary_only(intruder_run: Path) -> Non
     plots = radar_messages(intruder_run)
     squawking = [plot for plot in plots if plot.kind != "primary"]
     scenario = load("s02c_intruder_crossing")
-    equipped = [actor for actor in scenario.actors if actor.transponder.equipped]  # type: ignore[union-attr]
+    equipped = [actor for actor in scenario.actors if actor.transponder.equipped]
     assert len({plot.mode_a for plot in squawking} - {None}) == len(equipped) < len(scenario.actors)
     assert len([plot for plot in plots if plot.kind == "primary"]) >= 4
 

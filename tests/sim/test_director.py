@@ -19,7 +19,7 @@ events = st.lists(st.tuples(st.integers(0, 20), st.sampled_from(Priority)), max_
 def test_events_run_by_time_then_priority_then_order_of_scheduling(plan: list[Any]) -> None:
     director, ran = Director(Virtual()), []
     for number, (t_ns, priority) in enumerate(plan):
-        director.at(t_ns, lambda n=number: ran.append((director.now_ns, n)), priority)
+        director.at(t_ns, lambda n=number: ran.append((director.now_ns, n)), priority)  # type: ignore[misc]
     director.run()
     due = sorted(range(len(plan)), key=lambda n: (*plan[n], n))
     assert ran == [(plan[n][0], n) for n in due]
@@ -123,7 +123,7 @@ def test_a_post_from_another_thread_runs_in_the_thread_of_the_director() -> None
 
     def post() -> None:
         for number in range(100):
-            director.post(lambda n=number: ran.append((n, threading.get_ident())))
+            director.post(lambda n=number: ran.append((n, threading.get_ident())))  # type: ignore[misc]
         director.post(director.stop)
 
     poster = threading.Thread(target=post)
@@ -163,6 +163,6 @@ def test_the_pace_may_change_while_it_runs() -> None:
 def test_results_of_an_instant_arrive_before_workers_start_in_it() -> None:
     director, seen = Director(Virtual()), []
     for priority in reversed(Priority):
-        director.at(5, lambda name=priority.name: seen.append(name), priority)
+        director.at(5, lambda name=priority.name: seen.append(name), priority)  # type: ignore[misc]
     director.run()
     assert seen == ["PHYSICS", "SCRIPT", "SENSOR", "RESULT", "START", "SETTLE", "OBSERVE"]

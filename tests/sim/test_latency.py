@@ -59,7 +59,9 @@ def test_fixed_is_what_was_given_or_else_what_the_worker_declares() -> None:
 def test_a_lognormal_latency_depends_on_seed_worker_and_step_alone(seed: int, step: int) -> None:
     def latency(worker: str, run_seed: int) -> int:
         source = parse_latency("lognormal").source(worker, run_seed, 0.4, 0.25)
-        return source.known_ns(step)
+        known = source.known_ns(step)
+        assert known is not None
+        return known
 
     alone = latency("asr", seed)
     latency("vision", seed)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from hypothesis import given, settings
@@ -21,7 +22,8 @@ from airhilt.sim import (
     WorkerLost,
     parse_latency,
 )
-from airhilt.sim.latency import Fixed, Measured
+from airhilt.sim.latency import Fixed, LatencySource, Measured
+from airhilt.sim.worker import Policy
 
 
 @dataclass
@@ -40,17 +42,20 @@ class Answer:
 class Bench:
     """One server with a worker that the test writes, and all that comes out of it."""
 
-    answer: object
-    latency: object
+    answer: Callable[..., Any]
+    latency: LatencySource
     name: str = "worker"
     director: Director = field(default_factory=lambda: Director(Virtual()))
 
     def __post_init__(self) -> None:
-        self.calls, self.out, self.steps, self.losses = [], [], [], []
+        self.calls: list[Any] = []
+        self.out: list[tuple[int, bytes]] = []
+        self.steps: list[Any] = []
+        self.losses: list[Any] = []
         self.server = Server(
             self.name,
             self.director,
-            self,
+            cast(Any, self),
             self.latency,
             deliver=lambda output: self.out.append((self.director.now_ns, output.payload)),
             done=self.steps.append,
@@ -61,7 +66,7 @@ class Bench:
         self.calls.append((seq, t_ns, tuple(item.payload for item in inputs)))
         return Answer(self.answer(seq, t_ns, inputs))
 
-    def offer_at(self, t_ns: int, payload: bytes, policy: str = "fifo", key: str = "k") -> None:
+    def offer_at(self, t_ns: int, payload: bytes, policy: Policy = "fifo", key: str = "k") -> None:
         def offer() -> None:
             self.server.offer(Input(key, t_ns, payload), policy)
 
@@ -172,7 +177,10 @@ def test_inputs_of_one_instant_are_one_batch() -> None:
 
 def test_a_batch_leaves_the_unbatched_ones_in_the_queue() -> None:
     bench = Bench(echo, Fixed(10))
-    for name, policy in ((b"a", "fifo"), (b"b", "batch"), (b"c", "fifo"), (b"d", "batch")):
+    policies: tuple[tuple[bytes, Policy], ...] = (
+        (b"a", "fifo"), (b"b", "batch"), (b"c", "fifo"), (b"d", "batch"),
+    )  # fmt: skip
+    for name, policy in policies:
         bench.offer_at(0, name, policy)
     bench.run()
     assert [inputs for _, _, inputs in bench.calls] == [(b"a",), (b"b", b"d"), (b"c",)]
@@ -212,10 +220,14 @@ def test_measured_workers_of_an_instant_are_all_called_before_one_is_waited_for(
             order.append("waited for")
             return super().result()
 
+    def called(*_: Any) -> Answer:
+        order.append("called")
+        return Watched(Reply((), 0.0))
+
     director = Director(Virtual())
     for name in ("one", "two"):
         bench = Bench(echo, Measured(), name=name, director=director)
-        bench.dispatch = lambda *_: order.append("called") or Watched(Reply((), 0.0))
+        bench.dispatch = called  # type: ignore[assignment]
         bench.offer_at(5, b"a")
     director.run()
     assert order == ["called", "called", "waited for", "waited for"]
@@ -228,7 +240,7 @@ def test_results_of_one_instant_come_in_the_order_in_which_their_steps_began() -
         for name, latency_ns in (("slow", 90), ("quick", 40), ("quicker", 10))
     }
     for name, t_ns in (("slow", 0), ("quick", 50), ("quicker", 80)):
-        benches[name].server._deliver = lambda _, n=name: published.append((director.now_ns, n))
+        benches[name].server._deliver = lambda _, n=name: published.append((director.now_ns, n))  # type: ignore[misc]
         benches[name].offer_at(t_ns, b"a")
     director.run()
     assert published == [(90, "slow"), (90, "quick"), (90, "quicker")]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any, cast
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from airhilt.messages import (
 )
 from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
+from airhilt.surveillance.squitters import PositionSquitter, SurfacePositionSquitter
 from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
 from airhilt.world.site import FixedSite
@@ -125,7 +127,7 @@ class Mover:
         self.icao24 = f"{sum(256**i * b for i, b in enumerate(self.callsign.encode()[-3:])):06x}"
         generator = np.random.default_rng((self.seed, *self.callsign.encode()))
         self.transponder = Transponder(
-            self.icao24, self.callsign, self.nacp, 2, generator, self.category
+            self.icao24, self.callsign, self.nacp, 2, generator, cast(Any, self.category)
         )
         self._heading_rad = ((self.heading_deg or 0.0) + self.axis.course_deg) * DEGREE
 
@@ -303,6 +305,7 @@ class Airfield:
             return []
         if step < 3:
             station.decode(sender, sender.identification(), t_ns)
+        squitter: SurfacePositionSquitter | PositionSquitter
         if grounded:
             squitter = sender.surface_position(state, t_ns)
         else:
@@ -347,7 +350,7 @@ class Airfield:
     def advice(self, recipient: str) -> list[tuple[str, str]]:
         """Return what somebody was recommended, and for which runway."""
         return [
-            (advisory.recommendation.action, advisory.recommendation.runway)
+            (advisory.recommendation.action, getattr(advisory.recommendation, "runway", ""))
             for advisory in self.to(recipient)
             if advisory.recommendation is not None
         ]

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
 from airhilt import load
+from airhilt.assistant.reference import reference_workers
 from airhilt.cosim import cameras as vision
 from airhilt.cosim import participants as team
 from airhilt.cosim import simulation as cosim
+from airhilt.cosim.observer import Result
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from oracle import BlankSceneRenderer, Oracle
@@ -30,10 +32,10 @@ def passing() -> Scenario:
 
 def camera_run(
     out: Path, patch: pytest.MonkeyPatch, scenario: Scenario | None = None, **options: Any
-) -> cosim.Result:
+) -> Result:
     """Run it with an oracle that looks; what it finds is true, with errors."""
-    oracle = Oracle(None, 0, 8.0)
-    reference = team.reference_workers
+    oracle = Oracle(cast(Any, None), 0, 8.0)
+    reference = reference_workers
 
     def open_scene_renderer(realised: Scenario, *_: Any) -> BlankSceneRenderer:
         oracle._renderer = BlankSceneRenderer(realised)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from geographiclib.geodesic import Geodesic
@@ -112,7 +113,7 @@ class Flight:
         """Return what is to be seen of it."""
         return Body(label, *sizes, self.place)
 
-    def nose(self, *bodies: Body, **how: float) -> Camera:
+    def nose(self, *bodies: Body, **how: Any) -> Camera:
         """Return a camera on its nose, while it rolls and pitches a little."""
 
         def look(time_s: float) -> tuple[Place, tuple[float, float, float]]:
@@ -120,7 +121,7 @@ class Flight:
             pitch = (3.0 + math.sin(time_s)) * DEGREE
             return place, (track, pitch, 3.0 * DEGREE * math.sin(0.7 * time_s))
 
-        wide = {"fov_deg": 25.0, "width_px": 1280, "height_px": 720} | how
+        wide: dict[str, Any] = {"fov_deg": 25.0, "width_px": 1280, "height_px": 720} | how
         return Camera(f"nose_{self.callsign}", FRAME, look, list(bodies), self.callsign, **wide)
 
 
@@ -227,13 +228,14 @@ class Encounter:
         return [str(advisory.severity) for advisory in self.to(recipient) if advisory.active]
 
 
-def head_on(seconds: float, seed: int = 1, **second: float) -> Encounter:
+def head_on(seconds: float, seed: int = 1, **second: Any) -> Encounter:
     """Two at FL350, some 60 NM apart, that meet over the centre after 230 s."""
+    other: dict[str, Any] = {
+        "callsign": "DAL456", "icao24": "a4d5e6", "track_deg": 270.0, "distance_nm": 30.7,
+        "altitude_ft": 35_000.0, "seed": seed,
+    }  # fmt: skip
     flights = [
         Flight("AAL123", "a1b2c3", 90.0, 30.7, 35_000, seed=seed),
-        Flight(
-            **({"callsign": "DAL456", "icao24": "a4d5e6", "track_deg": 270.0,
-                "distance_nm": 30.7, "altitude_ft": 35_000.0, "seed": seed} | second)
-        ),
-    ]  # fmt: skip
+        Flight(**(other | second)),
+    ]
     return Encounter(flights, seconds)

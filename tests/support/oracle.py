@@ -11,12 +11,13 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 import pytest
 
 from airhilt import load
+from airhilt.assistant.reference import reference_workers
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.cosim import cameras as vision
@@ -101,7 +102,7 @@ class BlankSceneRenderer:
         blank = self._blanks[size]
         return Frame(name, t_ns, view, blank, blank[..., 0], blank[..., 0], sightings, True)
 
-    def _sighting(self, body, view):
+    def _sighting(self, body: Any, view: Any) -> Any:
         whole = self._outlines[body.actor, body.shape].box(body.pose, view)
         if whole is None:
             return None
@@ -189,7 +190,7 @@ class Follower(Oracle):
         if frame.t_frame_ns % HIDDEN_EVERY_NS < HIDDEN_NS:
             self.erred["hidden"] += 1
         else:
-            found = [self._unsure(each) for each in super()._look(frame)]
+            found = [self._unsure(each) for each in super()._look(frame) or ()]
         if self._errors.random() < FALSE_BOXES:
             self.erred["false"] += 1
             found.append(self._false(frame.view))
@@ -232,10 +233,10 @@ def watched(
         made[0]._renderer = renderer
         return renderer
 
-    reference = team.reference_workers
+    reference = reference_workers
 
-    def workers(assistant, radio, taken, engines):
-        made.append(oracle(None, seed, smallest_px))
+    def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> Any:
+        made.append(oracle(cast(Any, None), seed, smallest_px))
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 

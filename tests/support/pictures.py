@@ -83,7 +83,9 @@ class BlobDetector:
                 ]
                 box = (columns.start, rows.start, columns.stop, rows.stop)
                 found.append(
-                    Found(label, 0.5 + float(around.mean()) / 600.0, tuple(map(float, box)))
+                    Found(
+                        label, 0.5 + float(around.mean()) / 600.0, (box[0], box[1], box[2], box[3])
+                    )
                 )
         return sorted(found, key=lambda one: (-one.confidence, one.box))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -94,7 +95,7 @@ class Camera:
             carrier=self.carrier,
         )  # fmt: skip
 
-    def box(self, body: Body, t_s: float) -> tuple[float, float, float, float] | None:
+    def box(self, body: Body, t_s: float) -> Any:
         """Return the true box about a body, cut off at the picture's edges; None if unseen."""
         place, angles = self.look(t_s)
         lens = Intrinsics(self.width_px, self.height_px, self.fov_deg * DEGREE)
@@ -143,6 +144,6 @@ class Camera:
         ]
 
 
-def standing(place: Place, heading_deg: float, pitch_deg: float = 0.0):
+def standing(place: Place, heading_deg: float, pitch_deg: float = 0.0) -> Callable[..., Any]:
     """Return where a camera looks that never moves."""
     return lambda _: (place, (heading_deg * DEGREE, pitch_deg * DEGREE, 0.0))

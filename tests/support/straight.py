@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from airhilt.geodesy.relative_motion import Minima
-from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.shapes.sizes import Dimensions
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
-from airhilt.world.flight import AircraftState, AircraftType, load_aircraft_type
+from airhilt.world.flight import AircraftState, load_aircraft_type
 from airhilt.world.mover import carried_on
 from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import ConflictMonitor, PairTruth
@@ -31,7 +31,7 @@ class Straight:
     north_m_s: float = 0.0
     rate_fpm: float = 0.0
     target_ft: float | None = None
-    kind: AircraftType = B737
+    kind: Any = B737
     ended: str | None = None
     on_ground: bool = False
     phase: str = "en_route"
@@ -59,7 +59,7 @@ class Straight:
         )
 
     @property
-    def dimensions(self) -> AircraftDimensions:
+    def dimensions(self) -> Any:
         return self.kind.dimensions
 
     @property
@@ -78,9 +78,11 @@ class Straight:
 class Rolling(Straight):
     """A vehicle that drives straight on."""
 
-    dimensions = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
+    @property
+    def dimensions(self) -> Dimensions:
+        return Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
 
-    def __init__(self, east_m: float = 0.0, north_m: float = 0.0, **motion: float) -> None:
+    def __init__(self, east_m: float = 0.0, north_m: float = 0.0, **motion: Any) -> None:
         super().__init__(east_m, north_m, 0.0, on_ground=True, phase="driving", **motion)
         self.kind = None
 
@@ -94,7 +96,7 @@ class Watch:
         names: Sequence[str] = "ABCDEF",
         transponders: frozenset[str] | None = None,
     ) -> None:  # fmt: skip
-        self.aircraft = dict(zip(names, aircraft, strict=False))
+        self.aircraft: dict[str, Any] = dict(zip(names, aircraft, strict=False))
         self.tick_s = tick_s
         self.told: dict[str, float] = {}
         self.distances: dict[str, tuple[float, float]] = {}

@@ -25,4 +25,5 @@ class Tone:
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         self.asked.append((text, voice))
         number = hashlib.sha256(f"{text}{voice}".encode()).digest()[0]
-        return np.sin(np.arange(200 * len(text)) * (0.05 + number / 1000)).astype(np.float32)
+        tone: Audio = np.sin(np.arange(200 * len(text)) * (0.05 + number / 1000)).astype(np.float32)
+        return tone

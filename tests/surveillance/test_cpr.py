@@ -19,7 +19,7 @@ bearings = st.floats(0.0, 360.0)
 
 
 def off_m(one: tuple[float, float], other: tuple[float, float]) -> float:
-    return Geodesic.WGS84.Inverse(*one, *other)["s12"]
+    return float(Geodesic.WGS84.Inverse(*one, *other)["s12"])
 
 
 def resolution_m(latitude_deg: float) -> float:
@@ -98,6 +98,7 @@ def test_a_pair_that_was_sent_on_the_move_gives_the_newest_position(
     decoded = cpr.decode_global(even, odd, newest_is_odd)
     zones = [cpr.longitude_zones(lat) for lat in (latitude, newest[0])]
     assume(zones[0] == zones[1] and decoded is not None)
+    assert decoded is not None
     assert off_m(decoded, newest) < resolution_m(latitude)
 
 
@@ -152,7 +153,9 @@ def test_the_published_example_decodes_to_where_it_is_published_to_be() -> None:
     """The 1090 Megahertz Riddle (J. Sun, 2021), chapter 5: 8D40621D58C382D690C8AC2863A7."""
     even = cpr.CprPosition(93000, 51372, odd=False)
     odd = cpr.CprPosition(74158, 50194, odd=True)
-    latitude, longitude = cpr.decode_global(even, odd, newest_is_odd=False)
+    decoded = cpr.decode_global(even, odd, newest_is_odd=False)
+    assert decoded is not None
+    latitude, longitude = decoded
     assert latitude == pytest.approx(52.2572, abs=1e-4)
     assert longitude == pytest.approx(3.91937, abs=1e-4)
     assert cpr.decode_local(even, (52.258, 3.918)) == pytest.approx((latitude, longitude))

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from _pytest.approx import ApproxSequenceLike
 
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
@@ -43,7 +42,7 @@ def test_sensitivity_levels_are_those_of_the_table(
 ) -> None:
     row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
 
-    def published(thresholds: tuple[int, float, int] | None) -> ApproxSequenceLike | None:
+    def published(thresholds: tuple[int, float, int] | None) -> Any:
         return thresholds and pytest.approx(
             (thresholds[0], thresholds[1] * NAUTICAL_MILE, thresholds[2] * FOOT)
         )

@@ -234,7 +234,7 @@ class TestKeptPictures:
     def test_answers_that_are_written_in_part_are_asked_for_anew(
         self, asking: Any, places: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        def full(file: Any, **_: object) -> None:
+        def full(file: Any, **_: Any) -> None:
             file.write(b"PK")
             raise OSError("no space left on device")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 from typing import Any
@@ -43,7 +42,7 @@ class Voices:
             answering(b"hoarse", 500)(handler, body)
         else:
             speech = np.sin(np.arange(800 * len(text)) / 9).astype(np.float32) / 2
-            answering(encode_wav(speech), kind="audio/wav")(handler, body)
+            answering(encode_wav(speech.astype(np.float32)), kind="audio/wav")(handler, body)
 
 
 class Notices(Observer):
@@ -55,10 +54,9 @@ class Notices(Observer):
 
 
 @pytest.fixture(autouse=True)
-def _nothing_is_cached(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def _nothing_is_cached(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_text("in the way of a cache")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    return
 
 
 @pytest.fixture(scope="module")

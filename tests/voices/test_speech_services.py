@@ -98,7 +98,7 @@ class TestServiceThat:
     def test_is_down(self, use: object) -> None:
         url = nobody()
         with pytest.raises(SpeechError, match=f"{url} is not there: .*refused"):
-            use(url)  # type: ignore[operator]
+            use(url)
 
     def test_has_no_address(self, use: object) -> None:
         for url in (
@@ -110,14 +110,14 @@ class TestServiceThat:
             "http://a/ b",
         ):
             with pytest.raises(SpeechError, match="is no address"):
-                use(url)  # type: ignore[operator]
+                use(url)
 
     @pytest.mark.parametrize("how", get_args(Slowness))
     def test_is_slow(self, use: object, how: Slowness) -> None:
         slow = Slow(how, encode_wav(TONE) if use is speak else b'{"text": "too late"}')
         with service(slow) as url:
             with pytest.raises(SpeechError, match=r"has not answered for 0\.3 s"):
-                use(url, 0.3)  # type: ignore[operator]
+                use(url, 0.3)
             slow.released.set()
 
     def test_sends_elsewhere(self, use: object) -> None:
@@ -131,7 +131,7 @@ class TestServiceThat:
             service(redirecting(other)) as url,
             pytest.raises(SpeechError, match="HTTP status 303"),
         ):
-            use(url)  # type: ignore[operator]
+            use(url)
         assert asked == []
 
     def test_a_proxy_would_be_between(self, use: object, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -142,22 +142,22 @@ class TestServiceThat:
             service(answering(b"here I am", 500)) as url,
             pytest.raises(SpeechError, match="here I am"),
         ):
-            use(url)  # type: ignore[operator]
+            use(url)
 
     def test_fails(self, use: object) -> None:
         with (
             service(answering(b"out of memory", 500)) as url,
             pytest.raises(SpeechError, match="HTTP status 500: 'out of memory'"),
         ):
-            use(url)  # type: ignore[operator]
+            use(url)
 
     def test_answers_without_an_end(self, use: object) -> None:
         with service(endless) as url, pytest.raises(SpeechError, match=r"more than [0-9]+ bytes"):
-            use(url)  # type: ignore[operator]
+            use(url)
 
     def test_breaks_off(self, use: object) -> None:
         with service(breaking_off) as url, pytest.raises(SpeechError, match="broke off"):
-            use(url)  # type: ignore[operator]
+            use(url)
 
 
 @pytest.mark.parametrize(

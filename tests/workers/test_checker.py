@@ -91,7 +91,8 @@ class Talkative(Ears):
 
 class Forgetful(Ears):
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
-        super().step(t_ns, inputs)  # And no return.
+        super().step(t_ns, inputs)
+        return None  # type: ignore[return-value]
 
 
 class Stamping(Ears):

@@ -10,7 +10,14 @@ from typing import Any
 import pytest
 
 from airhilt.errors import WorkerError
-from airhilt.messages import AdvisoryAudio, InputSpec, Transcript, Transmission, WorkerDescription
+from airhilt.messages import (
+    AdvisoryAudio,
+    InputSpec,
+    Message,
+    Transcript,
+    Transmission,
+    WorkerDescription,
+)
 from airhilt.sim import Director, Input, Output, Priority, Virtual, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step
@@ -49,8 +56,8 @@ class Listener:
     policy: str = "fifo"
     output: Output | None = None
     failure: Exception | None = None
-    heard: list = field(default_factory=list)
-    inputs: list = field(default_factory=list)
+    heard: list[Any] = field(default_factory=list)
+    inputs: list[Any] = field(default_factory=list)
 
     @property
     def description(self) -> WorkerDescription:
@@ -67,12 +74,15 @@ class Listener:
 
 @dataclass
 class Run:
-    workers: list
+    workers: list[Any]
     latency: str = "fixed:1"
 
     def __post_init__(self) -> None:
         self.director = Director(Virtual())
-        self.published, self.raw, self.steps, self.losses = [], [], [], []
+        self.published: list[Any] = []
+        self.raw: list[bytes | None] = []
+        self.steps: list[Any] = []
+        self.losses: list[tuple[str, Any]] = []
         self.pool = WorkerPool(
             self.director,
             [Participant(w.description, LocalWorker(w), where="in process") for w in self.workers],
@@ -86,7 +96,7 @@ class Run:
     def publish(
         self,
         key: str,
-        message: AdvisoryAudio | Transcript,
+        message: Message,
         publisher: str,
         raw: bytes | None = None,
     ) -> None:

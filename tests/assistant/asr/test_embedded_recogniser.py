@@ -9,6 +9,7 @@ import sys
 import tracemalloc
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import jiwer
 import numpy as np
@@ -69,7 +70,7 @@ def folder(tmp_path: Path) -> Path:
     return Path(shutil.copytree(TINY, tmp_path / "model"))
 
 
-def with_card(folder: Path, **changes: object) -> Ctc:
+def with_card(folder: Path, **changes: Any) -> Ctc:
     path = folder / "card.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | changes))
     return Ctc(folder)

@@ -168,12 +168,12 @@ def climbing(
         flights.append(Flight("DAL456", "a4d5e6", 270.0, 30.7, 34_000, seed=seed))
     calls = [(20.0, 25.0, CLEARED), (26.0, 31.0, READ_BACK.format(read_back))]
     encounter = Encounter(flights, seconds, calls=calls)
-    encounter.climb_at_s = 140.0
+    climb_at_s = 140.0
     plan = flights[0].advance
 
     def advance(step_s: float, clock: list[float] = [0.0]) -> None:  # noqa: B006
         clock[0] += step_s
-        if clock[0] == encounter.climb_at_s:
+        if clock[0] == climb_at_s:
             flights[0].climb(level_ft, 1500.0)
         plan(step_s)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -17,7 +17,6 @@ from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import Climb, Detections, Severity, Turn
-from airhilt.scenario.models import Scenario
 from airhilt.units import DEGREE, SECOND_NS
 from encounters import Encounter, Flight
 from projected import AIRLINER, CESSNA, FLOCK, Camera, still
@@ -61,7 +60,7 @@ def unnumbered(found: Detections) -> Detections:
     return found.model_copy(update={"detections": plain})
 
 
-def first(encounter: Scenario, severity: str) -> float:
+def first(encounter: Encounter, severity: str) -> float:
     """Return how long before the encounter that severity was told first."""
     return next(MEET_S - t for t, a in encounter.told if a.severity == severity and a.active)
 
@@ -102,7 +101,7 @@ def test_who_is_overtaken_is_seen_longer_before(seed: int) -> None:
 def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed: int) -> None:
     wide = {"fov_deg": 54.0, "width_px": 1920, "height_px": 1080}
     assert meeting(seed, track=180.0).fly().told == []
-    encounter = meeting(seed, track=180.0, **wide).fly()
+    encounter = meeting(seed, track=180.0, **cast(dict[str, Any], wide)).fly()
     assert first(encounter, "WARNING") > 8.0
     assert "traffic ahead to the left" in encounter.to("AAL123")[-2].message
 
@@ -114,7 +113,7 @@ def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed: int) -> 
 )
 def test_who_passes_by_is_no_warning(how: dict[str, float]) -> None:
     for seed in SEEDS:
-        encounter = meeting(seed, **how).fly()
+        encounter = meeting(seed, **cast(dict[str, Any], how)).fly()
         assert "WARNING" not in encounter.severities("ATC")
 
 
@@ -260,7 +259,7 @@ def closing_camera(
 
 
 def glimpses_of(
-    closing_m_s: float, miss_m: float, left_s: float, seconds: float, *how: float, **more: Any
+    closing_m_s: float, miss_m: float, left_s: float, seconds: float, *how: Any, **more: Any
 ) -> list[Observation]:
     """Return what such a camera sees."""
     camera = closing_camera(closing_m_s, miss_m, left_s, seconds, *how, **more)

@@ -17,7 +17,6 @@ from airhilt.assistant.decision.line_of_sight import (
     LineOfSight,
     PictureGeometry,
     Ray,
-    Sightline,
     meeting,
 )
 from airhilt.geodesy.local_frame import LocalFrame
@@ -29,7 +28,7 @@ CUBE = (2.0, 2.0, 2.0)
 angles = st.floats(-180.0, 180.0)
 
 
-def line_to(camera: Camera, box: tuple[float, ...], at: str) -> Sightline:
+def line_to(camera: Camera, box: tuple[float, ...], at: str) -> LineOfSight:
     geometry = PictureGeometry(camera.view(0.0))
     (east, north, up), _ = camera.look(0.0)
     return LineOfSight(Vector(east, north), up, getattr(geometry, at)(box), geometry.error_rad)
@@ -127,6 +126,8 @@ def test_turning_the_carrier_does_not_turn_what_is_seen(
 def test_cameras_from_two_sides_together_know_a_place_better_than_either() -> None:
     west = LineOfSight(Vector(-300.0, 0.0), 8.0, Ray.towards(300.0, 0.0, -8.0), 2e-3).on_ground()
     south = LineOfSight(Vector(0.0, -300.0), 8.0, Ray.towards(0.0, 300.0, -8.0), 2e-3).on_ground()
+    assert west is not None
+    assert south is not None
     both = west.merged(south)
     assert both.point == pytest.approx((0.0, 0.0), abs=1e-6)
     assert both.east_m2 < south.east_m2 < west.east_m2
@@ -149,7 +150,7 @@ def test_the_chance_of_being_inside_is_that_of_the_error() -> None:
     east=st.floats(-200.0, 200.0), north=st.floats(300.0, 900.0), up=st.floats(0.0, 150.0),
 )  # fmt: skip
 def test_two_lines_of_sight_meet_where_both_lead(east: float, north: float, up: float) -> None:
-    def line(place: Vector) -> Sightline:
+    def line(place: Vector) -> LineOfSight:
         ray = Ray.towards(east - place.east, north - place.north, up - 3.0)
         return LineOfSight(place, 3.0, ray, 1e-3)
 
@@ -160,7 +161,7 @@ def test_two_lines_of_sight_meet_where_both_lead(east: float, north: float, up: 
 
 
 def test_lines_of_sight_to_different_birds_do_not_meet() -> None:
-    def line(place: Vector, east: float, up: float) -> Sightline:
+    def line(place: Vector, east: float, up: float) -> LineOfSight:
         return LineOfSight(place, 3.0, Ray.towards(east - place.east, 600.0, up), 1e-3)
 
     low, high = line(Vector(-120.0, 0.0), 0.0, 20.0), line(Vector(120.0, 0.0), 0.0, 90.0)

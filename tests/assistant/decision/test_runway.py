@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
@@ -32,7 +32,7 @@ from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
-from airhilt.messages import Severity, Transcript
+from airhilt.messages import AirportBriefing, Severity, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.surveillance.receivers import Receiver
 from airhilt.units import SECOND_NS
@@ -482,7 +482,7 @@ def test_who_is_on_the_ground_does_not_lose_separation() -> None:
 
 def test_without_an_airport_runways_are_of_no_concern() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))])
-    field._step = lambda t_ns, inputs, step=field._step: step(
+    field._step = lambda t_ns, inputs, step=field._step: step(  # type: ignore[misc]
         t_ns, [item for item in inputs if item.key != "briefing"]
     )
     assert field.run(110).told == []
@@ -509,19 +509,20 @@ def test_the_other_end_of_the_other_end_is_this_end(number: int, side: str) -> N
 
 
 def test_the_charted_runways_are_paired_and_cross_where_they_cross() -> None:
-    aerodrome = Aerodrome(BRIEFING.airport)
+    aerodrome = Aerodrome(cast(AirportBriefing, BRIEFING.airport))
     assert [strip.name for strip in aerodrome.strips] == ["01/19", "15/33"]
     first, second = aerodrome.strips
     assert aerodrome.strip_of("19") is first
     assert aerodrome.strip_of("27") is None
     point = aerodrome.crossing(second, first)
+    assert point is not None
     for direction in (*first.directions, *second.directions):
         assert abs(direction.across_m(point)) < 0.5
         assert 0.0 < direction.along_m(point) < direction.length_m
 
 
 def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves() -> None:
-    strip = Aerodrome(BRIEFING.airport).strips[0]
+    strip = Aerodrome(cast(AirportBriefing, BRIEFING.airport)).strips[0]
     direction = strip.directions[0]
     side = Vector(direction.ahead.north, -direction.ahead.east)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -37,13 +37,13 @@ def camera(
     name: str,
     place: tuple[float, float, float],
     right_deg: float,
-    bodies: list[Body] | tuple[Any, ...],
+    bodies: Sequence[Body],
     pitch_deg: float = -2.0,
     **how: Any,
 ) -> Camera:
     """Return a camera that stands, and looks so far to the right of the runway's direction."""
     look = standing(at(*place), NORTH.course_deg + right_deg, pitch_deg)
-    return Camera(name, FIELD, look, bodies, **({"rate_hz": 4.0, "smallest_px": 5.0} | how))
+    return Camera(name, FIELD, look, list(bodies), **({"rate_hz": 4.0, "smallest_px": 5.0} | how))
 
 
 def beside_threshold(*bodies: Body, **how: Any) -> Camera:
@@ -67,7 +67,7 @@ def silent(spot: Callable[..., Any], callsign: str = "OPS1", category: str = "C2
 
 def look_at(
     *movers: Mover,
-    cameras: list[Camera] | tuple[Camera],
+    cameras: Sequence[Camera],
     seconds: float = LANDS_S - 5.0,
     calls: list[tuple[float, str]] | tuple[Any, ...] = (),
 ) -> Airfield:
@@ -151,7 +151,7 @@ def test_two_cameras_that_agree_need_not_wait() -> None:
     def told_s(*cameras: Camera) -> float:
         def appears(one: Camera) -> Camera:
             one.bodies = [
-                replace(body, at=lambda t_s, at=body.at: at(t_s if t_s > 40.0 else -1e5))
+                replace(body, at=lambda t_s, at=body.at: at(t_s if t_s > 40.0 else -1e5))  # type: ignore[misc]
                 for body in one.bodies
             ]
             return one

@@ -7,8 +7,10 @@ import math
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,6 +22,7 @@ from airhilt.assistant.vision.refiner import Refiner
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
 from airhilt.imaging.boxes import overlap
+from airhilt.messages import Box
 
 
 @pytest.fixture(scope="module")
@@ -27,8 +30,12 @@ def detector() -> EmbeddedDetector:
     return EmbeddedDetector()
 
 
+Airliner = tuple[npt.NDArray[np.uint8], Box]
+"""A picture, and the box of the aircraft in it."""
+
+
 @pytest.fixture(scope="module")
-def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
+def airliner() -> Airliner:
     """A 737 over open country, before a camera in the air, and its box."""
     import datetime
 
@@ -51,10 +58,10 @@ def airliner() -> tuple[np.ndarray, tuple[float, float, float, float]]:
     body = BodyState("737", -10.0, 150.0, 907.5, 3.1, 0.03, 0.05, "clean", True)
     frame = scene_renderer.shoot(["nose"], [body], 0)[0]
     scene_renderer.close()
-    return frame.colour, tuple(frame.sightings[0].box)
+    return frame.colour, cast(Box, tuple(frame.sightings[0].box))
 
 
-def copy(folder: Path, **card: object) -> Path:
+def copy(folder: Path, **card: Any) -> Path:
     """Return the detector's file in another place, with changes to its card."""
     for network in MODEL.parent.glob("*.onnx"):
         shutil.copy(network, folder)
@@ -63,14 +70,16 @@ def copy(folder: Path, **card: object) -> Path:
     return folder / MODEL.name
 
 
-def test_an_airliner_is_found_where_it_is(detector, airliner) -> None:
+def test_an_airliner_is_found_where_it_is(detector: EmbeddedDetector, airliner: Airliner) -> None:
     picture, box = airliner
     surest = detector.detect(picture)[0]
     assert surest.label == "airplane"
     assert np.abs(np.subtract(surest.box, box)).max() < 16.0
 
 
-def test_pictures_of_any_size_give_boxes_within_them(detector, airliner) -> None:
+def test_pictures_of_any_size_give_boxes_within_them(
+    detector: EmbeddedDetector, airliner: Airliner
+) -> None:
     picture, _ = airliner
     for rows, columns in ((356, 636), (200, 301), (33, 47), (1, 1)):
         part = picture[-rows:, :columns]
@@ -80,28 +89,35 @@ def test_pictures_of_any_size_give_boxes_within_them(detector, airliner) -> None
             assert 0.0 <= top < bottom <= rows
 
 
-def test_in_an_even_picture_there_is_nothing(detector) -> None:
+def test_in_an_even_picture_there_is_nothing(detector: EmbeddedDetector) -> None:
     for level in (0, 90, 200, 255):
         assert not detector.detect(np.full((360, 640, 3), level, dtype=np.uint8))
 
 
-def test_the_same_picture_gives_the_same_answer(detector, airliner) -> None:
+def test_the_same_picture_gives_the_same_answer(
+    detector: EmbeddedDetector, airliner: Airliner
+) -> None:
     picture, _ = airliner
     assert detector.detect(picture) == EmbeddedDetector().detect(picture.copy())
 
 
-def test_threads_change_nothing_of_the_answer(detector, airliner) -> None:
+def test_threads_change_nothing_of_the_answer(
+    detector: EmbeddedDetector, airliner: Airliner
+) -> None:
     assert EmbeddedDetector(threads=1).detect(airliner[0]) == detector.detect(airliner[0])
 
 
 def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
-    detector, airliner, monkeypatch
+    detector: EmbeddedDetector,
+    airliner: Airliner,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     picture, (left, top, right, bottom) = airliner
     rows, columns = picture.shape[:2]
     whole = Tile(0, 0, rows, columns)
     assert detector.detect_in(picture, whole) == detector.detect(picture)
-    window = Tile(*(max(round(side) // 16 * 16 - 64, 0) for side in (top, left)), 176, 240)
+    row, column = (max(round(side) // 16 * 16 - 64, 0) for side in (top, left))
+    window = Tile(row, column, 176, 240)
     found = detector.detect_in(picture, window)[0]
     assert found.label == "airplane"
     assert overlap(found.box, (left, top, right, bottom)) > 0.5
@@ -121,7 +137,9 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     assert all(one.label != "airplane" for one in detector.detect_in(picture, outside))
 
 
-def test_the_surest_come_first_and_none_is_below_the_threshold(airliner) -> None:
+def test_the_surest_come_first_and_none_is_below_the_threshold(
+    airliner: Airliner,
+) -> None:
     picture, _ = airliner
     confidences = [found.confidence for found in EmbeddedDetector(threshold=0.01).detect(picture)]
     assert confidences == sorted(confidences, reverse=True)
@@ -129,7 +147,7 @@ def test_the_surest_come_first_and_none_is_below_the_threshold(airliner) -> None
     assert len(EmbeddedDetector(threshold=0.5).detect(picture)) <= len(confidences)
 
 
-def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner) -> None:
+def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner: Airliner) -> None:
     picture, _ = airliner
     assert EmbeddedDetector(copy(tmp_path)).detect(picture) == EmbeddedDetector().detect(picture)
     severe = EmbeddedDetector(copy(tmp_path, threshold=1.0))
@@ -137,7 +155,9 @@ def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner) -> No
     assert all(found.confidence < severe.threshold for found in severe.detect(picture))
 
 
-def test_what_is_unsure_is_told_too_but_not_what_is_hardly_anything(tmp_path, airliner) -> None:
+def test_what_is_unsure_is_told_too_but_not_what_is_hardly_anything(
+    tmp_path: Path, airliner: Airliner
+) -> None:
     picture, _ = airliner
     for threshold in (0.2, 0.6, 0.9):
         detector = EmbeddedDetector(copy(tmp_path, threshold=threshold))
@@ -146,7 +166,9 @@ def test_what_is_unsure_is_told_too_but_not_what_is_hardly_anything(tmp_path, ai
         assert told == {one for one in everything if one >= threshold / 2.0}
 
 
-def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(tmp_path, airliner) -> None:
+def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(
+    tmp_path: Path, airliner: Airliner
+) -> None:
     picture, _ = airliner
     plain = {"of_class": {}, "logit": 1.0, "size": 0.0, "size_squared": 0.0, "logit_and_size": 0.0}
     (tmp_path / "plain").mkdir()
@@ -178,9 +200,9 @@ def test_the_shipped_calibration_never_turns_scores_round(
     assert less_sure < calibration.log_odds("airplane", score + more, side_px)
 
 
-def test_a_picture_that_is_none_is_refused(detector) -> None:
+def test_a_picture_that_is_none_is_refused(detector: EmbeddedDetector) -> None:
     with pytest.raises(VisionError, match=r"float64 \[4, 4\]; expected uint8"):
-        detector.detect(np.zeros((4, 4)))
+        detector.detect(np.zeros((4, 4), np.uint8))
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
@@ -225,7 +247,7 @@ def test_a_card_that_is_wrong_is_named(
         EmbeddedDetector(copy(tmp_path, **card))
 
 
-def test_classes_are_those_of_the_card(tmp_path: Path, airliner) -> None:
+def test_classes_are_those_of_the_card(tmp_path: Path, airliner: Airliner) -> None:
     picture, _ = airliner
     # The shipped network's airliner is its class 0.
     others = ["truck", "airplane", "deer", "coyote", "bird"]

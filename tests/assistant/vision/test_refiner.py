@@ -7,14 +7,15 @@ import math
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector, once
+from airhilt.assistant.vision.detector import Found, once
+from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
 from airhilt.assistant.vision.refiner import (
     VIEW_PX,
     Refiner,
@@ -43,7 +44,7 @@ def noise() -> np.ndarray:
     return np.random.default_rng(1).integers(60, 200, (ROWS, COLUMNS, 3), dtype=np.uint8)
 
 
-def detector_in(folder: Path, **refiner: object) -> Path:
+def detector_in(folder: Path, **refiner: Any) -> Path:
     """Return a copy of the detector with changes to what its card says of the refiner."""
     for network in MODEL.parent.glob("*.onnx"):
         shutil.copy(network, folder)
@@ -54,7 +55,7 @@ def detector_in(folder: Path, **refiner: object) -> Path:
     return folder / "detector.onnx"
 
 
-def look(classes: Sequence[VisibleClass] = CLASSES, **card: object) -> Refiner:
+def look(classes: Sequence[VisibleClass] = CLASSES, **card: Any) -> Refiner:
     """Return the refiner that ships, with changes to its card."""
     shipped = json.loads(MODEL.with_name("card.json").read_text())["refiner"]
     return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
@@ -177,7 +178,7 @@ def test_the_refiner_has_the_last_word(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(Refiner, "judge", judge)
     detector = EmbeddedDetector(detector_in(tmp_path), threshold=0.0)
     assert detector.detect(noise()) == [
-        Found("truck", pytest.approx(0.9), (0.0, 10.0, 26.0, 30.0)),
+        Found("truck", cast(Any, pytest.approx(0.9)), (0.0, 10.0, 26.0, 30.0)),
     ]
     assert asked == [proposed]
     assert {one.label for one in detector.uncalibrated(noise())} == {"deer", "truck"}

@@ -24,7 +24,7 @@ def test_tiles_are_small_and_leave_nothing_out(columns: int, rows: int) -> None:
     for tile in tiles_of(picture):
         assert max(tile.height, tile.width) <= TILE_PX
         assert tile.of(picture).shape[:2] == (tile.height, tile.width)
-        tile.of(seen)[...] = True  # type: ignore[arg-type]
+        tile.of(seen)[...] = True
     assert seen.all()
 
 
@@ -53,5 +53,5 @@ def test_what_two_tiles_take_for_different_things_is_one() -> None:
 def test_different_things_side_by_side_stay_two() -> None:
     flat = np.full((1080, 1920, 3), 100, np.uint8)
     blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
-    found = Gate(BlobDetector()).look("tower", with_blobs(flat, blobs))  # type: ignore[arg-type]
+    found = Gate(BlobDetector()).look("tower", with_blobs(flat, blobs))
     assert sorted(one.box for one in found) == [box for _, box in blobs]

@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -50,17 +51,17 @@ def radio(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_report(busy_radio(tmp_path_factory.mktemp("radio") / "run"))
 
 
-def pressed(page: Page) -> str:
+def pressed(page: Page) -> Any:
     return page.evaluate("document.querySelector('#views [aria-pressed=true]').textContent")
 
 
-def texts(page: Page, chart: str) -> list[str]:
+def texts(page: Page, chart: str) -> Any:
     return page.evaluate(
         f"[...document.querySelectorAll('#{chart} svg text')].map((text) => text.textContent)"
     )
 
 
-def cursors(page: Page) -> list[float]:
+def cursors(page: Page) -> Any:
     return page.evaluate(
         "[...document.querySelectorAll('.cursor')].map((c) => +c.getAttribute('x1'))"
     )
@@ -331,7 +332,7 @@ def test_plots_are_drawn_with_rings_and_the_last_turn_has_its_codes(
 # --- the radio ------------------------------------------------------------------------------
 
 
-def cells(page: Page, table: str, column: str) -> list[str]:
+def cells(page: Page, table: str, column: str) -> Any:
     return page.evaluate(
         f"[...document.querySelectorAll('#{table} td[data-label=\"{column}\"]')]"
         ".map((cell) => cell.textContent.trim())"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -64,7 +65,7 @@ class Run:
         self.director = Director(Virtual())
         self.sensor = CameraSensor(
             self.director,
-            frame_source,
+            cast(Any, frame_source),
             scenario.cameras,
             site,
             self.cast,
@@ -88,7 +89,7 @@ class Run:
         ]
 
 
-def scenario_with(**changes: object) -> Scenario:
+def scenario_with(**changes: Any) -> Scenario:
     """Return the head-on encounter with its first camera changed."""
     document = json.loads(load("s02a_headon").model_dump_json())
     document["cameras"][0] |= changes

@@ -11,6 +11,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,7 +44,7 @@ CAMERA = {
 }
 
 
-def washington(**camera: object) -> Scenario:
+def washington(**camera: Any) -> Scenario:
     document = load("s01b_nominal").model_dump(mode="json")
     document["cameras"] = [CAMERA | camera]
     return Scenario.model_validate(document)
@@ -170,7 +171,7 @@ def test_a_renderer_without_room_for_its_files_says_what_to_do(
         RendererProcess(washington(), ["runway_01"], "embree")
 
 
-def full_disk(*_: object, **__: object) -> None:
+def full_disk(*_: object, **__: Any) -> None:
     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 

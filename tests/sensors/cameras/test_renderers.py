@@ -79,7 +79,7 @@ class Airfield:
         kind = MODELS[name].aircraft
         wheels = 0.0 if kind is None else kind.dimensions.wheel_height_offset_m
         heading = self.site.layout.runway("01").course_rad + turned
-        shape = next(iter(reversed(MODELS[name].shapes)))
+        *_, shape = MODELS[name].shapes
         return BodyState(name, east, north, up_m + wheels, heading, 0.0, roll, shape, True)
 
     def scene_renderer(self, renderer: str) -> SceneRenderer:

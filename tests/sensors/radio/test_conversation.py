@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.commands import AltitudeCommand
-from airhilt.messages import HearingTruth, SpokenTruth, Transcript, Transmission, Word
+from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript, Transmission, Word
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.backends import TextRadio
@@ -60,7 +59,9 @@ class World:
         document["perturbations"] = []
         self.scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
-        self.published, self.done, self.microphones = [], [], []
+        self.published: list[Any] = []
+        self.done: list[Any] = []
+        self.microphones: list[tuple[float, str | None]] = []
         high = FixedSite(0.68, -1.34, altitude_m=33_000 * FOOT)
         self.actors = {
             actor.callsign: SimpleNamespace(
@@ -92,7 +93,7 @@ class World:
     def publish(
         self,
         key: str,
-        message: HearingTruth | SpokenTruth | Transcript | Transmission,
+        message: Message,
         *,
         raw: bytes | None = None,
     ) -> None:
@@ -106,7 +107,7 @@ class World:
         del condition
         self.director.at(self.director.now_ns, action, Priority.SCRIPT)
 
-    def do(self, callsign: str, command: AltitudeCommand) -> None:
+    def do(self, callsign: str, command: Any) -> None:
         self.done.append((callsign, command, self.now_s))
 
     @property
@@ -147,8 +148,9 @@ class Scripted(HearingModel):
         object.__setattr__(self, "_heard", heard)
 
     __slots__ = ("_heard",)
+    _heard: dict[tuple[str, str], Heard]
 
-    def listen(self, transmission: str, listener: str, text: str, snr_db: None) -> Heard:
+    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
         return self._heard.get((transmission, listener), Heard("understood", text))
 
 
@@ -341,7 +343,8 @@ def test_what_is_on_the_air_at_the_end_has_been_said_up_to_there_and_nobody_take
     assert world.spoken(clearance).blocked_by == (carrier,)
     received = [one for one in world.published if isinstance(one, Transmission)]
     spoken = [one for one in world.published if isinstance(one, SpokenTruth)]
-    assert [one.t_end_ns for one in (*spoken, *received)] == [12 * SECOND_NS] * 4
+    ends = [one.t_end_ns for one in spoken] + [one.t_end_ns for one in received]
+    assert ends == [12 * SECOND_NS] * 4
     assert world.hearings("AAL123") == []
 
 

@@ -17,7 +17,7 @@ from airhilt.sensors.radio.hearing import (
 TEXT = "American one two three, climb and maintain flight level three three zero."
 
 
-def outcomes(snr_db: float, calls: int = 2000) -> Counter:
+def outcomes(snr_db: float, calls: int = 2000) -> Counter[str]:
     model = HearingModel(seed=1)
     heard = (model.listen(f"call{n}", "AAL123", TEXT, snr_db) for n in range(calls))
     return Counter(one.outcome for one in heard)

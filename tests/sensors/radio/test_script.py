@@ -37,9 +37,10 @@ def played(*lines: EffectiveLine, failed: list[Any] | None = None) -> list[tuple
 
     What waits for a condition waits for a time.
     """
-    director, due = Director(Virtual()), []
+    director = Director(Virtual())
+    due: list[tuple[str, float]] = []
 
-    def once(condition: TimeReached, action: Callable[..., Any]) -> None:
+    def once(condition: Any, action: Callable[..., Any]) -> None:
         due_ns = max(seconds_to_ns(condition.at_s), director.now_ns)
         director.at(due_ns, action, Priority.SCRIPT)
 
@@ -70,7 +71,7 @@ def test_a_line_waits_for_its_condition_too() -> None:
 
 
 def test_a_line_that_is_late_comes_late_and_one_that_is_dropped_never() -> None:
-    failed = []
+    failed: list[Any] = []
     due = played(
         line("a", 5.0), line("b", 10.0, late_s=7.0), line("c", 11.0, dropped=True), failed=failed
     )

@@ -56,7 +56,8 @@ class Buzzing:
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         t = np.arange(len(text) * SAMPLE_RATE_HZ // 10) / SAMPLE_RATE_HZ
         hum = np.sin(2 * np.pi * (300 + 40 * len(voice.name)) * t) * np.sin(2 * np.pi * 2 * t) ** 2
-        return (0.3 * hum).astype(np.float32)
+        sound: Audio = (0.3 * hum).astype(np.float32)
+        return sound
 
 
 class Everywhere:
@@ -121,7 +122,7 @@ class Air:
 
         self.at(t_s, begin)
         for at_s, samples in fed:
-            self.at(at_s, lambda samples=samples: open_microphones[0].feed(samples))
+            self.at(at_s, lambda samples=samples: open_microphones[0].feed(samples))  # type: ignore[misc]
         self.at(release_s, lambda: open_microphones[0].release())
 
     def run(self, until_s: float | None = None) -> Air:
@@ -251,7 +252,7 @@ def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
         air.say(10.0, "first", 3.0)
         air.say(11.2, "second", 3.0, listens_first=False)
     streamed.run()
-    known.transmissions._receiver._stream = lambda on_air: None  # type: ignore[method-assign]
+    known.transmissions._receiver._stream = lambda on_air: None
     known.run()
     for name in ("first", "second"):
         assert streamed.whole(name) == known.whole(name)

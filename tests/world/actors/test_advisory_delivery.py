@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -22,14 +22,14 @@ class Crew:
     def __init__(self, unable: bool = False) -> None:
         self.spec = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
         self.body = SimpleNamespace(ended=None)
-        self.heard = []
+        self.heard: list[tuple[int, bool]] = []
         self.unable = unable
 
     def hear(self, advisory: Advisory) -> Reaction:
         self.heard.append((advisory.revision, advisory.active))
         return Reaction(2.0, self.act, "follows turn")
 
-    def act(self) -> bool | None:
+    def act(self) -> bool:
         if self.unable:
             raise Unable("unable to turn")
         return True
@@ -62,16 +62,19 @@ class Told:
     ) -> None:
         """Take in messages, each at its time in seconds, and let the crew react."""
         director = Director(Virtual())
-        self.crew, self.events = Crew(unable), []
+        self.crew = Crew(unable)
+        self.events: list[tuple[str, str, str, float]] = []
 
         def event(kind: str, subject: str, text: str) -> None:
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
 
-        delivery = AdvisoryDelivery(director, {"AAL123": self.crew}, event, is_voiced=voiced)
+        delivery = AdvisoryDelivery(
+            director, {"AAL123": cast(Any, self.crew)}, event, is_voiced=voiced
+        )
         for at_s, message in messages:
             director.at(
                 seconds_to_ns(at_s),
-                lambda message=message: delivery.take("", message, b""),
+                lambda message=message: delivery.take("", message, b""),  # type: ignore[misc]
                 Priority.RESULT,
             )
         if lost_at_s is not None:

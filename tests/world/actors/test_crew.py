@@ -53,7 +53,7 @@ def crew_of(
 
 
 def advisory(
-    recommendation: Climb | MaintainLevel | None = CLIMB,
+    recommendation: Climb | MaintainLevel | Turn | None = CLIMB,
     severity: str = "CAUTION",
     active: bool = True,
     revision: int = 0,

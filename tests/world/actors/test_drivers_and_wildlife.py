@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -20,7 +21,7 @@ from airhilt.world.site import ScenarioSite
 COMMAND = TypeAdapter(Command)
 
 
-def cast_of(name: str, **changed: object) -> dict[str, Actor]:
+def cast_of(name: str, **changed: Any) -> dict[str, Any]:
     scenario = load(name)
     actors = tuple(
         actor.model_copy(update=changed) if actor.callsign in ("OPS1", "DEER1") else actor
@@ -31,7 +32,7 @@ def cast_of(name: str, **changed: object) -> dict[str, Actor]:
     return build_actors(scenario, ScenarioSite.of(scenario), 0, 0.05)
 
 
-def tell(actor: Actor, action: str, **arguments: object) -> None:
+def tell(actor: Actor, action: str, **arguments: Any) -> None:
     actor.command(COMMAND.validate_python({"action": action, **arguments}))
 
 
@@ -49,8 +50,10 @@ def advisory(recommendation: object, active: bool = True) -> Advisory:
 
 
 @pytest.fixture
-def driver() -> Actor:
-    return cast_of("s01b_nominal")["OPS1"]
+def driver() -> Driver:
+    driver = cast_of("s01b_nominal")["OPS1"]
+    assert isinstance(driver, Driver)
+    return driver
 
 
 def test_a_driver_drives_to_the_hold_and_stops_before_the_line(driver: Driver) -> None:
@@ -216,7 +219,7 @@ def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first(
     done: list[str] = []
     triggers = Triggers()
     for name in "abc":
-        triggers.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))
+        triggers.once(lambda now_ns: now_ns >= 3, lambda name=name: done.append(name))  # type: ignore[misc]
     for now_ns in range(5):
         triggers.evaluate(now_ns)
     assert done == ["a", "b", "c"]

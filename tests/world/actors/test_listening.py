@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.phraseology import Instruction, parse_call
+from airhilt.phraseology import Action, Instruction, parse_call
 from airhilt.world.actors.listening import TAU_ASR, Listener, Understanding, commands_of
 
 ON_FREQUENCY = ("AAL123", "DAL456")
@@ -188,7 +188,7 @@ def test_an_instruction_makes_a_command(
 
 
 @pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
-def test_without_any_runway_there_is_nothing_to_do(action: str) -> None:
+def test_without_any_runway_there_is_nothing_to_do(action: Action) -> None:
     assert commands_of([Instruction(action=action)], None) == ()
 
 

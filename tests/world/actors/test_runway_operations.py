@@ -41,7 +41,7 @@ class Plane:
     height_m: float = 0.0
     speed_kt: float = 0.0
     heading_deg: float = 355.5
-    told: list[tuple[object, ...]] = field(default_factory=list)
+    told: list[tuple[Any, ...]] = field(default_factory=list)
     refuses: str = ""
     kind = B737
     ended = None
@@ -122,11 +122,11 @@ class Plane:
         return [name for name, *_ in self.told]
 
 
-def crew_of(plane: Plane) -> Crew:
+def crew_of(plane: Any) -> Crew:
     return Crew(ReactionModel("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
 
 
-def tell(crew: Crew, action: str, **arguments: object) -> None:
+def tell(crew: Crew, action: str, **arguments: Any) -> None:
     crew.command(COMMAND.validate_python({"action": action, **arguments}))
 
 
@@ -135,7 +135,7 @@ def at_hold(taxiway: str = "A") -> Plane:
     return Plane(place=hold.place)
 
 
-def on_final(distance_m: float, height_m: float = 300.0, **kw: object) -> Plane:
+def on_final(distance_m: float, height_m: float = 300.0, **kw: Any) -> Plane:
     place = kdca().place(RunwayPosition(type="runway", runway="01", along_m=-distance_m))
     return Plane("glide", place, height_m, 140.0, **kw)
 
@@ -398,7 +398,7 @@ def test_on_the_ground_it_is_unable_to_land() -> None:
 
 
 @pytest.mark.parametrize("command", [{"action": "track", "track_deg": 90}])
-def test_who_leaves_an_approach_is_bound_for_no_runway(command: dict[str, int | str]) -> None:
+def test_who_leaves_an_approach_is_bound_for_no_runway(command: dict[str, Any]) -> None:
     plane = on_final(5_000.0)
     crew = crew_of(plane)
     crew.runway_operations.begin_on_final("01")

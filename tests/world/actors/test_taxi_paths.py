@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import cache
 from itertools import pairwise
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -35,14 +36,14 @@ START = kdca().airport.node("K/D")
 legs = st.lists(st.tuples(st.floats(0.0, 6.28), st.floats(1.0, 500.0)), min_size=1, max_size=8)
 
 
-def way(steps):
+def way(steps: list[tuple[float, float]]) -> list[tuple[float, float]]:
     path = [START]
     for bearing, length in steps:
         path.append(onward(path[-1], bearing, length))
     return path
 
 
-def length_m(path):
+def length_m(path: list[tuple[float, float]]) -> float:
     return sum(distance_m(*leg) for leg in pairwise(path))
 
 
@@ -51,7 +52,9 @@ def length_m(path):
 
 @settings(deadline=None, max_examples=50)
 @given(legs, st.floats(0.0, 0.99))
-def test_a_way_is_shortened_by_what_was_asked(steps, part):
+def test_a_way_is_shortened_by_what_was_asked(
+    steps: list[tuple[float, float]], part: float
+) -> None:
     path = way(steps)
     by_m = part * length_m(path)
     short = shortened(path, by_m)
@@ -61,7 +64,9 @@ def test_a_way_is_shortened_by_what_was_asked(steps, part):
 
 @settings(deadline=None, max_examples=20)
 @given(legs, st.floats(1.0, 500.0))
-def test_of_a_way_that_is_too_short_its_beginning_is_left(steps, more_m):
+def test_of_a_way_that_is_too_short_its_beginning_is_left(
+    steps: list[tuple[float, float]], more_m: float
+) -> None:
     path = way(steps)
     assert shortened(path, length_m(path) + more_m) == path[:1]
 
@@ -76,7 +81,9 @@ def test_of_a_way_that_is_too_short_its_beginning_is_left(steps, more_m):
     st.floats(-3_000.0, 3_000.0),
     st.floats(-3.1, 3.1),
 )
-def test_a_place_off_a_final_approach_is_told_by_its_distances(runway, along_m, right_m, angle):
+def test_a_place_off_a_final_approach_is_told_by_its_distances(
+    runway: str, along_m: float, right_m: float, angle: float
+) -> None:
     final = FinalApproach(kdca().airport, kdca().runway(runway))
     place = kdca().place(
         RunwayPosition(type="runway", runway=runway, along_m=along_m, offset_m=right_m)
@@ -89,7 +96,7 @@ def test_a_place_off_a_final_approach_is_told_by_its_distances(runway, along_m, 
     assert final.angle_rad(track + 2.0 * math.pi) == pytest.approx(angle, abs=1e-9)
 
 
-def test_beside_a_direction_is_to_the_right_and_negative_to_the_left():
+def test_beside_a_direction_is_to_the_right_and_negative_to_the_left() -> None:
     north = kdca().runway("01").course_rad
     final = FinalApproach(kdca().airport, kdca().runway("01"))
     threshold = kdca().runway("01").threshold
@@ -102,7 +109,7 @@ def test_beside_a_direction_is_to_the_right_and_negative_to_the_left():
 
 @settings(deadline=None, max_examples=40)
 @given(st.sampled_from(["01", "19", "04", "22", "15", "33"]), st.floats(50.0, 180.0))
-def test_the_exit_is_the_first_that_a_normal_rollout_makes(runway, speed_kt):
+def test_the_exit_is_the_first_that_a_normal_rollout_makes(runway: str, speed_kt: float) -> None:
     """Touched down 450 m past the threshold, it brakes with 2 m/s2 to what it turns off with."""
     end, speed = kdca().runway(runway), speed_kt * KNOT
     exits = kdca().airport.exits(runway)
@@ -115,7 +122,7 @@ def test_the_exit_is_the_first_that_a_normal_rollout_makes(runway, speed_kt):
         assert found.along_m == pytest.approx(min(made), abs=1.0)
 
 
-def test_where_a_taxiway_crosses_the_runway_it_leaves_towards_the_stands():
+def test_where_a_taxiway_crosses_the_runway_it_leaves_towards_the_stands() -> None:
     """M has exits on both sides; the stands lie to the west."""
     found = exit_for(kdca(), kdca().runway("01"), 66.0, "M_west")
     first = exit_for(kdca(), kdca().runway("01"), 63.0, None)
@@ -124,7 +131,7 @@ def test_where_a_taxiway_crosses_the_runway_it_leaves_towards_the_stands():
     assert first.position == "M_west"
 
 
-def test_a_named_exit_is_that_one_and_an_unknown_one_is_told_with_those_there_are():
+def test_a_named_exit_is_that_one_and_an_unknown_one_is_told_with_those_there_are() -> None:
     end = kdca().runway("01")
     assert exit_for(kdca(), end, 60.0, "D").taxiway == "D"
     with pytest.raises(Unable, match="runway 01 has no exit Q; there are: B_"):
@@ -135,14 +142,14 @@ def test_a_named_exit_is_that_one_and_an_unknown_one_is_told_with_those_there_ar
 
 
 @pytest.mark.parametrize("name", ["01/19 E", "15/33 G", "04/22 C"])
-def test_the_hold_beside_an_actor_is_the_nearest_of_that_runway(name):
+def test_the_hold_beside_an_actor_is_the_nearest_of_that_runway(name: str) -> None:
     hold = kdca().airport.holds[name]
     here = onward(hold.place, hold.heading_rad, -30.0)
     for ident in hold.runway.split("/"):
         assert hold_beside(kdca(), here, ident) is hold
 
 
-def test_far_from_every_hold_of_a_runway_there_is_none():
+def test_far_from_every_hold_of_a_runway_there_is_none() -> None:
     hold = kdca().airport.hold("01", "E")
     with pytest.raises(Unable, match="not at a hold-short position of runway 33"):
         hold_beside(kdca(), hold.place, "33")
@@ -150,11 +157,11 @@ def test_far_from_every_hold_of_a_runway_there_is_none():
         hold_beside(kdca(), hold.place, "36")
 
 
-def taxi(to, **more):
+def taxi(to: dict[str, Any], **more: Any) -> TaxiCommand:
     return TaxiCommand.model_validate({"action": "taxi", "to": to, **more})
 
 
-def test_a_way_ends_where_it_was_told_to():
+def test_a_way_ends_where_it_was_told_to() -> None:
     gate = kdca().airport.node("gate_b12")
     path = taxi_path(kdca(), START, taxi({"type": "node", "node": "gate_b12"}), 10.0)
     assert distance_m(path[-1], gate) < 0.01
@@ -162,7 +169,7 @@ def test_a_way_ends_where_it_was_told_to():
 
 
 @pytest.mark.parametrize("nose_m", [2.5, 16.8, 35.3])
-def test_short_of_a_line_the_nose_stops_three_metres_before_it(nose_m):
+def test_short_of_a_line_the_nose_stops_three_metres_before_it(nose_m: float) -> None:
     command = taxi({"type": "hold_short", "runway": "01", "taxiway": "D"})
     path = taxi_path(kdca(), kdca().airport.node("gate_b12"), command, nose_m)
     line = kdca().airport.hold("01", "D")
@@ -177,12 +184,12 @@ def test_short_of_a_line_the_nose_stops_three_metres_before_it(nose_m):
         (taxi({"type": "from_centre", "bearing_deg": 90, "distance_nm": 3}), "nearest taxiway"),
     ],
 )
-def test_where_no_way_leads_is_said(command, what):
+def test_where_no_way_leads_is_said(command: TaxiCommand, what: str) -> None:
     with pytest.raises(Unable, match=what):
         taxi_path(kdca(), START, command, 10.0)
 
 
-def test_off_the_taxiways_it_is_straight_there():
+def test_off_the_taxiways_it_is_straight_there() -> None:
     command = taxi({"type": "node", "node": "gate_b12"}, off_taxiways=True)
     path = taxi_path(kdca(), START, command, 10.0)
     assert path == [START, kdca().airport.node("gate_b12")]

@@ -188,13 +188,14 @@ def test_on_the_ground_no_en_route_command_is_taken(
 ) -> None:
     aircraft = on_final("c172p", distance_nm=1.0)
     Landing(aircraft, runway, states)
-    for command in (
+    commands: tuple[Callable[[], object], ...] = (
         lambda: aircraft.en_route.hold_altitude(500.0),
         lambda: aircraft.en_route.hold_track(1.0),
         lambda: aircraft.en_route.hold_speed(50.0),
         lambda: aircraft.procedures.land(runway),
         lambda: aircraft.procedures.go_around(500.0),
-    ):
+    )
+    for command in commands:
         with pytest.raises(ValueError, match=r"in phase standing"):
             command()
 

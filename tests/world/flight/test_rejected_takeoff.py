@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -22,7 +22,9 @@ CROSSWIND = Atmosphere(
 )
 
 
-def roll_to(aircraft: Aircraft, airspeed_kt: float, states: Callable[..., Any]) -> AircraftState:
+def roll_to(
+    aircraft: Aircraft, airspeed_kt: float, states: Callable[..., Iterator[AircraftState]]
+) -> AircraftState:
     for state in states(aircraft, 60):
         if state.calibrated_airspeed_m_s >= airspeed_kt * KNOT:
             return state
@@ -35,7 +37,7 @@ def test_it_stops_within_3000_ft_on_the_centre_line(
     name: str,
     on_the_ground: Callable[..., Any],
     runway: RunwayEnd,
-    states: Callable[..., Any],
+    states: Callable[..., Iterator[AircraftState]],
 ) -> None:
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
     line = Final(runway, aircraft.kind)
@@ -51,7 +53,9 @@ def test_it_stops_within_3000_ft_on_the_centre_line(
 
 
 def test_it_can_take_off_after_all(
-    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+    on_the_ground: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Iterator[AircraftState]],
 ) -> None:
     aircraft = on_the_ground("c172p")
     aircraft.procedures.take_off(runway, 100.0)
@@ -66,7 +70,9 @@ def test_it_can_take_off_after_all(
 
 
 def test_only_a_takeoff_roll_is_rejected(
-    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
+    on_the_ground: Callable[..., Any],
+    runway: RunwayEnd,
+    states: Callable[..., Iterator[AircraftState]],
 ) -> None:
     aircraft = on_the_ground("c172p")
     with pytest.raises(ValueError, match="reject_takeoff in phase lined_up; expected takeoff_roll"):

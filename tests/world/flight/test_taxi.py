@@ -179,12 +179,13 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(
     on_the_ground: Callable[..., Any],
 ) -> None:
     aircraft = on_the_ground("c172p")
-    for command in (
+    commands: tuple[Callable[[], object], ...] = (
         lambda: aircraft.en_route.hold_altitude(1_000.0),
         lambda: aircraft.en_route.hold_track(0.0),
         lambda: aircraft.en_route.turn_by(1.0),
         lambda: aircraft.en_route.hold_speed(40.0),
-    ):
+    )
+    for command in commands:
         with pytest.raises(ValueError, match="on the ground"):
             command()
     assert aircraft.phase == "lined_up"

@@ -42,7 +42,8 @@ TRUE_DEG = {
 
 @pytest.fixture
 def document() -> dict[str, Any]:
-    return json.loads(library.find("airports", "kdca").read_text(encoding="utf-8"))
+    kdca: dict[str, Any] = json.loads(library.find("airports", "kdca").read_text(encoding="utf-8"))
+    return kdca
 
 
 def refused(document: dict[str, Any], folder: Path) -> str:

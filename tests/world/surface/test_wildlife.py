@@ -194,9 +194,9 @@ def test_animals_scatter_and_react_after_a_while_that_differs() -> None:
     for seed in range(20):
         body = animal("deer", seed)
         body.startle(at((0.0, -50.0)))
-        watched = watch(body, lambda body=body: body.phase == "fleeing")
+        watched = watch(body, lambda body=body: body.phase == "fleeing")  # type: ignore[misc]
         delays.add(len(watched))
-        watch(body, lambda body=body: not body.startled)
+        watch(body, lambda body=body: not body.startled)  # type: ignore[misc]
         ways.add(round(math.atan2(*where(body.state)), 3))
     assert len(ways) == 20
     assert min(delays) * TICK_S > 0.3

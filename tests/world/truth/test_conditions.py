@@ -1,6 +1,9 @@
 """Conditions on the true state, each when it is true and when it is not."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, cast
 
 import pytest
 from pydantic import TypeAdapter
@@ -17,34 +20,36 @@ from straight import Performing, Rolling, Straight, Watch
 class Case:
     """A condition on two aircraft, A and B, that meet after a minute if nobody says otherwise."""
 
-    def __init__(self, condition, *aircraft):
+    def __init__(self, condition: dict[Any, Any], *aircraft: Rolling | Straight) -> None:
         pair = aircraft or (
             Straight(-15_000.0, east_m_s=250.0),
             Straight(15_000.0, east_m_s=-250.0),
         )
         self.watch = Watch(*pair, names=("AA", "BB"))
-        self.ended_lines = set()
+        self.ended_lines: set[str] = set()
         self.actors = {name: Performing(body) for name, body in self.watch.aircraft.items()}
-        compiler = ConditionCompiler(self.actors, self.watch.monitor, None, self.ended_lines)
+        compiler = ConditionCompiler(
+            cast(Any, self.actors), self.watch.monitor, None, self.ended_lines
+        )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
-    def __call__(self):
+    def __call__(self) -> bool:
         return self.test(self.watch.now_ns)
 
-    def after(self, seconds):
+    def after(self, seconds: float) -> bool:
         for craft in self.watch.aircraft.values():
             craft.advance(seconds)
         self.watch.now_ns += round(seconds * SECOND_NS)
         return self()
 
-    def end(self, callsign="AA"):
+    def end(self, callsign: str = "AA") -> None:
         self.watch.aircraft[callsign].ended = "ground_contact"
 
 
 PAIR = ["AA", "BB"]
 
 
-def test_time_is_reached_from_then_on():
+def test_time_is_reached_from_then_on() -> None:
     case = Case({"type": "time", "at_s": 10.0})
     assert [case(), case.after(9.9), case.after(0.1), case.after(50.0)] == [
         False,
@@ -54,7 +59,7 @@ def test_time_is_reached_from_then_on():
     ]
 
 
-def test_a_line_has_ended_once_it_has():
+def test_a_line_has_ended_once_it_has() -> None:
     case = Case({"type": "line_ended", "line": "readback"})
     assert not case()
     case.ended_lines.add("clearance")
@@ -63,8 +68,8 @@ def test_a_line_has_ended_once_it_has():
     assert case()
 
 
-def test_separation_is_below_both_distances_at_once():
-    def below(**second):
+def test_separation_is_below_both_distances_at_once() -> None:
+    def below(**second: Any) -> bool:
         condition = {"type": "separation_below", "actors": PAIR, "horizontal_nm": 5.0,
                      "vertical_ft": 1000.0}  # fmt: skip
         return Case(condition, Straight(), Straight(**second))()
@@ -75,14 +80,14 @@ def test_separation_is_below_both_distances_at_once():
 
 
 @pytest.mark.parametrize(("within_s", "true_at_start"), [(41.0, False), (42.0, True)])
-def test_a_loss_is_predicted_within_a_time(within_s, true_at_start):
+def test_a_loss_is_predicted_within_a_time(within_s: float, true_at_start: bool) -> None:
     """5 NM apart at 500 m/s of closure is 18.5 s before the two meet after 60 s."""
     case = Case({"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": within_s})
     assert case() == true_at_start
     assert case.after(2.0)
 
 
-def test_no_loss_is_predicted_of_two_that_have_passed_or_keep_apart():
+def test_no_loss_is_predicted_of_two_that_have_passed_or_keep_apart() -> None:
     condition = {"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": 1200.0}
     apart = (Straight(-15_000.0, east_m_s=-250.0), Straight(15_000.0, east_m_s=250.0))
     assert not Case(condition, *apart)()
@@ -90,7 +95,7 @@ def test_no_loss_is_predicted_of_two_that_have_passed_or_keep_apart():
     assert not Case(condition, *above)()
 
 
-def test_a_closest_approach_has_passed_when_the_two_have_drawn_apart_for_a_while():
+def test_a_closest_approach_has_passed_when_the_two_have_drawn_apart_for_a_while() -> None:
     case = Case({"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0})
     assert not case()
     assert not case.after(59.0)
@@ -99,7 +104,7 @@ def test_a_closest_approach_has_passed_when_the_two_have_drawn_apart_for_a_while
     assert case.after(1.1)
 
 
-def test_drawing_apart_must_not_be_broken_off():
+def test_drawing_apart_must_not_be_broken_off() -> None:
     case = Case({"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0})
     case.after(61.0)
     case.after(15.0)
@@ -116,8 +121,8 @@ def test_drawing_apart_must_not_be_broken_off():
      (35_000, 31_000, False), (35_000, None, True)],
 )  # fmt: skip
 def test_bound_for_an_altitude_is_where_an_aircraft_flies_to_and_not_where_it_is(
-    altitude_ft, target_ft, true
-):
+    altitude_ft: int, target_ft: int | None, true: bool
+) -> None:
     condition = {"type": "bound_for_altitude", "actor": "AA", "altitude_ft": 35_000}
     first = Straight(altitude_ft=altitude_ft, target_ft=target_ft)
     assert Case(condition, first, Straight())() == true
@@ -132,7 +137,7 @@ def test_bound_for_an_altitude_is_where_an_aircraft_flies_to_and_not_where_it_is
     ],
     ids=lambda condition: condition["type"],
 )
-def test_of_an_aircraft_that_has_ended_nothing_is_true(condition):
+def test_of_an_aircraft_that_has_ended_nothing_is_true(condition: dict[Any, Any]) -> None:
     case = Case(condition)
     assert case()
     case.end()
@@ -142,14 +147,14 @@ def test_of_an_aircraft_that_has_ended_nothing_is_true(condition):
 LATE, EARLY = {"type": "time", "at_s": 20.0}, {"type": "time", "at_s": 10.0}
 
 
-def test_all_of_them_are_true_when_the_last_is_and_any_of_them_when_the_first_is():
+def test_all_of_them_are_true_when_the_last_is_and_any_of_them_when_the_first_is() -> None:
     everything = Case({"type": "all_of", "conditions": [EARLY, LATE]})
     anything = Case({"type": "any_of", "conditions": [LATE, EARLY]})
     assert [everything(), everything.after(10.0), everything.after(10.0)] == [False, False, True]
     assert [anything(), anything.after(10.0), anything.after(10.0)] == [False, True, True]
 
 
-def test_a_condition_that_keeps_time_keeps_it_while_another_is_not_yet_true():
+def test_a_condition_that_keeps_time_keeps_it_while_another_is_not_yet_true() -> None:
     passed = {"type": "closest_approach_passed", "actors": PAIR, "for_s": 20.0}
     case = Case({"type": "all_of", "conditions": [{"type": "time", "at_s": 90.0}, passed]})
     for _ in range(89):
@@ -163,45 +168,56 @@ def test_a_condition_that_keeps_time_keeps_it_while_another_is_not_yet_true():
 class Airport(Case):
     """A condition on an aircraft on final approach to runway 01 at KDCA, and a car on it."""
 
-    def __init__(self, condition, along_m=-3_000.0, speed=72.0, car_along_m=800.0, **aircraft):
+    def __init__(
+        self,
+        condition: dict[Any, Any],
+        along_m: float = -3_000.0,
+        speed: float = 72.0,
+        car_along_m: float = 800.0,
+        **aircraft: Any,
+    ) -> None:
         layout = Layout(load_airport("KDCA"))
         end = layout.runway("01")
         east, north = layout.local_frame.to_local(end.threshold)
         sin, cos = math.sin(end.course_rad), math.cos(end.course_rad)
 
-        def at(body, along):
+        def at(body: Rolling | Straight, along: float) -> Rolling | Straight:
             place = layout.local_frame.to_place(east + along * sin, north + along * cos)
             body.state = body.state._replace(latitude_rad=place[0], longitude_rad=place[1])
             return body
 
-        plane = Straight(east_m_s=speed * sin, north_m_s=speed * cos,
-                         **({"altitude_ft": 500.0, "phase": "glide"} | aircraft))  # fmt: skip
+        flown: dict[str, Any] = {"altitude_ft": 500.0, "phase": "glide"} | aircraft
+        plane = Straight(east_m_s=speed * sin, north_m_s=speed * cos, **flown)
         super().__init__(condition, at(plane, along_m), at(Rolling(), car_along_m))
         self.actors["AA"].bound_runway = "01"
         self.actors["BB"].category = "vehicle"
         nothing = lambda *_: None  # noqa: E731
-        self.runways = RunwayMonitor(layout, self.actors, set(), nothing, nothing)
-        compiler = ConditionCompiler(self.actors, self.watch.monitor, self.runways, set())
+        self.runways = RunwayMonitor(layout, cast(Any, self.actors), set(), nothing, nothing)
+        compiler = ConditionCompiler(
+            cast(Any, self.actors), self.watch.monitor, self.runways, set()
+        )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
-    def __call__(self):
+    def __call__(self) -> bool:
         self.runways.tick(self.watch.now_ns)
         return super().__call__()
 
 
 @pytest.mark.parametrize(("phases", "true"), [(["glide"], True), (["flare", "rollout"], False),
                                               (["flare", "glide"], True)])  # fmt: skip
-def test_an_actor_is_in_one_of_some_phases(phases, true):
+def test_an_actor_is_in_one_of_some_phases(phases: list[str], true: bool) -> None:
     assert Airport({"type": "in_phase", "actor": "AA", "phases": phases})() == true
 
 
 @pytest.mark.parametrize(("runway", "true"), [("01", True), ("1", True), ("19", False)])
-def test_bound_for_a_runway_is_in_which_direction_a_crew_means_to_use_it(runway, true):
+def test_bound_for_a_runway_is_in_which_direction_a_crew_means_to_use_it(
+    runway: str, true: bool
+) -> None:
     assert Airport({"type": "bound_for_runway", "actor": "AA", "runway": runway})() == true
 
 
-def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground():
-    def on(actor, runway, **case):
+def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground() -> None:
+    def on(actor: str, runway: str, **case: Any) -> bool:
         return Airport({"type": "on_runway", "actor": actor, "runway": runway}, **case)()
 
     assert on("BB", "01")
@@ -216,13 +232,15 @@ def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground():
     ("runway", "within_s", "true"),
     [("01", 41.0, False), ("01", 42.0, True), ("1", 42.0, True), ("19", 1200.0, False)],
 )
-def test_the_threshold_is_within_a_time_of_an_arrival(runway, within_s, true):
+def test_the_threshold_is_within_a_time_of_an_arrival(
+    runway: str, within_s: float, true: bool
+) -> None:
     """3000 m away at 72 m/s."""
     condition = {"type": "threshold_within", "actor": "AA", "runway": runway, "within_s": within_s}
     assert Airport(condition)() == true
 
 
-def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed():
+def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed() -> None:
     condition = {"type": "threshold_within", "actor": "AA", "runway": "01", "within_s": 1200.0}
     assert not Airport(condition, along_m=10.0)()
     assert not Airport(condition, speed=0.5)()
@@ -230,25 +248,25 @@ def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed
     assert not Airport({**condition, "actor": "BB"}, car_along_m=-900.0)()
 
 
-def test_a_speed_is_above_a_value_over_the_ground():
+def test_a_speed_is_above_a_value_over_the_ground() -> None:
     condition = {"type": "speed_above", "actor": "AA"}
     assert Airport({**condition, "speed_kt": 139.0})()
     assert not Airport({**condition, "speed_kt": 141.0})()
 
 
-def test_a_height_is_below_a_value_above_the_ground():
+def test_a_height_is_below_a_value_above_the_ground() -> None:
     condition = {"type": "height_below", "actor": "AA"}
     assert Airport({**condition, "height_ft": 501.0})()
     assert not Airport({**condition, "height_ft": 499.0})()
 
 
-def test_a_distance_is_below_a_value_whatever_the_height():
+def test_a_distance_is_below_a_value_whatever_the_height() -> None:
     condition = {"type": "distance_below", "actors": PAIR}
     assert Airport({**condition, "distance_m": 3_810.0}, altitude_ft=9_000.0)()
     assert not Airport({**condition, "distance_m": 3_790.0})()
 
 
-def test_two_have_collided_once_they_have_touched_and_ever_after():
+def test_two_have_collided_once_they_have_touched_and_ever_after() -> None:
     for actors in (PAIR, PAIR[::-1]):
         case = Case({"type": "collided", "actors": actors})
         assert not case()
@@ -273,7 +291,9 @@ def test_two_have_collided_once_they_have_touched_and_ever_after():
     ],
     ids=lambda condition: condition["type"],
 )
-def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(condition):
+def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(
+    condition: dict[Any, Any],
+) -> None:
     case = Airport(condition)
     assert case()
     case.end(condition.get("actor", "AA"))

@@ -49,7 +49,7 @@ def test_tcas_says_nothing_of_who_carries_no_transponder() -> None:
 
 
 def test_near_the_ground_tcas_says_nothing() -> None:
-    low = {"altitude_ft": 400.0}
+    low: dict[str, Any] = {"altitude_ft": 400.0}
     watch = Watch(Straight(-5_000, east_m_s=50.0, **low), Straight(5_000, east_m_s=-50.0, **low))
     watch.fly(60.0)
     assert "tcas_ta" not in watch.told
@@ -205,7 +205,7 @@ def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far() -> 
     ],
 )
 def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(
-    aircraft: Straight, expected: tuple[Any, ...]
+    aircraft: Any, expected: tuple[Any, ...]
 ) -> None:
     altitude, rate, target = expected
     assert profile_of(aircraft) == pytest.approx(

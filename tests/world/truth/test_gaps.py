@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import pytest
 from hypothesis import assume, given, settings
@@ -20,7 +21,7 @@ LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
 
 def plane(
     east_m: float = 0.0, north_m: float = 0.0, heading_deg: float = 0.0, height_m: float = 0.0
-) -> Straight:
+) -> Any:
     heading = math.radians(heading_deg)
     return Straight(
         east_m,
@@ -58,7 +59,8 @@ def test_above_each_other_they_touch_only_within_their_height() -> None:
 
 
 def test_between_a_car_and_an_aircraft_above_it_is_the_height_of_the_car() -> None:
-    car, above = Rolling(north_m_s=1.0), plane(height_m=10.0)
+    car: Any = Rolling(north_m_s=1.0)
+    above = plane(height_m=10.0)
     for between in (gap(car, above), gap(above, car)):
         assert between.vertical_m == pytest.approx(10.0 - car.dimensions.height_m, abs=1e-6)
 
@@ -111,9 +113,9 @@ TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
 @pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
 def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind: AircraftType) -> None:
     size = kind.dimensions
-    middle = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
+    middle: Any = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
     for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
-        post = Rolling(east, north, north_m_s=1.0)
+        post: Any = Rolling(east, north, north_m_s=1.0)
         half = post.dimensions.length_m / 2.0 if north else post.dimensions.span_m / 2.0
         expected = 200.0 - short / 2.0 - half
         found = gap(middle, post).horizontal_m
@@ -128,7 +130,7 @@ def test_two_touch_just_where_their_outlines_and_their_heights_overlap(
     second: tuple[float, float, float], height: float, kind: AircraftType
 ) -> None:
     a = plane()
-    b = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
+    b: Any = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
                  east_m_s=math.sin(math.radians(second[2])),
                  north_m_s=math.cos(math.radians(second[2])))  # fmt: skip
     found = gap(a, b)
@@ -139,7 +141,7 @@ def test_two_touch_just_where_their_outlines_and_their_heights_overlap(
     assert found.horizontal_m == pytest.approx(shapes[0].distance(shapes[1]), abs=0.1)
 
 
-def silhouette(body: Straight) -> Polygon:
+def silhouette(body: Any) -> Polygon:
     """The same shape, made of parts: a fuselage, two wings, two halves of a tailplane."""
     size, mesh = body.kind.dimensions, body.kind.mesh
     half, width = size.length_m / 2.0, mesh.fuselage_diameter_m / 2.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Any, cast
 
 import pytest
 
@@ -62,13 +63,13 @@ class Body:
 
 @dataclass
 class Performing:
-    body: Body
+    body: Any
     bound_runway: str | None = None
     category: str = "aircraft"
 
 
-def airliner(along_m: float, phase: str, *, runway: str = "01", **kw: object) -> Performing:
-    body = Body(along_m, runway=runway, phase=phase, dimensions=B737.dimensions, **kw)
+def airliner(along_m: float, phase: str, *, runway: str = "01", **kw: Any) -> Performing:
+    body: Any = Body(along_m, runway=runway, phase=phase, dimensions=B737.dimensions, **kw)
     body.kind = B737
     return Performing(body, runway)
 
@@ -88,7 +89,7 @@ def vehicle(along_m: float, right_m: float = 0.0, runway: str = "01") -> Perform
 class Watch:
     """A monitor over some actors, and what it has told."""
 
-    actors: dict[str, Performing]
+    actors: dict[str, Any]
     misled: set[str] = field(default_factory=set)
     now_ns: int = 0
 
@@ -297,7 +298,7 @@ def test_an_arrival_is_told_once_with_its_time() -> None:
     plane = arrival(60.0)
     told: list[RunwayTruth] = []
     monitor = RunwayMonitor(
-        kdca(), {"A": plane}, set(), lambda _, truth: told.append(truth), lambda _: None
+        kdca(), {"A": cast(Any, plane)}, set(), lambda _, truth: told.append(truth), lambda _: None
     )
     monitor.tick(SECOND_NS)
     plane.body.along_m /= 2.0
