@@ -1,9 +1,10 @@
-"""Gives the ADS-B reports of a run out as an SBS-1 "BaseStation" feed.
+"""Gives out the ADS-B reports of a run as an SBS-1 "BaseStation" feed.
 
     python bridges/sbs1.py --connect tcp/127.0.0.1:7447 --port 30003
 
-Each report becomes one MSG,3 line with all that is known. Times are those of the simulation, as if
-the run had begun at midnight of 1 January 1970. It listens on loopback and ends with the run.
+Each report becomes one line, of type MSG,3 in the air and MSG,2 on the ground. Times are simulation
+times, as if the run had begun at midnight of 1 January 1970. The feed listens on the loopback
+address and ends with the run.
 """
 
 from __future__ import annotations
@@ -94,14 +95,14 @@ def main() -> None:
     except BusError as error:
         sys.exit(str(error))
 
-    def hear(sample: zenoh.Sample) -> None:
+    def forward(sample: zenoh.Sample) -> None:
         feed.send(line(AdsbReport.model_validate_json(sample.payload.to_bytes())))
 
-    adsb = session.declare_subscriber(f"{ROOT}/*/adsb/*", hear)
+    adsb = session.declare_subscriber(f"{ROOT}/*/adsb/*", forward)
     clock = session.declare_subscriber(f"{ROOT}/*/clock")
     for sample in clock:
-        told = Clock.model_validate_json(sample.payload.to_bytes())
-        if told.phase in ("finished", "stopped"):
+        message = Clock.model_validate_json(sample.payload.to_bytes())
+        if message.phase in ("finished", "stopped"):
             break
     adsb.undeclare()  # type: ignore[no-untyped-call]
     session.close()  # type: ignore[no-untyped-call]

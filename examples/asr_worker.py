@@ -1,10 +1,10 @@
-"""A recogniser of one's own, with AIRHILT's SDK: put your model where `recognise` is.
+"""A recogniser, with AIRHILT's SDK. Replace the function `recognise` by your model.
 
     airhilt cosim --scenario s01a_bad_readback --snr 10 --endpoint tcp/127.0.0.1:7447 --attach mine
     python examples/asr_worker.py tcp/127.0.0.1:7447
 
-This one writes down how long each call was. It takes the place of the embedded recogniser, and the
-report compares what it gives with what was said.
+This one gives the length of each call as its text. It replaces the embedded recogniser. The report
+compares its transcripts with the words that were said.
 """
 
 import sys
@@ -18,7 +18,7 @@ from airhilt.workers import Step, serve
 
 
 def recognise(audio: np.ndarray) -> tuple[str, float]:
-    """Return the words of a call (16 kHz, mono, from -1 to 1) and how sure they are."""
+    """Return the words of a call (16 kHz, mono, from -1 to 1) and their confidence (0 to 1)."""
     return f"about {len(audio) / 16_000:.0f} seconds of speech", 0.1
 
 

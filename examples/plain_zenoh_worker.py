@@ -1,11 +1,11 @@
-"""A decision program in plain Zenoh: it imports nothing of AIRHILT and takes no time grants.
+"""A decision program in plain Zenoh. It imports nothing of AIRHILT and takes no time grants.
 
     airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach plain
     python examples/plain_zenoh_worker.py tcp/127.0.0.1:7447
 
-The two may be started in either order. Because the program takes no grants, the run goes by the
-wall clock, and an advisory counts when it arrives. The program warns the controller as soon as two
-aircraft are at one level.
+Start the two in either order. Because the program takes no grants, the run goes by the wall clock,
+and an advisory counts when it arrives. The program warns the controller as soon as two aircraft are
+at the same level.
 """
 
 import json
@@ -28,7 +28,7 @@ prefix = str(answer.key_expr).removesuffix("/clock")
 reports: dict[str, dict[str, Any]] = {}
 
 
-def hear(sample: zenoh.Sample) -> None:
+def receive(sample: zenoh.Sample) -> None:
     report = json.loads(sample.payload.to_bytes())
     reports[report["icao24"]] = report
     levels = [report["altitude_ft"] for report in reports.values()]
@@ -40,13 +40,13 @@ def warn(t_ns: int) -> None:
     advisory = {
         "id": "plain-1", "revision": 0, "recipient": "ATC", "recipients": ["ATC"],
         "kind": "loss_of_separation", "severity": "CAUTION", "traffic": list(reports),
-        "message": "two aircraft at one level", "t_ready_ns": t_ns,
+        "message": "two aircraft at the same level", "t_ready_ns": t_ns,
         "evidence": {"sources": ["adsb"]},
     }  # fmt: skip
     session.put(f"{prefix}/advisory/ATC", json.dumps(advisory))
 
 
-adsb = session.declare_subscriber(f"{prefix}/adsb/*", hear)
+adsb = session.declare_subscriber(f"{prefix}/adsb/*", receive)
 clock = session.declare_subscriber(f"{prefix}/clock")
 token = session.liveliness().declare_token(f"{prefix}/worker/plain")
 for sample in clock:

@@ -1,10 +1,10 @@
-"""A decision worker of one's own, in about thirty lines, with AIRHILT's SDK.
+"""A decision worker in about thirty lines, with AIRHILT's SDK.
 
     airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach simple
     python examples/sdk_worker.py tcp/127.0.0.1:7447
 
-It warns the controller once when two aircraft at one level come within 0.45 degrees (some 40 km)
-of each other.
+It warns the controller once when two aircraft at the same level are within 0.45 degrees (about
+40 km) of each other.
 """
 
 import sys
@@ -23,7 +23,7 @@ class SimpleWorker:
 
     def __init__(self) -> None:
         self.reports: dict[str, tuple[AdsbReport, float]] = {}
-        self.told: set[str] = set()
+        self.warned: set[str] = set()
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         for item in inputs:
@@ -34,8 +34,8 @@ class SimpleWorker:
         for (a, a_ft), (b, b_ft) in combinations(self.reports.values(), 2):
             pair = "-".join(sorted((a.icao24, b.icao24)))
             near = abs(a.latitude_deg - b.latitude_deg) + abs(a.longitude_deg - b.longitude_deg)
-            if near < 0.45 and abs(a_ft - b_ft) < 1000 and pair not in self.told:
-                self.told.add(pair)
+            if near < 0.45 and abs(a_ft - b_ft) < 1000 and pair not in self.warned:
+                self.warned.add(pair)
                 outputs.append(self.advisory(pair, a, b, t_ns))
         return Step(tuple(outputs))
 

@@ -1,10 +1,10 @@
-"""A recogniser that works while somebody speaks: put your model where `Recognition` is.
+"""A recogniser that works while somebody speaks. Replace the class `Recognition` by your model.
 
-    airhilt cosim --scenario s01a_bad_readback --snr 10 --listen tcp/127.0.0.1:7447 \
+    airhilt cosim --scenario s01a_bad_readback --snr 10 --endpoint tcp/127.0.0.1:7447 \
         --attach streaming
     python examples/streaming_asr_worker.py tcp/127.0.0.1:7447
 
-It takes the chunks of each transmission as they come, at most 0.5 s of speech each, and gives the
+It takes the chunks of each transmission as they come, at most 0.5 s of speech each. It gives the
 transcript when the transmission has ended. Several transmissions may be on the air at once.
 """
 
@@ -26,7 +26,7 @@ from airhilt.workers import Step, serve
 
 
 class Recognition:
-    """The words of one transmission, as far as it has come."""
+    """The recognition of one transmission, up to its newest chunk."""
 
     def __init__(self) -> None:
         self.seconds: list[float] = []
@@ -36,7 +36,7 @@ class Recognition:
         self.seconds.append(len(audio) / 16_000)
 
     def result(self) -> tuple[str, float]:
-        """Return all words, and how sure they are."""
+        """Return the words of the transmission and their confidence (0 to 1)."""
         return f"about {sum(self.seconds):.0f} seconds in {len(self.seconds)} chunks", 0.1
 
 

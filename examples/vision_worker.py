@@ -1,10 +1,10 @@
-"""A detector of one's own, with AIRHILT's SDK: put your model where `look` is.
+"""A detector, with AIRHILT's SDK. Replace the function `detect` by your model.
 
     airhilt cosim --scenario s01b_nominal --endpoint tcp/127.0.0.1:7447 --attach mine
     python examples/vision_worker.py tcp/127.0.0.1:7447
 
-This one takes the brightest spots of a picture for aircraft. It takes the place of the embedded
-detector, and the report compares what it gives with what was there.
+This one reports the brightest spots of a picture as aircraft. It replaces the embedded detector.
+The report compares its detections with the true boxes.
 """
 
 import sys
@@ -18,8 +18,8 @@ from airhilt.sim import Input, Output
 from airhilt.workers import Step, serve
 
 
-def look(picture: np.ndarray) -> list[Detection]:
-    """Return what is in a picture (rows, columns, RGB; 8 bits)."""
+def detect(picture: np.ndarray) -> list[Detection]:
+    """Return the detections in a picture (rows, columns, RGB; 8 bits)."""
     spots, _ = ndimage.label(picture.min(axis=2) > 240)
     boxes = [(x.start, y.start, x.stop, y.stop) for y, x in ndimage.find_objects(spots)]
     return [Detection(label="airplane", confidence=0.5, box=box) for box in boxes[:20]]
@@ -38,12 +38,12 @@ class MyDetector:
     def detections(self, item: Input) -> Output:
         header = CameraFrame.model_validate(item.attachment)
         shape = (header.view.height_px, header.view.width_px, 3)
-        found = look(np.frombuffer(item.payload, np.uint8).reshape(shape))
-        told = Detections(
+        found = detect(np.frombuffer(item.payload, np.uint8).reshape(shape))
+        message = Detections(
             camera=header.camera, seq=header.seq, t_frame_ns=header.t_frame_ns, view=header.view,
             detections=tuple(found), engine="mine",
         )  # fmt: skip
-        return Output(f"vision/{header.camera}", told.model_dump_json().encode())
+        return Output(f"vision/{header.camera}", message.model_dump_json().encode())
 
 
 if __name__ == "__main__":
