@@ -18,7 +18,7 @@ from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
-from airhilt.report.sections import Content, Section
+from airhilt.report.sections import GuardedContent, Section
 from airhilt.report.text import cut
 from airhilt.report.tracks import Locate, Phases, Projection, ThinnedStates, Track
 from airhilt.shapes.sizes import Size
@@ -117,7 +117,7 @@ class RunData:
         }
 
 
-def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, Content]) -> RunData:
+def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, GuardedContent]) -> RunData:
     """Read a run folder, and give the messages of its log to the sections that ask for them.
 
     Parameters
@@ -163,14 +163,14 @@ def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, Content])
 class _Log:
     """Sorts the messages of a log."""
 
-    def __init__(self, points_a_track: int, contents: Mapping[Section, Content]) -> None:
+    def __init__(self, points_a_track: int, contents: Mapping[Section, GuardedContent]) -> None:
         self.states: dict[str, ThinnedStates] = {}
         self.phases: dict[str, Phases] = {}
         self.events = Events()
         self.end_ns = 0
         self._points_a_track = points_a_track
         self._contents = contents
-        self._receivers: dict[str, list[Content]] = {}
+        self._receivers: dict[str, list[GuardedContent]] = {}
 
     def read(self, path: Path, notes: list[str]) -> None:
         """Read the log up to where it breaks off."""
@@ -196,7 +196,7 @@ class _Log:
         else:
             self.events.take(logged)
 
-    def _receivers_of(self, key: str) -> list[Content]:
+    def _receivers_of(self, key: str) -> list[GuardedContent]:
         if key not in self._receivers:
             self._receivers[key] = [
                 content

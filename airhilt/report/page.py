@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 from airhilt.errors import RunFolderError
 from airhilt.record import RunFolder
 from airhilt.report.data import read_run
-from airhilt.report.sections import Section, load_sections
+from airhilt.report.sections import GuardedContent, Section, load_sections
+from airhilt.report.text import cut
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
@@ -77,13 +78,13 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
 def render(folder: RunFolder, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
     sections, problems = load_sections()
-    contents = {
-        section: section.content(folder) for section in sections if section.content is not None
-    }
+    contents = {section: GuardedContent(section, folder) for section in sections}
     run = read_run(folder, page, contents)
     own = {section.name: content.as_json(run) for section, content in contents.items()}
-    run.notes.extend(problems)
-    return _Assembly(sections, run.as_json() | {"sections": own}).page()
+    problems += [content.problem for content in contents.values() if content.problem]
+    run.notes.extend(map(cut, problems))
+    whole = [section for section, content in contents.items() if not content.problem]
+    return _Assembly(whole, run.as_json() | {"sections": own}).page()
 
 
 class _Assembly:
@@ -109,11 +110,17 @@ class _Assembly:
         )
 
     def _markup(self, section: Section) -> str:
-        return self._template(section.template()).render(
-            run=self._data,
-            data=self._data["sections"].get(section.name),
-            parts=[self._markup(one) for one in self._sections if one.within == section.name],
-        )
+        """Return the markup of a section; a template that fails is noted and left out."""
+        from jinja2 import TemplateError
+
+        parts = [self._markup(one) for one in self._sections if one.within == section.name]
+        own = self._data["sections"].get(section.name)
+        try:
+            return self._template(section.template()).render(run=self._data, data=own, parts=parts)
+        except TemplateError as error:
+            note = f"The template of section {section.name!r} cannot be shown: {error}"
+            self._data["notes"].append(cut(note))
+            return ""
 
     def _scripts(self) -> list[str]:
         """Return all scripts; a section has a scope of its own."""

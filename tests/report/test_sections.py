@@ -119,6 +119,39 @@ def test_a_section_that_cannot_be_loaded_is_named_and_the_rest_is_shown(
     assert len(page["sections"]["radio"]["calls"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("works", "fails"),
+    [
+        ("self._keys = []", "raise KeyError('begin')"),
+        ("self._keys.append(logged.key)", "self.nothing.append(logged)"),
+        ("return {", "return 1 / 0, {"),
+    ],
+)
+def test_a_section_that_fails_is_named_and_the_rest_is_shown(
+    run_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, works: str, fails: str
+) -> None:
+    source = (MODULE % HOSTILE).replace(works, fails)
+    group = "airhilt.report_sections"
+    with installed(tmp_path, monkeypatch, group, "speakers", source) as package:
+        (tmp_path / f"{package}.html").write_text(TEMPLATE)
+        html = write_report(run_folder).read_text()
+    page = data(run_folder / "report.html")
+    (note,) = (note for note in page["notes"] if "'speakers' cannot be shown" in note)
+    assert re.search("KeyError|AttributeError|ZeroDivisionError", note)
+    assert "<section id='speakers'>" not in html
+    assert len(page["sections"]["radio"]["calls"]) == 1
+
+
+@pytest.mark.parametrize("template", ["{{ data.nothing.at_all }}", "{% if %}"])
+def test_a_template_that_fails_is_named_and_the_rest_is_shown(
+    speakers: Path, run_folder: Path, template: str
+) -> None:
+    (speakers / "outside_speakers.html").write_text(template)
+    page = data(write_report(run_folder))
+    assert any("template of section 'speakers' cannot be shown" in note for note in page["notes"])
+    assert len(page["sections"]["radio"]["calls"]) == 1
+
+
 def test_the_example_of_the_documentation_is_a_section(
     run_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -24,6 +24,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pydantic import ValidationError
+
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family
 from airhilt.record import Logged, RunFolder
@@ -95,6 +97,58 @@ class Section:
 
     def _beside(self, suffix: str) -> Path:
         return Path(self.module).with_suffix(suffix)
+
+
+class GuardedContent:
+    """The content of a section, whose failure costs that section alone.
+
+    Attributes
+    ----------
+    problem
+        A sentence on the failure, empty if there was none.
+    """
+
+    def __init__(self, section: Section, folder: RunFolder) -> None:
+        self.problem = ""
+        self._section = section
+        self._content: Content | None = None
+        try:
+            self._content = None if section.content is None else section.content(folder)
+        except Exception as error:
+            self._fail(error)
+
+    def take(self, logged: Logged) -> None:
+        """Hand a message to the content.
+
+        Raises
+        ------
+        ValidationError
+            The message is not as this version writes it.
+        """
+        if self._content is None:
+            return
+        try:
+            self._content.take(logged)
+        except ValidationError:
+            raise
+        except Exception as error:
+            self._fail(error)
+
+    def as_json(self, run: RunData) -> Any:
+        """Return the section's data, None if it failed."""
+        if self._content is None:
+            return None
+        try:
+            return self._content.as_json(run)
+        except Exception as error:
+            self._fail(error)
+            return None
+
+    def _fail(self, error: Exception) -> None:
+        self.problem = (
+            f"The section {self._section.name!r} cannot be shown: {type(error).__name__}: {error}"
+        )
+        self._content = None
 
 
 FAMILY = Family(
