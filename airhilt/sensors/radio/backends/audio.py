@@ -62,17 +62,23 @@ class AudioRadio:
         speech = speech if len(speech) else np.zeros(1, np.float32)
         first, draws = 0, f"channel/{on_air.utterance.id}"
         if on_air.is_open_ended:
-            first, draws = max(begin - CONTEXT, 0), f"{draws}/{begin}"
-        others = [self._other(on_air, first, other, now_ns) for other in mixed_with]
+            context = 0 if on_air.is_carrier else CONTEXT  # A carrier has no level of speech.
+            first, draws = max(begin - context, 0), f"{draws}/{begin}"
+        piece, first_ns = speech[first:], on_air.t_tx_ns + first * SECOND_NS // SAMPLE_RATE_HZ
+        others = [
+            self._other(on_air, first, other, now_ns)
+            for other in mixed_with
+            if not other.has_ended(first_ns)
+        ]
         heard = self._channel.transmit(
-            speech[first:],
+            piece,
             self._snr_db,
             stream(self._seed, draws),
             [other for other in others if len(other.speech)],
             background,
         )
         if not is_over:
-            heard = heard[: len(speech) - first]  # The squelch tail is still to come.
+            heard = heard[: len(piece)]  # The squelch tail is still to come.
         return to_pcm(heard[begin - first :])
 
     def transcript(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:  # noqa: ARG002
