@@ -66,7 +66,7 @@ class Radio:
         router.listen(self.conversation.take)
 
     def _line_failed(self, line: EffectiveLine) -> None:
-        self._world.misled |= line.misled
+        self._world.affected |= line.affected
         for text in line.failures:
             self._event("failure", line.declared.id, text)
 

@@ -42,7 +42,7 @@ class WorldLoop:
         Truth about each pair of actors.
     runways
         Truth about runways; None without an airport.
-    misled
+    affected
         Callsigns of actors that act under a failure which has happened.
     ended_lines
         Ids of the radio lines that have been on the air.
@@ -60,7 +60,7 @@ class WorldLoop:
         self._publish = router.publish
         self._event = event
         self._triggers = Triggers()
-        self.misled: set[str] = set()
+        self.affected: set[str] = set()
         self.ended_lines: set[str] = set()
         self.ticked_ns = 0
         self.pair = pair_of(scenario)
@@ -82,7 +82,7 @@ class WorldLoop:
         self.runways: RunwayMonitor | None = None
         if site.layout is not None:
             self.runways = RunwayMonitor(
-                site.layout, actors, self.misled, self._publish, self._incurred
+                site.layout, actors, self.affected, self._publish, self._incurred
             )
         conditions = ConditionCompiler(actors, self.monitor, self.runways, self.ended_lines)
         self._compile = conditions.compile

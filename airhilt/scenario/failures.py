@@ -40,7 +40,7 @@ class EffectiveLine:
     """Delay of the line, in s."""
     failures: tuple[str, ...] = ()
     """Failures of the line, in words."""
-    misled: frozenset[str] = frozenset()
+    affected: frozenset[str] = frozenset()
     """Actors that act wrongly because of the failures."""
     deaf: frozenset[str] = frozenset()
     """Actors that do not take the line for theirs, however well they hear it."""
@@ -101,12 +101,12 @@ def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> 
             return _with(effective, what, _actors(declared.commands), listens_first=False)
 
 
-def _with(effective: EffectiveLine, what: str, misled: set[str], **changes: Any) -> EffectiveLine:
+def _with(effective: EffectiveLine, what: str, affected: set[str], **changes: Any) -> EffectiveLine:
     """Return a line with one more failure in words, and the changes that it makes."""
     return replace(
         effective,
         failures=(*effective.failures, what),
-        misled=effective.misled | misled,
+        affected=effective.affected | affected,
         **changes,
     )
 

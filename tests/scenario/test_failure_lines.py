@@ -27,7 +27,7 @@ def effective(*failures: Any, line: str = "hold") -> Any:
 def test_without_failures_all_happens_as_it_is_written() -> None:
     hold = effective()
     assert hold.line is hold.declared
-    assert (hold.late_s, hold.failures, hold.misled) == (0.0, (), frozenset())
+    assert (hold.late_s, hold.failures, hold.affected) == (0.0, (), frozenset())
 
 
 @pytest.mark.parametrize("kind", ["not_received", "ignored"])
@@ -35,7 +35,7 @@ def test_who_does_not_hear_or_heed_a_line_does_nothing(kind: str) -> None:
     hold = effective({"type": kind, "line": "hold", "actor": "OPS1"})
     assert hold.line.commands == ()
     assert hold.line.text == HOLD.text
-    assert hold.misled == {"OPS1"}
+    assert hold.affected == {"OPS1"}
 
 
 def test_a_line_taken_by_another_makes_the_other_act() -> None:
@@ -44,7 +44,7 @@ def test_a_line_taken_by_another_makes_the_other_act() -> None:
     )
     assert [scripted.actor for scripted in hold.line.commands] == ["OPS2"]
     assert hold.line.commands[0].command == HOLD.commands[0].command
-    assert hold.misled == {"OPS1", "OPS2"}
+    assert hold.affected == {"OPS1", "OPS2"}
     assert hold.line.text == HOLD.text
 
 
@@ -69,7 +69,7 @@ def test_a_late_line_is_late_by_the_sum_of_its_delays() -> None:
 def test_a_dropped_line_is_never_said() -> None:
     hold = effective({"type": "dropped", "line": "hold"})
     assert hold.line is None
-    assert hold.misled == {"OPS1"}
+    assert hold.affected == {"OPS1"}
 
 
 def test_a_wrong_readback_has_other_words_and_other_deeds() -> None:
@@ -80,7 +80,7 @@ def test_a_wrong_readback_has_other_words_and_other_deeds() -> None:
     )  # fmt: skip
     assert wrong.line.text == "Proceeding, Ops one."
     assert [scripted.command.action for scripted in wrong.line.commands] == ["continue"]
-    assert wrong.misled == {"OPS1"}
+    assert wrong.affected == {"OPS1"}
 
 
 def test_an_engine_failure_is_no_matter_of_lines() -> None:
@@ -99,7 +99,7 @@ def test_of_two_failures_of_a_line_the_second_acts_on_what_the_first_has_left() 
     )
     assert hold.line.commands == ()
     assert hold.late_s == 3.0
-    assert hold.misled == {"OPS1", "OPS2"}
+    assert hold.affected == {"OPS1", "OPS2"}
     assert [text.split()[0] for text in hold.failures] == ["OPS2", "OPS2", "it"]
 
 
@@ -112,7 +112,7 @@ def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind: str) 
     scenario = SCENARIO.model_copy(update={"radio": radio, "failures": failures})
     (hold,) = apply_failures(scenario)
     assert hold.line == line.model_copy(update={"commands": both[1:]})
-    assert hold.misled == {"OPS1"}
+    assert hold.affected == {"OPS1"}
 
 
 def test_a_confusion_leaves_when_and_after_how_long_a_line_acts() -> None:

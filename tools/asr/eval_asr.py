@@ -40,7 +40,7 @@ SETS = {
 
 
 @dataclass(frozen=True)
-class AudioRadio:
+class SpokenCall:
     """One utterance of a test set."""
 
     text: str
@@ -63,7 +63,7 @@ class Score:
         return float(jiwer.wer(self.references, self.hypotheses))
 
 
-def spoken(path: Path) -> Iterator[AudioRadio]:
+def spoken(path: Path) -> Iterator[SpokenCall]:
     """Yield the utterances of a shard."""
     samples = np.load(path.with_suffix(".npy"), mmap_mode="r")
     at = 0
@@ -71,17 +71,17 @@ def spoken(path: Path) -> Iterator[AudioRadio]:
         about = json.loads(line)
         speech = np.asarray(samples[at : at + about["samples"]], np.float32) / 32767.0
         at += about["samples"]
-        yield AudioRadio(about["text"], about["callsign"], speech)
+        yield SpokenCall(about["text"], about["callsign"], speech)
 
 
-def rosters_for(utterances: list[AudioRadio]) -> list[tuple[str, ...]]:
+def rosters_for(utterances: list[SpokenCall]) -> list[tuple[str, ...]]:
     """Return who is on the frequency of each call: ten, its speaker or addressee among them."""
     everybody = [each.callsign for each in utterances if each.callsign]
     rng = random.Random(0)
     return [tuple(filter(None, (each.callsign, *rng.sample(everybody, 9)))) for each in utterances]
 
 
-def misled(utterances: list[AudioRadio], engine_name: str, snr_db: float) -> float:
+def misled(utterances: list[SpokenCall], engine_name: str, snr_db: float) -> float:
     """Return the share of calls taken for a roster's callsign that is one digit off theirs."""
     engine = asr_engine(engine_name)
     channel = VhfChannel(PROFILES["vhf"])
@@ -126,7 +126,7 @@ def one_digit_off(callsign: str, rng: random.Random) -> str:
 
 
 def score(
-    utterances: list[AudioRadio], engine_name: str, snr_db: float | None
+    utterances: list[SpokenCall], engine_name: str, snr_db: float | None
 ) -> tuple[Score, float]:
     """Return the score of an engine, and its real-time factor (CPU)."""
     engine = asr_engine(engine_name)
@@ -187,7 +187,7 @@ def main() -> None:
         print("|---|" + "---|" * len(RATIOS))
         scores: list[Score] = []
         factors = []
-        all_utterances: list[AudioRadio] = []
+        all_utterances: list[SpokenCall] = []
         for name, title in SETS.items():
             utterances = [
                 u

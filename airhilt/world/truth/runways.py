@@ -100,7 +100,7 @@ class RunwayMonitor:
 
     Parameters
     ----------
-    misled
+    affected
         Actors that act under a failure of the scenario. Their presence, like that of wildlife, is
         incorrect even if no aircraft uses the runway.
     occupied
@@ -113,14 +113,14 @@ class RunwayMonitor:
         self,
         layout: Layout,
         actors: Mapping[str, Actor],
-        misled: set[str],
+        affected: set[str],
         occupied: Callable[[str, RunwayTruth], None],
         incurred: Callable[[Incursion], None],
     ) -> None:
         self.incursions: dict[tuple[str, str | None, str], Incursion] = {}
         self._layout = layout
         self._actors = actors
-        self._misled = misled
+        self._affected = affected
         self._occupied = occupied
         self._incurred = incurred
         self._axes = {
@@ -269,7 +269,7 @@ class RunwayMonitor:
         actor = self._actors[callsign]
         if actor.category == "wildlife":
             return True
-        return callsign in self._misled and actor.bound_runway is None
+        return callsign in self._affected and actor.bound_runway is None
 
     def _has_incurred(self, runway: str, intruder: str) -> bool:
         return any(

@@ -90,7 +90,7 @@ class Watch:
     """A monitor over some actors, and what it has told."""
 
     actors: dict[str, Any]
-    misled: set[str] = field(default_factory=set)
+    affected: set[str] = field(default_factory=set)
     now_ns: int = 0
 
     def __post_init__(self) -> None:
@@ -99,7 +99,7 @@ class Watch:
         self.monitor = RunwayMonitor(
             kdca(),
             self.actors,
-            self.misled,
+            self.affected,
             lambda key, truth: self.occupied.append((key, truth.occupants)),
             lambda incursion: self.incurred.append((incursion.user, incursion.intruder)),
         )
@@ -209,7 +209,7 @@ def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:
     deer = Performing(Body(1_000.0), category="wildlife")
     assert Watch({"DEER": deer}).look().categories == ["D"]
     assert Watch({"OPS": vehicle(1_000.0)}).look().categories == []
-    assert Watch({"OPS": vehicle(1_000.0)}, misled={"OPS"}).look().categories == ["D"]
+    assert Watch({"OPS": vehicle(1_000.0)}, affected={"OPS"}).look().categories == ["D"]
 
 
 @pytest.mark.parametrize(("above_ft", "category"), [(60.0, "A"), (300.0, "B"), (700.0, "C")])
