@@ -54,7 +54,7 @@ class Other(NamedTuple):
 
 
 class Channel(Protocol):
-    """What happens to speech between a speaker and a listener."""
+    """Turns the speech of a speaker into the audio of a listener."""
 
     @property
     def name(self) -> str:

@@ -1,4 +1,4 @@
-"""What actors do on a call, and when."""
+"""Compliance: actors carry out the calls that they have taken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a controller does about a readback that is wrong."""
+"""Controllers check readbacks, and correct the wrong ones."""
 
 from __future__ import annotations
 

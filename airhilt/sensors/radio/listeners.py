@@ -1,4 +1,4 @@
-"""Who hears or reads a call, and what they understand."""
+"""The listeners of a call, who hear or read it, and their understanding of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said on a frequency, and one transmission of it."""
+"""Utterances, and the transmissions that carry them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from airhilt.units import SECOND_NS
 
 @dataclass(frozen=True, slots=True)
 class Utterance:
-    """What somebody wants to say on a frequency."""
+    """Words that a speaker wants to say on a frequency."""
 
     id: str
     """Stable: the same in each run of a scenario in which it is said."""
@@ -34,7 +34,7 @@ class OnAir:
     end_ns: int | None
     """Planned or real end; None while a person holds the button."""
     speech: Audio | None
-    """What is said, as far as it is known; None without sound, and of a stuck microphone."""
+    """Speech as far as it is known; None without sound, and for a stuck microphone."""
     is_carrier: bool = False
     """Whether it is only a carrier, as a stuck microphone gives."""
     is_open_ended: bool = False

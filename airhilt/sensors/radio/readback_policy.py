@@ -1,4 +1,4 @@
-"""Who reads back, asks again, calls again, and gives up."""
+"""The policy of answers: reading back, asking again, calling again, and giving up."""
 
 from __future__ import annotations
 

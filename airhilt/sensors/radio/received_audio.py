@@ -25,7 +25,7 @@ class Chunk(NamedTuple):
 
 
 class ReceivedAudio:
-    """What the receiver gives out of one transmission.
+    """Samples of one transmission, as the receiver gives them out.
 
     Samples that have been given out stay as they are. Those after them are received anew
     whenever more becomes known: another transmission begins, or a person goes on speaking.
@@ -39,7 +39,7 @@ class ReceivedAudio:
         self._ahead = b""
         """PCM that has been received and not given out yet."""
         self._ahead_of: object = None
-        """What was known when it was received."""
+        """State of knowledge when it was received, for comparison."""
 
     @property
     def pcm(self) -> bytes:

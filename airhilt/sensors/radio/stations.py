@@ -1,4 +1,4 @@
-"""Stations: who is on which frequency, and in reach of whom."""
+"""Stations: their frequencies, and their reach."""
 
 from __future__ import annotations
 
