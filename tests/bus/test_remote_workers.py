@@ -266,7 +266,7 @@ def test_two_runs_side_by_side_do_not_meet() -> None:
     with closing(Bus("one")) as first, closing(Bus("two")) as second:
         assert first.endpoint != second.endpoint
         assert first.endpoint.startswith("tcp/127.0.0.1:")
-        with pytest.raises(BusError, match="--listen"):
+        with pytest.raises(BusError, match="--endpoint"):
             Bus("three", first.endpoint)
 
 

@@ -133,7 +133,7 @@ def test_a_port_in_use_is_named(airhilt_command: Any, tmp_path: Path) -> None:
         taken.listen()
         endpoint = f"tcp/127.0.0.1:{taken.getsockname()[1]}"
         done = airhilt_command("cosim", "--scenario", "s02a_headon", "--listen", endpoint)
-    assert_is_a_users_mistake(done, endpoint, "--listen")
+    assert_is_a_users_mistake(done, endpoint, "--endpoint")
     assert list(tmp_path.iterdir()) == []
 
 
