@@ -1,5 +1,5 @@
 # docker build -t airhilt .
-# docker run --rm -v "$PWD/runs:/work/runs" airhilt cosim --scenario s02a_headon
+# docker run --rm -v "$PWD/runs:/data/runs" airhilt cosim --scenario s02a_headon
 
 FROM python:3.11-slim AS build
 WORKDIR /source
@@ -16,11 +16,11 @@ RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
     --mount=type=bind,source=constraints.txt,target=/constraints.txt \
     pip install --no-cache-dir --no-compile -c /constraints.txt /wheels/*.whl
 RUN useradd --uid 1000 --create-home airhilt \
-    && install -d -o airhilt -g airhilt -m 1777 /work /work/runs /work/cache
-# The cache of voices is in /work/cache, so that any user (docker run --user) may write it.
-ENV XDG_CACHE_HOME=/work/cache PYTHONUNBUFFERED=1
+    && install -d -o airhilt -g airhilt -m 1777 /data /data/runs /data/cache
+# The cache of voices is in /data/cache, so that any user (docker run --user) may write it.
+ENV XDG_CACHE_HOME=/data/cache PYTHONUNBUFFERED=1
 USER airhilt
-WORKDIR /work
-VOLUME /work/runs
+WORKDIR /data
+VOLUME /data/runs
 ENTRYPOINT ["airhilt"]
 CMD ["--help"]

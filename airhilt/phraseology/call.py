@@ -62,7 +62,7 @@ class Instruction:
     approach: str | None = None
     """Kind of approach, such as ils or visual."""
     immediate: bool = False
-    """Whether it is to be done at once or without delay."""
+    """True if it is to be done at once or without delay."""
     confidence: float = field(default=1.0, compare=False)
     """Confidence in [0, 1] that this was said; see docs/phraseology.md."""
 
@@ -82,19 +82,19 @@ class Call:
 
     match: CallsignMatch = NOBODY
     addressed_first: bool = False
-    """Whether it begins with the callsign, as an instruction does; a readback ends with it."""
+    """True if it begins with the callsign, as an instruction does; a readback ends with it."""
     kind: Kind = "unknown"
     instructions: tuple[Instruction, ...] = ()
     distress: bool = False
-    """Whether it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
+    """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False
-    """Whether it says pan pan (5.3.3)."""
+    """True if it says pan pan (5.3.3)."""
     corrected: bool = False
-    """Whether it corrects itself or the call before it."""
+    """True if it corrects itself or the call before it."""
     negative: bool = False
-    """Whether it begins with "negative" or says "unable"."""
+    """True if it begins with "negative" or says "unable"."""
     acknowledged: bool = False
-    """Whether it says roger, wilco or the like."""
+    """True if it says roger, wilco or the like."""
     position: str | None = None
     """Position that the speaker reports, in words."""
     traffic: tuple[str, ...] = ()

@@ -100,7 +100,7 @@ class Content:
 
     instructions: list[Instruction] = field(default_factory=list)
     doing: list[bool] = field(default_factory=list)
-    """Whether each is being done now, as in "climbing"."""
+    """True if each is being done now, as in "climbing"."""
     traffic: list[str] = field(default_factory=list)
 
 

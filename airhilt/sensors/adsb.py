@@ -96,7 +96,7 @@ class AdsbSensor:
 
     @property
     def is_needed(self) -> bool:
-        """Whether any actor has a transponder."""
+        """True if any actor has a transponder."""
         return bool(self._sources)
 
     def start(self) -> None:

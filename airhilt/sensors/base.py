@@ -1,4 +1,4 @@
-"""What a sensor is, what a run gives to each, and how a run starts all of them.
+"""Sensors: their protocol, what a run gives to each, and how a run starts them all.
 
 A sensor measures the true world and publishes what can be perceived of it. One file is one type of
 sensor: a module of this package, or an object in another package that an entry point of the group
@@ -40,7 +40,7 @@ class Publish(Protocol):
 
 @dataclass(frozen=True)
 class SensorContext:
-    """What a run gives to each of its sensors.
+    """Everything that a run gives to each of its sensors.
 
     Attributes
     ----------

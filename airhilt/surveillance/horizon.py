@@ -1,4 +1,4 @@
-"""How far a radio wave travels over the round Earth before the ground is in its way."""
+"""The radio horizon: how far a wave travels over the round Earth before the ground is in its way."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class Decoded(NamedTuple):
 
 @dataclass
 class _Heard:
-    """What a receiver has of one sender so far."""
+    """Data that a receiver has of one sender so far."""
 
     identification: IdentificationSquitter | None = None
     velocity: VelocitySquitter | None = None

@@ -37,7 +37,7 @@ in Annex 10 (volume II, 5.2.1.4.3); the others are estimates."""
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """What a listener has heard of a call."""
+    """The words that a listener has heard of a call, and how sure they are."""
 
     outcome: Outcome
     text: str

@@ -71,7 +71,7 @@ class Listeners:
         self._understood = understood
         self._overheard = overheard
         self._waiting: dict[str, list[Read]] = {}
-        """Those who wait for the transcript of a transmission, by its id."""
+        """Listeners that wait for the transcript of a transmission, by its id."""
 
     # --- by ear -----------------------------------------------------------------------------
 

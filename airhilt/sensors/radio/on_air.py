@@ -36,9 +36,9 @@ class OnAir:
     speech: Audio | None
     """Speech as far as it is known; None without sound, and for a stuck microphone."""
     is_carrier: bool = False
-    """Whether it is only a carrier, as a stuck microphone gives."""
+    """True if it is only a carrier, as a stuck microphone gives."""
     is_open_ended: bool = False
-    """Whether its sound becomes known only while it lasts."""
+    """True if its sound becomes known only while it lasts."""
     overlapping: list[OnAir] = field(default_factory=list)
     """Transmissions of others on the frequency at the same time, whoever hears them."""
     waiting: list[Callable[[], None]] = field(default_factory=list)

@@ -22,7 +22,7 @@ class RadioCall:
     commands: tuple[ScriptedCommand, ...] = ()
     in_reply_to: RadioCall | None = None
     is_repeated: bool = True
-    """Whether it is made again if it goes unanswered."""
+    """True if it is made again if it goes unanswered."""
     scripted: EffectiveLine | None = None
     asks_for: RadioCall | None = None
     """Call that it asks to be made again."""
@@ -63,7 +63,7 @@ class RadioCall:
 
     @property
     def is_first_time(self) -> bool:
-        """Whether it has been made once only."""
+        """True if it has been made once only."""
         return self.times_said == 1
 
     def recipients(self) -> list[str]:

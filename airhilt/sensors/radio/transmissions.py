@@ -23,7 +23,7 @@ class EndedTransmission:
 
     on_air: OnAir
     is_blocked: bool
-    """Whether another one was received at the same time."""
+    """True if another one was received at the same time."""
     transcript: Transcript | None
     """Its words, where no recogniser is needed to find them."""
 

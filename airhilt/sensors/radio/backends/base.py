@@ -17,7 +17,7 @@ class RadioBackend(Protocol):
 
     @property
     def has_sound(self) -> bool:
-        """Whether calls have samples, as far as is known by now."""
+        """True if calls have samples, as far as is known by now."""
         ...
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:

@@ -42,7 +42,7 @@ class FallbackRadio:
 
     @property
     def has_sound(self) -> bool:
-        """Whether the backend has sound and has not failed."""
+        """True if the backend has sound and has not failed."""
         return not self.is_lost and self._backend.has_sound
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
