@@ -1,4 +1,4 @@
-"""The radio horizon: how far a wave travels over the round Earth before the ground is in its way."""
+"""The radio horizon: how far a wave travels before the round Earth is in its way."""
 
 from __future__ import annotations
 

@@ -37,11 +37,11 @@ in Annex 10 (volume II, 5.2.1.4.3); the others are estimates."""
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """The words that a listener has heard of a call, and how sure they are."""
+    """Words that a listener has heard of a call, and the outcome."""
 
     outcome: Outcome
     text: str
-    """Words that were heard, sure or not; empty if there are none."""
+    """Words that were heard, certain or not; empty if there are none."""
 
 
 @dataclass(frozen=True, slots=True)
