@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import io
 import json
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 
 from airhilt import load
+from airhilt.cli import main
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 
@@ -36,17 +40,21 @@ def encounter_file(encounter: Scenario, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def airhilt_command(tmp_path: Path) -> Cli:
-    """Runs the command line in an empty folder."""
+def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cli]:
+    """Runs the command line in an empty folder, in the process of the tests."""
+    monkeypatch.chdir(tmp_path)
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    handlers = [signal.getsignal(number) for number in numbers]
 
-    def call(*arguments: str | Path, timeout: float = 120.0) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-m", "airhilt", *map(str, arguments)],
-            capture_output=True,
-            text=True,
-            cwd=tmp_path,
-            timeout=timeout,
-            check=False,
-        )
+    def call(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        given = [str(argument) for argument in arguments]
+        monkeypatch.setattr(sys, "argv", ["airhilt", *given])
+        out, err = io.StringIO(), io.StringIO()
+        with redirect_stdout(out), redirect_stderr(err), pytest.raises(SystemExit) as ended:
+            main()
+        assert isinstance(ended.value.code, int)
+        return subprocess.CompletedProcess(given, ended.value.code, out.getvalue(), err.getvalue())
 
-    return call
+    yield call
+    for number, handler in zip(numbers, handlers, strict=True):
+        signal.signal(number, handler)
