@@ -20,6 +20,7 @@ def test_no_import_breaks_a_layer() -> None:
     ("module", "unneeded"),
     [
         ("airhilt.scenario", "airhilt.world"),
+        ("airhilt.cosim.world_loop", "airhilt.metrics"),
         ("airhilt.world.loading", "scipy"),
         ("airhilt.workers", "zenoh"),
     ],

@@ -15,11 +15,11 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
-from airhilt.metrics.roster import pair_of
 from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
+from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director
 

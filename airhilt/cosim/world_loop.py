@@ -11,7 +11,7 @@ from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import TICK_S, Setup
 from airhilt.messages import ConflictPhase, ConflictTruth
-from airhilt.metrics.roster import pair_of
+from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.sim import Director, Priority
 from airhilt.units import SECOND_NS, seconds_to_ns

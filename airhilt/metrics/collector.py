@@ -23,8 +23,9 @@ from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.roster import callsigns_of, pair_of, roster_of
+from airhilt.metrics.roster import callsigns_of, roster_of
 from airhilt.metrics.summary import Summary
+from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import Scenario
 from airhilt.sim import StepRecord
 from airhilt.units import SECOND_NS

@@ -3,16 +3,6 @@
 from __future__ import annotations
 
 from airhilt.scenario.models import AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
-from airhilt.world.truth.conflicts import Pair
-
-
-def pair_of(scenario: Scenario) -> Pair | None:
-    """Return the annotated pair in the order in which the actors are listed."""
-    if scenario.conflict is None:
-        return None
-    order = [actor.callsign for actor in scenario.actors]
-    first, second = sorted(scenario.conflict.actors, key=order.index)
-    return first, second
 
 
 def roster_of(scenario: Scenario) -> tuple[str, ...]:

@@ -25,7 +25,6 @@ from airhilt.messages import (
 )
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.roster import pair_of
 from airhilt.metrics.summary import LatencyStatistics, Summary, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
@@ -183,13 +182,6 @@ def test_latencies_are_given_by_stage() -> None:
     assert (latencies["asr_after_end"].n, latencies["asr_after_end"].max_s) == (1, 1.0)
     assert latencies["tts"].n == 0
     assert latencies["adsb"].n == 0
-
-
-def test_the_pair_is_named_in_the_order_of_the_actors() -> None:
-    assert pair_of(SCENARIO) == (FIRST, SECOND)
-    turned = SCENARIO.conflict.model_copy(update={"actors": (SECOND, FIRST)})
-    assert pair_of(SCENARIO.model_copy(update={"conflict": turned})) == (FIRST, SECOND)
-    assert pair_of(SCENARIO.model_copy(update={"conflict": None})) is None
 
 
 # --- what the script still has in store -----------------------------------------------------
