@@ -34,8 +34,8 @@ from airhilt.world.truth.runways import RunwayMonitor
 
 
 @dataclass
-class ConflictWindow:
-    """When the annotated conflict opened and closed."""
+class WindowTimes:
+    """Times at which the annotated conflict opened and closed."""
 
     opened_ns: int | None = None
     closed_ns: int | None = None
@@ -77,7 +77,7 @@ class Collector:
         runways: RunwayMonitor | None,
         plans: Plans,
     ) -> None:
-        self.window = ConflictWindow()
+        self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
         self.ended_actors: dict[str, str] = {}
         self.last_advisory: Advisory | None = None

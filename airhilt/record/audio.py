@@ -21,11 +21,11 @@ from airhilt.messages import (
     TransmissionClosed,
 )
 
-Recorded = Transmission | TransmissionClosed | AdvisoryAudio
-"""Messages whose sound is in a file."""
+MessageWithSound = Transmission | TransmissionClosed | AdvisoryAudio
+"""A message whose sound is written to a file of its own."""
 
 
-def audio_file(folder: Path, message: Recorded) -> Path:
+def audio_file(folder: Path, message: MessageWithSound) -> Path:
     """Return the path of the sound of a message in the ``audio`` folder of a run."""
     stem = message.id
     if isinstance(message, AdvisoryAudio):
@@ -63,7 +63,7 @@ class AudioRecorder:
             case Transmission() | AdvisoryAudio() if payload:
                 self._write(message, payload)
 
-    def _write(self, message: Recorded, pcm: bytes) -> None:
+    def _write(self, message: MessageWithSound, pcm: bytes) -> None:
         path = audio_file(self._folder, message)
         try:
             self._folder.mkdir(exist_ok=True)
@@ -74,7 +74,7 @@ class AudioRecorder:
             raise disk_failed(str(path), error) from None
 
 
-def recorded_pcm(folder: Path, message: Recorded) -> bytes:
+def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:
     """Return the PCM of a message from the ``audio`` folder of its run.
 
     Raises
