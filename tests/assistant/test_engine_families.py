@@ -295,6 +295,20 @@ def test_a_broken_engine_does_not_hide_the_others(
         RECOGNISERS.create("nobody")
 
 
+def test_a_failing_test_leaves_no_engine_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail() -> None:
+        with installed(tmp_path, monkeypatch, "airhilt.asr", "parrot", RECOGNISER) as package:
+            RECOGNISERS.load("parrot")
+            assert package in sys.modules
+            raise ValueError("failed")
+
+    with pytest.raises(ValueError, match="failed"):
+        fail()
+    assert "outside_parrot" not in sys.modules
+
+
 def test_two_engines_of_one_name_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

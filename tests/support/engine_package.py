@@ -22,5 +22,7 @@ def installed(
     (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
     (metadata / "entry_points.txt").write_text(f"[{group}]\n{name} = {package}:ENGINE\n")
     patch.syspath_prepend(folder)
-    yield package
-    sys.modules.pop(package, None)
+    try:
+        yield package
+    finally:
+        sys.modules.pop(package, None)
