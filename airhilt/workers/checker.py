@@ -12,7 +12,7 @@ from airhilt.errors import WorkerError
 from airhilt.messages import BUS_MESSAGES, Advisory, Modality, WorkerDescription
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
-from airhilt.workers.pool import is_match, parse_output
+from airhilt.workers.pool import is_match, parse_output, require_no_truth
 from airhilt.workers.protocol import Step, Worker
 from airhilt.workers.samples import sample_inputs
 
@@ -88,13 +88,12 @@ def _problems(worker: Worker, inputs: Sequence[Input] | None, patience_s: float)
 
 
 def _wrong_input(name: str, key: str) -> Iterator[str]:
-    first = key.split("/")[0]
-    if first == "truth" or "*" in first:
-        yield (
-            f"worker {name!r} asks for {key!r}; truth never reaches a worker, so the first part of "
-            "a key must be named: adsb/*"
-        )
+    try:
+        require_no_truth(name, key)
+    except WorkerError as error:
+        yield str(error)
         return
+    first = key.split("/")[0]
     if any(is_match(key, known) or is_match(known, key) for known in PUBLISHED):
         return
     # A sensor of another package may publish on any other key.

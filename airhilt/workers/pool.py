@@ -99,12 +99,7 @@ class WorkerPool:
             )
             policies: dict[str, Policy] = {}
             for wanted in description.inputs:
-                first = wanted.key.split("/")[0]
-                if first == "truth" or not NAMED.fullmatch(first):
-                    raise WorkerError(
-                        f"worker {description.name!r} asks for {wanted.key!r}; truth never "
-                        "reaches a worker, so the first part of a key must be named: adsb/*"
-                    )
+                require_no_truth(description.name, wanted.key)
                 policies[wanted.key] = wanted.policy
             self.servers[description.name] = server
             self._inputs.append((server, policies))
@@ -146,6 +141,22 @@ class WorkerPool:
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         raw = output.payload if isinstance(message, Header) else None
         self._publish(output.key, stamped, worker, raw)
+
+
+def require_no_truth(worker: str, key: str) -> None:
+    """Complain about an input key that takes in truth, or may.
+
+    Raises
+    ------
+    WorkerError
+        The key is below ``truth``, or its first chunk is no plain name.
+    """
+    first = key.split("/")[0]
+    if first == "truth" or not NAMED.fullmatch(first):
+        raise WorkerError(
+            f"worker {worker!r} asks for {key!r}; truth never reaches a worker, so the first part "
+            "of a key must be named: adsb/*"
+        )
 
 
 def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:

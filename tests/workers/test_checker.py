@@ -22,6 +22,7 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.workers import Input, Output, Step, check_worker
+from airhilt.workers.pool import require_no_truth
 from airhilt.workers.samples import sample_inputs
 from decisions import reference
 from paths import EXAMPLES
@@ -189,6 +190,18 @@ def test_a_fault_is_named(worker: type[Ears], words: str) -> None:
     with pytest.raises(WorkerError) as caught:
         check_worker(worker(), patience_s=0.2)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("key", ["truth/state/*", "*/118300", "9x/*", "$y/*", "$*/state", "/adsb"])
+def test_the_checker_and_a_run_refuse_the_same_inputs(key: str) -> None:
+    class Asking(Ears):
+        wants = key
+
+    with pytest.raises(WorkerError) as checked:
+        check_worker(Asking())
+    with pytest.raises(WorkerError) as refused:
+        require_no_truth("ears", key)
+    assert str(checked.value) == str(refused.value)
 
 
 def test_a_key_of_a_sensor_of_another_package_is_no_fault() -> None:

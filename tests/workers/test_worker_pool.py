@@ -147,7 +147,7 @@ def test_what_a_worker_says_is_stamped_when_its_latency_has_passed() -> None:
     assert message == SAID.model_copy(update={"t_ns": 1_000_000_500})
 
 
-@pytest.mark.parametrize("key", ["truth/state/AAL123", "**", "*", "*/state/AAL123"])
+@pytest.mark.parametrize("key", ["truth/state/AAL123", "**", "*", "*/state/AAL123", "9x/*", "$y/*"])
 def test_nobody_may_ask_for_truth(key: str) -> None:
     with pytest.raises(WorkerError, match="truth never reaches a worker"):
         Run([Listener(key)])
