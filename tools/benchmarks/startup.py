@@ -11,18 +11,15 @@ from benchmarks.rounds import best
 
 FIRST_SECOND = """
 import sys, time
-from pathlib import Path
-from airhilt.cosim import Observer, run
-from airhilt.options import Options
-from airhilt.world.loading import load
-class First(Observer):
+import airhilt
+class First(airhilt.Observer):
     def snapshot(self, snapshot):
         if snapshot.t_s >= 1.0:
             print(time.time())
             sys.stdout.flush()
             raise KeyboardInterrupt
 try:
-    run(load("s02a_headon"), Options(out=Path(sys.argv[1]) / "run"), First())
+    airhilt.run("s02a_headon", out=sys.argv[1] + "/run", observer=First(), renderer="embree")
 except KeyboardInterrupt:
     pass
 """
