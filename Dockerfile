@@ -1,5 +1,6 @@
-# docker build -t airhilt .
-# docker run --rm -v "$PWD/runs:/data/runs" airhilt cosim --scenario s02a_headon
+# docker build -t airhilt . && mkdir -p runs
+# docker run --rm --user "$(id -u):$(id -g)" -v "$PWD/runs:/data/runs" \
+#     airhilt cosim --scenario s02a_headon
 
 FROM python:3.11-slim AS build
 WORKDIR /source

@@ -76,7 +76,9 @@ FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}
 """Names that modalities had up to version 0.4, still understood, by what they are now."""
 Modality = Annotated[
     Literal["adsb", "radio", "asr", "tts", "vision", "decision"],
-    BeforeValidator(lambda given: FORMER_MODALITIES.get(given, given)),
+    BeforeValidator(
+        lambda given: FORMER_MODALITIES.get(given, given) if isinstance(given, str) else given
+    ),
 ]
 ModalityState = Literal["on", "off", "lost", "not evaluated"]
 

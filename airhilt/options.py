@@ -222,6 +222,9 @@ class Options(BaseModel):
     def _understand_former_names(cls, given: Any) -> Any:
         if not isinstance(given, dict):
             return given
+        for former, present in FORMER_NAMES.items():
+            if former in given and present in given:
+                raise ValueError(f"{former} is the former name of {present}; expected one of them")
         return {FORMER_NAMES.get(name, name): value for name, value in given.items()}
 
 

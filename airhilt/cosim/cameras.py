@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.cosim.participants import Participants
+from airhilt.assistant.reference import NO_ASSISTANT
+from airhilt.cosim.participants import NO_DETECTOR, Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
@@ -21,7 +22,7 @@ from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
-from airhilt.sim import Director
+from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
     from airhilt.sensors.cameras.frame import Frame
@@ -131,6 +132,10 @@ class Vision:
         if self._sensor is not None:
             self._sensor.start()
 
+    def unfinished(self) -> Sequence[StepRecord]:
+        """Return nothing: a picture is published at the instant of its exposure."""
+        return ()
+
     def finish(self) -> None:
         """Write what is still to be kept of the pictures.
 
@@ -153,14 +158,14 @@ def started_renderer(
     Parameters
     ----------
     is_watched
-        Whether workers of this process may look.
+        Whether the caller gives workers, which may look.
     """
     may_look = (
         is_watched
         or options.video
         or options.endpoint is not None
         or bool(options.attach)
-        or (options.detector != "none" and options.assistant != "none")
+        or (options.detector != NO_DETECTOR and options.assistant != NO_ASSISTANT)
     )
     link = None
     if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
@@ -200,7 +205,7 @@ def open_vision(
     """
     options, recorded = setup.options, setup.recorded
     process, unavailable_reason = None, recorded.unavailable_reason
-    if options.cameras and options.renderer != AUTO and recorded.latency is None:
+    if options.cameras and options.renderer != AUTO and not recorded.is_replay:
         from airhilt.sensors.cameras.renderers import require_known
 
         require_known(options.renderer)
@@ -211,7 +216,7 @@ def open_vision(
                     _open_renderer_process(setup.scenario, options.renderer, link)
                 )
             except RendererError as error:
-                if recorded.latency is not None:
+                if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
                 unavailable_reason = str(error)
                 _tell(f"vision is not evaluated: {unavailable_reason}", options.strict, notice)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from airhilt.assistant.reference import Engines, reference_workers
-from airhilt.bus.attach import attach
+from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, Engines, reference_workers
+from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
 from airhilt.cosim.recorded import Recorded
+from airhilt.engines import ASSISTANT
 from airhilt.errors import WorkerError
-from airhilt.messages import Modality
+from airhilt.messages import Modality, WorkerDescription
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.workers import LocalWorker, Worker
@@ -76,9 +77,8 @@ def connect(
         Two workers have the same name.
     """
     workers = list(recorded.workers)
-    workers += [Participant(worker.description, LocalWorker(worker), "caller") for worker in given]
-    names = [name for name in options.attach if not recorded.workers]
-    attached = attach(bus, names, options.attach_timeout_s, options.step_timeout_s, notice)
+    workers += [_participant(worker) for worker in given]
+    attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
     workers += [
         Participant(description, worker, "attached")
         for worker, description in attached
@@ -88,7 +88,13 @@ def connect(
     programs = programs or list(recorded.programs)
     taken = {worker.description.modality for worker in workers}
     may_decide = "decision" in taken or bool(programs)
-    assistant = options.assistant or ("external" if may_decide else "reference")
+    assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
+    if "decision" in taken and not recorded.is_replay:
+        if assistant == NO_ASSISTANT:
+            raise WorkerError(
+                f"assistant {NO_ASSISTANT!r}, but a worker of yours decides; expected one of them"
+            )
+        assistant = EXTERNAL
     engines = Engines(
         asr=options.asr if options.speech else None,
         tts=options.tts if options.speech else None,
@@ -101,9 +107,30 @@ def connect(
     return Participants(assistant, tuple(workers), tuple(programs))
 
 
+def _participant(worker: Worker) -> Participant:
+    """Return a worker of the caller as one of the run.
+
+    Raises
+    ------
+    WorkerError
+        It has no description.
+    """
+    description = getattr(worker, "description", None)
+    if not isinstance(description, WorkerDescription):
+        raise WorkerError(
+            f"worker {worker!r}: its description is {description!r}; expected a "
+            "WorkerDescription (airhilt.messages)"
+        )
+    return Participant(description, LocalWorker(worker), "caller")
+
+
 def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:
     names = [*(worker.description.name for worker in workers), *programs]
     for name in names:
+        if name in RESERVED:
+            raise WorkerError(
+                f"a worker is named {name!r}, as the log calls others; expected another name"
+            )
         if names.count(name) > 1:
             raise WorkerError(f"two workers are named {name!r}; expected a name for each")
 

@@ -1,7 +1,8 @@
-"""The radio of a run: its conversation, and what the run says of radio failures."""
+"""The radio of a run, and what the run says of radio failures."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from airhilt.cosim.events import EventPublisher
@@ -14,18 +15,12 @@ from airhilt.scenario.failures import EffectiveLine
 from airhilt.sensors.radio.backends import FallbackRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director
+from airhilt.sim import Director, StepRecord
 from airhilt.units import SECOND_NS
 
 
-class Radio:
-    """Connects the radio conversation with the world, the log and the observer of a run.
-
-    Attributes
-    ----------
-    conversation
-        Makes the calls of the scenario, and lets people answer them.
-    """
+class RunRadio:
+    """The radio sensor of a run: its conversation, connected with world, log and observer."""
 
     def __init__(
         self,
@@ -48,7 +43,7 @@ class Radio:
             radio.words_per_minute,
             partial(modalities.lose, "radio", "radio_lost", "radio"),
         )
-        self.conversation = RadioConversation(
+        self._conversation = RadioConversation(
             director,
             setup.scenario,
             setup.lines,
@@ -63,7 +58,19 @@ class Radio:
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
         )
-        router.listen(self.conversation.take)
+        router.listen(self._conversation.take)
+
+    def start(self) -> None:
+        """Schedule the lines of the script, and the microphones that get stuck."""
+        self._conversation.start()
+
+    def unfinished(self) -> Sequence[StepRecord]:
+        """Return nothing: the radio has no latency of its own."""
+        return ()
+
+    def close(self) -> None:
+        """End the transmissions that are on the air; the run ends."""
+        self._conversation.close()
 
     def _line_failed(self, line: EffectiveLine) -> None:
         self._world.affected |= line.affected

@@ -58,3 +58,8 @@ class Recorded:
     unavailable_reason: str = ""
     cameras_lost: tuple[int, str] | None = None
     has_pictures: bool = False
+
+    @property
+    def is_replay(self) -> bool:
+        """True if the run repeats an earlier one, whose latencies it then has."""
+        return self.latency is not None

@@ -38,6 +38,10 @@ AS_RECORDED = {
 came of them."""
 
 
+BEFORE_0_5 = ("0.1.", "0.2.", "0.3.", "0.4.")
+"""Beginnings of the versions whose logs have other names for modalities and fields."""
+
+
 @dataclass(frozen=True)
 class Verdict:
     """The result of comparing a replay with its recording."""
@@ -75,6 +79,7 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
     """
     folder = RunFolder.open(path)
     info = folder.info()
+    _require_comparable(info, folder)
     latencies = read_latencies(folder.latency_path)
     recorded_log = list(read_log(folder.log_path))
     try:
@@ -98,6 +103,22 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
         result = run(scenario, options, observer, recorded)
         repeated = list(read_log(RunFolder(result.folder).log_path))
     return _compare(recorded_log, repeated, info)
+
+
+def _require_comparable(info: RunInfo, folder: RunFolder) -> None:
+    """Refuse a recording whose messages have other names than those of now.
+
+    Raises
+    ------
+    RunFolderError
+        It was made by version 0.4 or earlier.
+    """
+    version = info.versions.get("airhilt", "")
+    if version.startswith(BEFORE_0_5):
+        raise RunFolderError(
+            f"{folder.path}: recorded by AIRHILT {version}, whose messages have other names; "
+            "expected a run of 0.5 or later. `airhilt report` reads it"
+        )
 
 
 def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:

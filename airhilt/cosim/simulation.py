@@ -21,7 +21,7 @@ from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer, Result, Snapshot
 from airhilt.cosim.participants import Participants, connect
-from airhilt.cosim.radio import Radio
+from airhilt.cosim.radio import RunRadio
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup, set_up
@@ -151,7 +151,7 @@ class Simulation:
         self._router.listen(AudioRecorder(setup.folder.audio_path).take)
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
-        self._radio = Radio(
+        self._radio = RunRadio(
             self._director,
             setup,
             self._world,
@@ -159,10 +159,10 @@ class Simulation:
             self._event,
             self._modalities,
             observer,
-        ).conversation
+        )
         self._radio.start()
         self._router.listen(self._advisories.take)
-        self._sensors: list[Sensor] = []
+        self._sensors: list[Sensor] = [self._radio, vision]
         vision.mount(
             self._director,
             self._router,

@@ -5,8 +5,8 @@ sensor: a module of this package, or an object in another package that an entry 
 ``airhilt.sensors`` names, such as ``lidar = "my_package.lidar:SENSOR"``. The name of a type is the
 first chunk of the keys that its sensors publish on: ``adsb`` publishes on ``adsb/<icao24>``.
 
-Cameras and the radio are not among them: the run connects these itself, because they need a
-renderer, voices, and what crews and workers say.
+Cameras and the radio are a `Sensor` too, but no `SensorType`: the run makes these two itself,
+because they need a renderer, voices, and what crews and workers say.
 
 `SensorType` is what to write; a run calls `load_sensor_types` and `start_sensors`.
 """

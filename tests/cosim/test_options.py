@@ -9,7 +9,8 @@ import pytest
 
 import airhilt
 from airhilt.cli.run_flags import run_flags
-from airhilt.errors import AirhiltError
+from airhilt.cosim.replay import replay
+from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
@@ -63,3 +64,20 @@ def test_a_record_of_the_first_format_is_understood(encounter: Scenario, tmp_pat
     assert (info.assistant, info.pace) == ("reference", "virtual")
     assert info.options.attach == ("mine",)
     assert info.options.asr == Options().asr
+
+
+def test_a_former_and_a_present_name_together_are_refused() -> None:
+    with pytest.raises(AirhiltError, match="former name of endpoint"):
+        options_of({"listen": "tcp/127.0.0.1:1", "endpoint": "tcp/127.0.0.1:2"})
+
+
+def test_a_run_of_an_earlier_version_is_not_replayed(encounter: Scenario, tmp_path: Path) -> None:
+    folder = airhilt.run(
+        encounter.model_copy(update={"duration_s": 1.0}), out=tmp_path / "run", speech=False,
+        cameras=False,
+    ).folder  # fmt: skip
+    record = json.loads((folder / "run.json").read_text())
+    record["versions"]["airhilt"] = "0.4.0"
+    (folder / "run.json").write_text(json.dumps(record))
+    with pytest.raises(RunFolderError, match=r"recorded by AIRHILT 0\.4\.0"):
+        replay(folder)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -64,3 +65,26 @@ def test_two_workers_of_one_name_are_refused(encounter: Scenario, tmp_path: Path
     with pytest.raises(WorkerError, match="two workers are named 'warner'"):
         airhilt.run(encounter, out=tmp_path / "run", workers=[WarnsOnce(), WarnsOnce()])
     assert not (tmp_path / "run").exists()
+
+
+def test_a_worker_with_a_name_that_the_log_gives_to_others_is_refused(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    worker = WarnsOnce()
+    worker.description = worker.description.model_copy(update={"name": "run"})
+    with pytest.raises(WorkerError, match="a worker is named 'run'"):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[worker])
+
+
+def test_what_is_no_worker_is_refused(encounter: Scenario, tmp_path: Path) -> None:
+    with pytest.raises(WorkerError, match="expected a WorkerDescription"):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[object()])  # type: ignore[list-item]
+
+
+def test_the_summary_says_who_really_decided(encounter: Scenario, tmp_path: Path) -> None:
+    short = encounter.model_copy(update={"duration_s": 2.0})
+    options: Any = {"speech": False, "cameras": False, "workers": [WarnsOnce()]}
+    result = airhilt.run(short, out=tmp_path / "run", assistant="reference", **options)
+    assert result.summary.assistant == "external"
+    with pytest.raises(WorkerError, match="but a worker of yours decides"):
+        airhilt.run(short, out=tmp_path / "other", assistant="none", **options)

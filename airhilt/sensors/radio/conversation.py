@@ -28,7 +28,7 @@ from airhilt.sensors.radio.script import RadioScript
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.stuck_microphones import StuckMicrophones
 from airhilt.sensors.radio.transmissions import EndedTransmission, Transmissions
-from airhilt.sim import Director, Priority, StepRecord
+from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Understanding
 
@@ -110,10 +110,6 @@ class RadioConversation:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._script.start()
         self._stuck_microphones.schedule(self._failures)
-
-    def unfinished(self) -> Sequence[StepRecord]:
-        """Return nothing: the radio has no latency of its own."""
-        return ()
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Give a transcript to the crews that wait for it."""
