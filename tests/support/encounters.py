@@ -27,7 +27,7 @@ FRAME = LocalFrame((CENTRE[0] * DEGREE, CENTRE[1] * DEGREE))
 GROUND_M = 90.0
 HALF_SECOND_NS = SECOND_NS // 2
 CAPTURE_PER_S = 0.12
-"""How an autopilot levels off: the rate for each foot that is still to go."""
+"""Rate at which an autopilot levels off, for each foot that is still to go."""
 
 
 @dataclass(frozen=True)

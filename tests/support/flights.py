@@ -54,7 +54,7 @@ def in_cruise(
 
 
 LATITUDE, LONGITUDE, COURSE = 38.85, -77.04, 10.0
-"""Of a runway's threshold, in degrees, and its true course."""
+"""Threshold of a runway and its true course, in degrees."""
 RUNWAY_LENGTH_M = 2_200.0
 RUNWAY_ELEVATION_M = 4.0
 

@@ -181,7 +181,7 @@ class Follower(Oracle):
         self._errors = np.random.default_rng((seed, 72))
         self._trackers: dict[str, Tracker] = {}
         self.erred: Counter[str] = Counter()
-        """How often, by kind."""
+        """Number of errors of each kind."""
 
     def _look(self, frame: CameraFrame) -> tuple[Detection, ...] | None:
         if self._errors.random() < PICTURES_MISSED:

@@ -19,7 +19,7 @@ COLOURS: dict[VisibleClass, tuple[int, int, int]] = {
     "bird": (0, 0, 255),
 }
 PERIOD_NS = 62_500_000
-"""Of 16 Hz."""
+"""Period of a camera at 16 Hz."""
 
 Blob = tuple[VisibleClass, tuple[int, int, int, int]]
 """A class, and left, top, right and bottom."""

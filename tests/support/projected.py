@@ -1,4 +1,4 @@
-"""What a detector would find of bodies whose true places are known, without drawing a picture."""
+"""Detections of bodies whose true places are known, without drawing a picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people say on aeronautical frequencies, made up: texts for training and testing speech.
+"""Made-up calls on aeronautical frequencies: texts for training and testing speech.
 
 `Talk` draws calls with all that varies in them: who, where, which numbers, in which phraseology.
 The forms are in ``asr_forms.txt``. Texts are lower-case words without punctuation, as a

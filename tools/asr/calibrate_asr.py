@@ -27,7 +27,7 @@ from airhilt.sensors.radio.channel import VhfChannel
 from eval_asr import noise_alone, rosters_for, spoken
 
 MOST_TALKATIVE = 0.005
-"""Of transmissions without speech, the share that may give words."""
+"""Largest share of transmissions without speech that may give words."""
 SILENT_CALLS = 600
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
 

@@ -50,7 +50,7 @@ class SpokenCall:
 
 @dataclass
 class Score:
-    """What an engine made of a set at one ratio."""
+    """Scores of an engine on a set of calls at one signal-to-noise ratio."""
 
     references: list[str]
     hypotheses: list[str]

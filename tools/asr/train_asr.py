@@ -37,7 +37,7 @@ WIDTH = 224
 DILATIONS = (1, 1, 2, 1, 2, 4, 1, 2)
 BATCH_FRAMES = 9_000
 REAL_SHARE = 0.25
-"""Of utterances that `prepare` also sends through the real channel with noise."""
+"""Share of the utterances that `prepare` also sends through the real channel, with noise."""
 
 
 def vocabulary() -> list[str]:

@@ -1,4 +1,4 @@
-"""How well the procedures are flown: every type in every weather, the worst values over seeds.
+"""Measures how well the procedures are flown: every type in every weather, the worst values over seeds.
 
 `PROCEDURES` lists them. Each function flies once and returns what it measured; a criterion bounds
 one of the measurements. The seed makes the turbulence, and where the aircraft begins within a metre
@@ -82,7 +82,7 @@ class Criterion(NamedTuple):
 
 
 class Procedure(NamedTuple):
-    """How a procedure is flown, and what it is held to."""
+    """A procedure: the function that flies it, and its criteria."""
 
     fly: Callable[[Flight], Measurements]
     criteria: Callable[[AircraftType], tuple[Criterion, ...]]

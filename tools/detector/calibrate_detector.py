@@ -62,7 +62,7 @@ SPEEDS_M_S = {"ground": 8.0, "air": 75.0}
 ROLLING_BELOW_M = 10.0
 DESCENT = math.tan(math.radians(3.0))
 WOBBLE_RAD, WOBBLE_HZ = math.radians(0.4), 0.3
-"""Of pitch and roll in flight."""
+"""Amplitude and frequency of pitch and roll in flight."""
 SIZE = (640, 360)
 THRESHOLDS = tuple(round(1.0 / (1.0 + math.exp(-0.25 * step)), 3) for step in range(-8, 25))
 RIDGE = 1e-2

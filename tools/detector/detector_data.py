@@ -14,7 +14,7 @@ from PIL import Image
 CLASSES = ("airplane", "truck", "bird", "deer", "coyote")
 """In the order of the network's maps."""
 SMALLEST_PX = 5.0
-"""Of the longest side of the box."""
+"""Least longest side of a box that a detector may be asked to find."""
 LEAST_VISIBLE = 0.25
 LEAST_TRANSMISSION = 0.05
 LEAST_CONTRAST = 0.05 * 255.0
@@ -56,7 +56,7 @@ class Body:
 
     @property
     def counts(self) -> bool:
-        """Whether a detector may be asked to find it."""
+        """True if a detector may be asked to find the body."""
         return (
             self.size_px >= SMALLEST_PX
             and self.visible_fraction >= LEAST_VISIBLE

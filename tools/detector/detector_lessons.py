@@ -17,7 +17,7 @@ from detector_places import Places
 BATCH, OF_BODIES = 256, 0.35
 """Places in a batch, and the part of them that are bodies."""
 SHIFT, STRETCH = 0.08, 0.12
-"""By which boxes are moved for training: parts of the longest side, and of the logarithm."""
+"""Largest shift of a box in training, in longest sides, and largest change of its log size."""
 LOGIT_NOISE, LOGIT_HIDDEN = 0.4, 0.2
 
 Bytes = npt.NDArray[np.uint8]
@@ -49,7 +49,7 @@ class Lessons:
 
     @property
     def bodies(self) -> int:
-        """How many of the places are those of bodies."""
+        """Number of the places that show a body."""
         return int((self._labels > 0).sum())
 
     def batch(self, number: int) -> list[npt.NDArray[Any]]:

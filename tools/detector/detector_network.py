@@ -13,7 +13,7 @@ from torch.nn import functional
 from detector_data import CLASSES
 
 STEM_STRIDE, STRIDE = 4, 8
-"""Of the first convolution, and of the maps."""
+"""Strides of the first convolution and of the maps, in pixels."""
 FOUND = 50
 """Bodies that are looked for in a picture, at most."""
 WIDTHS, BLOCKS = (16, 48, 64, 64), (1, 1, 3)
@@ -108,7 +108,7 @@ def _enlarged(features: Tensor, factor: int) -> Tensor:
 
 
 class Detector(nn.Module):
-    """What is exported: a picture in, boxes out."""
+    """The exported network: a picture in, boxes out."""
 
     def __init__(self, network: Network) -> None:
         super().__init__()

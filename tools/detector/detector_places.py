@@ -22,8 +22,7 @@ from detector_scratch import Pictures, contents, decoded, mark_of
 from eval_detector import on_faint
 
 LEAST_SCORE, MOST = 0.03, 20
-"""Of the places that are learnt from: the score that the first network gives, and how many there
-are in a picture."""
+"""Least first score of a place that is learnt from, and most such places in a picture."""
 TRUE, FALSE = 0.3, 0.2
 """Overlaps from which a place is that of a body, and up to which it is not."""
 NEAR_IT, NEAR_IT_PX = 0.3, 2.0

@@ -1,4 +1,4 @@
-"""What the training of detectors keeps in files, so that it need not be made again."""
+"""Files in which the training of detectors keeps results that take long to compute."""
 
 from __future__ import annotations
 

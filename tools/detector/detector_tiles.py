@@ -20,7 +20,7 @@ from detector_scratch import Pictures
 TILES = ((96, 36), (160, 13), (96, 36), (288, 5))
 """Side in pixels and number of the tiles of a batch, in turn: most bodies are small."""
 LARGEST_SHARE = 0.7
-"""Of a tile's side, that the body around which it is cut may have."""
+"""Largest share of a tile's side that the body in its middle may take."""
 AROUND_A_MISTAKE, AROUND_A_BODY = 0.3, 0.55
 """Parts of the tiles; the rest is cut anywhere."""
 ASKED = 400

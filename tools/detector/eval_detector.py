@@ -56,7 +56,7 @@ RATE_HZ = 4.0
 
 @dataclass
 class Tally:
-    """How many of some bodies were found."""
+    """Counts of bodies that were found and missed."""
 
     bodies: int = 0
     found: int = 0
@@ -79,7 +79,7 @@ class Tally:
 
 @dataclass
 class Judgement:
-    """What came of a detector on some pictures."""
+    """Results of a detector on some pictures."""
 
     tables: dict[str, dict[str, Tally]] = field(default_factory=dict)
     true: int = 0

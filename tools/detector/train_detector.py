@@ -51,7 +51,7 @@ LONGEST_S = 600.0
 """For which a batch is waited for."""
 CHECKPOINT_S = 120.0
 WORTH = (2.0, 0.5, 0.5)
-"""Of the losses of scores, places and overlaps."""
+"""Weights of the losses of scores, places and overlaps."""
 NOT_CALIBRATED = 1.0
 """The threshold in a card, until tools/detector/calibrate_detector.py chooses one."""
 

@@ -39,7 +39,7 @@ from train_detector import NOT_CALIBRATED, batches, followed
 
 FILE = "refiner.onnx"
 USED_FROM, USED = 0.15, 8
-"""Of the places that are looked at twice: the first score, and how many there are in a picture."""
+"""Least first score of a place that is looked at again, and most such places in a picture."""
 WIDTHS = (16, 48, 64)
 NEAR_BLOCKS, WIDE_BLOCKS = (1, 2), (0, 1)
 """At half and a quarter of the resolution."""
@@ -120,7 +120,7 @@ class Network(nn.Module):
 
 
 class Exported(nn.Module):
-    """What is exported: chances in place of logits."""
+    """The exported network: probabilities in place of logits."""
 
     def __init__(self, network: Network) -> None:
         super().__init__()

@@ -36,7 +36,7 @@ MAIN, CROSS, SHORT = "01/19", "15/33", "04/22"
 J, K, GATE = -122.0, -200.0, -275.0
 """Right of runway 01: to the west. J is 400 ft from the centre line (AC 150/5300-13B, group IV)."""
 BESIDE = 122.0
-"""Of the other parallel taxiways from their runways."""
+"""Distance of the other parallel taxiways from their runways, in m."""
 GATES = {
     "gate_a2": 725.0,
     "gate_a6": 870.0,

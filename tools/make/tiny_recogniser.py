@@ -18,7 +18,7 @@ from onnx import TensorProto, helper, numpy_helper
 
 WORDS = ("alfa", "bravo", "charlie")
 BANDS = (15, 30, 45, 60)
-"""With centres near 588, 1202, 2108 and 3446 Hz."""
+"""Mel bands whose centres are near 588, 1202, 2108 and 3446 Hz."""
 POSTERIORS = (
     (0.97, 0.01, 0.01, 0.01),
     (0.04, 0.90, 0.03, 0.03),
@@ -26,9 +26,9 @@ POSTERIORS = (
     (0.02, 0.02, 0.01, 0.95),
     (0.30, 0.60, 0.05, 0.05),
 )
-"""Of the blank and the words: in silence, and in each band."""
+"""Posteriors of the blank and of the words, in silence and in each band."""
 STANDS_OUT = 5.0
-"""Above the mean of its band over the call, in the natural logarithm of power."""
+"""Excess over the mean of a band that makes a tone, in the natural logarithm of power."""
 
 
 def main() -> None:

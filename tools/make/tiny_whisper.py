@@ -31,7 +31,7 @@ LAYERS = 1
 WINDOW_S = 10
 """Shorter than Whisper's 30 s, so that tests see that windows are cut to it."""
 TIMESTAMPS = 1501
-"""Of 0.02 s, up to 30 s."""
+"""Number of time stamps, 0.02 s apart, up to 30 s."""
 SENTENCE = (" Tower", ",", " run", " way", " 01", "L", " cleared", " to", " land", ".")
 BEGIN, END = "<|0.00|>", "<|2.00|>"
 STEPS = 300
