@@ -1,4 +1,4 @@
-"""Measures how well the procedures are flown: every type in every weather, the worst values over seeds.
+"""Measures how well procedures are flown: every type in every weather, the worst over seeds.
 
 `PROCEDURES` lists them. Each function flies once and returns what it measured; a criterion bounds
 one of the measurements. The seed makes the turbulence, and where the aircraft begins within a metre
