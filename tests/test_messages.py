@@ -24,6 +24,7 @@ from airhilt.messages import (
     RadarPlot,
     Recommendation,
     Severity,
+    Status,
     Transcript,
     Turn,
     WorkerDescription,
@@ -288,3 +289,9 @@ def test_any_words_survive_json(text: str, confidence: float) -> None:
 def test_a_detection_whose_box_has_no_room_is_refused(box: tuple[float, ...]) -> None:
     with pytest.raises(ValidationError, match="no width and height"):
         Detection(label="airplane", confidence=0.5, box=box)
+
+
+@pytest.mark.parametrize("modality", [["asr"], {"asr": 1}, None, 7])
+def test_a_modality_that_is_no_text_is_refused_as_any_wrong_value(modality: object) -> None:
+    with pytest.raises(ValidationError, match="modality"):
+        Status.model_validate({"modality": modality, "state": "on"})
