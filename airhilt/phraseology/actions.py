@@ -136,15 +136,15 @@ def _on_runway(segment: Segment, action: Action) -> Read | None:
     place_after = _POSITION.match(segment.text, end, segment.limit)
     if place_after:
         place, end = place_after[1], place_after.end()
-    sure = [runway_confidence(each[1]) for each in (inside, before, after) if each]
+    confidences = [runway_confidence(each[1]) for each in (inside, before, after) if each]
     if after is not None and after.re is _BARE_AFTER and len(told) == 1:
-        sure.append(BARE_RUNWAY)
+        confidences.append(BARE_RUNWAY)
     read = Instruction(
         action,
         told[0] if told else None,
         taxiway(place) if place else None,
         immediate=_is_immediate(segment, end),
-        confidence=min(sure, default=NO_RUNWAY),
+        confidence=min(confidences, default=NO_RUNWAY),
     )
     return Read(read, start, end)
 
@@ -177,8 +177,8 @@ def _go_around(segment: Segment, action: Action) -> Read | None:
     beside = None if is_next else re.match(rf" (?:on )?runway {RUNWAY}", segment.after)
     runway = designator(*beside.groups()) if beside else None
     end = segment.found.end() + (beside.end() if beside else 0)
-    sure = runway_confidence(beside[1]) if beside else 1.0
-    return Read(Instruction(action, runway, confidence=sure), segment.start, end)
+    confidence = runway_confidence(beside[1]) if beside else 1.0
+    return Read(Instruction(action, runway, confidence=confidence), segment.start, end)
 
 
 def _hold_short(segment: Segment, action: Action) -> Read | None:
@@ -205,13 +205,13 @@ def _taxi(segment: Segment, action: Action) -> Read | None:
     position = taxiway(point[1]) if point else place[1].strip() if place else None
     taken = max((each.end() for each in (runway, via, point) if each), default=0)
     is_read = bool(runway or position or (via and not to.strip()))
-    sure = runway_confidence(runway[1]) if runway else 1.0 if is_read else NO_VALUE
+    confidence = runway_confidence(runway[1]) if runway else 1.0 if is_read else NO_VALUE
     read = Instruction(
         action,
         designator(*runway.groups()) if runway else None,
         position,
         via=tuple(taxiway(each) for each in _EACH_TAXIWAY.findall(via[1])) if via else (),
-        confidence=sure,
+        confidence=confidence,
     )
     return Read(read, segment.start, segment.found.end() + taken)
 
@@ -253,15 +253,15 @@ def _altitude(segment: Segment, action: Action) -> Read | None:
         return None
     value = level or bare
     end = segment.found.end() + (value.end() if value else 0)
-    sure = NO_VALUE
+    confidence = NO_VALUE
     if feet is not None:
-        sure = level_confidence(level) if level else feet_confidence(feet)
+        confidence = level_confidence(level) if level else feet_confidence(feet)
     read = Instruction(
         action,
         sense=sense,
         altitude_ft=feet,
         immediate=_is_immediate(segment, end),
-        confidence=sure,
+        confidence=confidence,
     )
     return Read(read, segment.start, end)
 
@@ -291,8 +291,8 @@ def _heading(segment: Segment, action: Action) -> Read | None:
 
 def _speed(segment: Segment, action: Action) -> Read | None:
     number = segment.found.groupdict().get("number")
-    sure = SHORTENED if number and len(number) == 2 else 1.0
-    read = Instruction(action, speed_kt=float(number) if number else None, confidence=sure)
+    confidence = SHORTENED if number and len(number) == 2 else 1.0
+    read = Instruction(action, speed_kt=float(number) if number else None, confidence=confidence)
     return Read(read, segment.start, segment.found.end())
 
 
@@ -370,8 +370,8 @@ def _wildlife(segment: Segment, action: Action) -> Read | None:
     if read is None:
         return Read(Instruction(action, confidence=NO_RUNWAY), segment.start, segment.found.end())
     told = read.instruction
-    sure = 1.0 if told.runway is None else told.confidence
-    return Read(Instruction(action, told.runway, told.position, confidence=sure), *read[1:])
+    confidence = 1.0 if told.runway is None else told.confidence
+    return Read(Instruction(action, told.runway, told.position, confidence=confidence), *read[1:])
 
 
 _CLEAR = r"clear(?:ed)?"

@@ -202,8 +202,8 @@ def _confidence_of_name(words: Words, naming: Naming) -> float:
     hit = naming.hit
     if hit is None:
         return 1.0
-    sure = min(words.confidences[hit.start : hit.end], default=1.0)
-    return hit.score * sure * (MENDED if hit.is_mended and hit.score == 1.0 else 1.0)
+    confidence = min(words.confidences[hit.start : hit.end], default=1.0)
+    return hit.score * confidence * (MENDED if hit.is_mended and hit.score == 1.0 else 1.0)
 
 
 def _without_name(words: Words, naming: Naming) -> Words:
@@ -303,27 +303,27 @@ def _replace(content: Content, new: Content) -> None:
 
 def _corrected(last: Instruction, text: str) -> Instruction | None:
     """Return an instruction with its corrected value; None if there is no such value."""
-    sure = min(last.confidence, MENDED)
+    confidence = min(last.confidence, MENDED)
     if last.runway:
         found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
-        return found and replace(last, runway=designator(*found.groups()), confidence=sure)
+        return found and replace(last, runway=designator(*found.groups()), confidence=confidence)
     number = re.match(r"([0-9]{3})(?!\S)", text)
     if last.altitude_ft:
         level = LEVEL.match(text)
         if level:
-            sure = min(sure, level_confidence(level))
-            return replace(last, altitude_ft=level_ft(level), confidence=sure)
+            confidence = min(confidence, level_confidence(level))
+            return replace(last, altitude_ft=level_ft(level), confidence=confidence)
         if number and last.altitude_ft % 500 == 0 and 10 <= int(number[1]) <= 660:
-            return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=sure)
+            return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=confidence)
         return None
     if last.heading_deg and number and 0 < int(number[1]) <= 360:
-        return replace(last, heading_deg=float(number[1]), confidence=sure)
+        return replace(last, heading_deg=float(number[1]), confidence=confidence)
     if last.speed_kt and number:
-        return replace(last, speed_kt=float(number[1]), confidence=sure)
+        return replace(last, speed_kt=float(number[1]), confidence=confidence)
     if last.frequency_khz and FREQUENCY_FORM.words.match(text):
         content = _content_of(words_of(text)).instructions
         if content:
-            return replace(last, frequency_khz=content[0].frequency_khz, confidence=sure)
+            return replace(last, frequency_khz=content[0].frequency_khz, confidence=confidence)
     return None
 
 
@@ -361,8 +361,8 @@ def _content_of(words: Words) -> Content:
     for read, each in reads:
         first = bisect_right(starts, read.start) - 1
         after = bisect_right(starts, read.end - 1)
-        sure = min(words.confidences[first:after], default=1.0)
-        instruction = replace(read.instruction, confidence=read.instruction.confidence * sure)
+        confidence = min(words.confidences[first:after], default=1.0)
+        instruction = replace(read.instruction, confidence=read.instruction.confidence * confidence)
         _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
     return content
 
@@ -474,7 +474,7 @@ def _belongs_to(last: Found, each: Found) -> bool:
 def _attach(conditions: list[Span], reads: list[tuple[Read, Found]], text: str) -> None:
     """Attach each condition to its action.
 
-    That is the next action, or the one before if the condition begins with "until", or with
+    Its action is the next one, or the one before if the condition begins with "until", or with
     "behind" at the end of the call.
     """
     for span in conditions:

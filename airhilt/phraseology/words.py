@@ -170,9 +170,9 @@ def _mend(raw: list[Raw]) -> list[Raw]:
         pairs = PAIRS.get(word)
         pair = pairs.get(raw[at].text) if pairs and at < size else None
         if pair is not None:
-            sure = min(confidence, raw[at].confidence)
-            sure *= 1.0 if word in _SPELLED_APART else MENDED
-            mended += (Raw(each, sure) for each in pair)
+            confidence = min(confidence, raw[at].confidence)
+            confidence *= 1.0 if word in _SPELLED_APART else MENDED
+            mended += (Raw(each, confidence) for each in pair)
             at += 1
         elif word in SPELLINGS:
             mended += (Raw(each, confidence) for each in SPELLINGS[word])
