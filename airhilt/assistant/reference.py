@@ -20,9 +20,9 @@ DEFAULTS = {
 }
 """The engine of each family unless another is named, by entry point group."""
 NO_ASSISTANT = "none"
-"""In the place of an assistant: nobody decides, and nobody is warned."""
+"""Name that stands for no assistant: nobody decides, and nobody is warned."""
 EXTERNAL = "external"
-"""In the place of an assistant: an attached program decides."""
+"""Name that stands for an attached program, which decides."""
 
 
 class Engines(NamedTuple):
@@ -60,7 +60,7 @@ def reference_workers(
     Parameters
     ----------
     taken
-        What attached workers do.
+        Tasks of the attached workers.
 
     Raises
     ------

@@ -233,11 +233,11 @@ class ReplayedRadio:
     audio
         Folder with the sound of what was received.
     durations_s
-        Of each text, by its speaker.
+        Duration of each spoken text, by speaker and text.
     received
         Headers of the sound that was received, by the ids of the calls.
     failure
-        Why the sound was lost; None if it was not.
+        Reason why the sound was lost; None if it was not.
     """
 
     has_sound = True

@@ -1,4 +1,4 @@
-"""Where each message goes: the log, the bus, and the workers that asked for its key."""
+"""Routes each message to the log, the bus, and the workers that asked for its key."""
 
 from __future__ import annotations
 

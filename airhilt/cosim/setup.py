@@ -42,13 +42,13 @@ class Setup:
     Attributes
     ----------
     scenario
-        With its perturbations drawn, and the radio that the options give it.
+        The scenario with its perturbations drawn, and with the radio that the options give it.
     given
         The scenario as it was before.
     pace
-        Until it is known who takes part.
+        Pace of the run until its participants are known.
     ends_ns
-        When each line would end if all went as planned, by its id.
+        Planned end of each line, by its id.
     """
 
     name: str

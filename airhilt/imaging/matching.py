@@ -25,7 +25,7 @@ def matches(
 ) -> list[SightingTruth | None]:
     """Return what each detection is about, None for nothing; each actor is found once at most.
 
-    Of several that could be, the pair of one class goes first, then the one that overlaps most.
+    Pairs of the same class are taken first; among those, the pairs that overlap most.
     """
     able = [
         (detection.label != sighting.label, -overlap(detection.box, sighting.box), d, s)

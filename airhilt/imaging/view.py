@@ -1,4 +1,4 @@
-"""Where a camera is and how it maps the world to pixels.
+"""Pose of a camera, and how it maps the world to pixels.
 
 The world's axes are east, north and up, in metres. A camera's are those of the pinhole model:
 x to the right, y down, z along the optical axis (R. Hartley and A. Zisserman, Multiple View

@@ -45,8 +45,8 @@ def speak_callsign(callsign: str, style: Style) -> str:
 def speak_abbreviated(callsign: str, style: Style) -> str:
     """Return the abbreviated form of a callsign, which only registrations have.
 
-    That is the first sign with the last two (Annex 10 volume II, 5.2.1.7.2.2), or three (7110.65,
-    2-4-9).
+    The form is the first sign with the last two (Annex 10 volume II, 5.2.1.7.2.2), or three
+    (7110.65, 2-4-9).
     """
     kept = 3 if style == "faa" else 2
     signs = callsign.replace("-", "")

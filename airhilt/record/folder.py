@@ -49,7 +49,7 @@ class WorkerRecord(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     description: WorkerDescription
     where: Literal["in process", "attached", "caller"]
-    """Where it ran: made by the run, in another process, or given by the caller of the run."""
+    """Origin of the worker: the run, another process, or the caller of the run."""
 
 
 class RunInfo(BaseModel):

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 def interruptible(interrupt: Callable[[], None]) -> Iterator[None]:
     """Call ``interrupt`` on the first signal that would raise wherever Python then is.
 
-    Those are SIGINT and SIGTERM, where a Python function handles them. Further ones are ignored
+    The signals are SIGINT and SIGTERM, where a Python function handles them. More are ignored
     to the end, because what then finishes the run must not be interrupted. On another thread than
     the main one nothing changes: signals do not reach it.
     """

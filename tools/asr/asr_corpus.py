@@ -78,7 +78,7 @@ class Talk:
     Attributes
     ----------
     callsign_of_call
-        Of the last `call`, as on a flight strip; None if it names nobody.
+        Callsign of the last `call`, as on a flight strip; None if it names nobody.
     """
 
     def __init__(self, rng: random.Random) -> None:

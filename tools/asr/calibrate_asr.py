@@ -116,7 +116,7 @@ def main() -> None:
 def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tuple[float, float]:
     """Return the confidence that the best word must have, and the share of silence that passes.
 
-    That is the least at which `MOST_TALKATIVE` of them do.
+    The result is the least at which `MOST_TALKATIVE` of them do.
     """
     best = logistic(curve, np.array([max(each, default=0.0) for each in silent]))
     least = math.ceil(100.0 * float(np.quantile(best, 1.0 - MOST_TALKATIVE))) / 100.0

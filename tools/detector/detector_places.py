@@ -43,7 +43,7 @@ class Places:
     pictures
         Shape (pictures, rows, columns, 3).
     picture
-        In which each is, shape (n,).
+        Picture of each place, shape (n,).
     boxes, scores
         What the first network says, shapes (n, 4) and (n,).
     labels

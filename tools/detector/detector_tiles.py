@@ -44,7 +44,7 @@ class Tiles:
     Parameters
     ----------
     pictures
-        Those of the shots, decoded.
+        Pictures of the shots, decoded.
     """
 
     def __init__(self, shots: list[Shot], pictures: Pictures, seed: int) -> None:

@@ -48,7 +48,7 @@ ROUND = 1000
 AHEAD = 3
 """Batches that are made before they are needed."""
 LONGEST_S = 600.0
-"""For which a batch is waited for."""
+"""Longest time to wait for a batch, in s."""
 CHECKPOINT_S = 120.0
 WORTH = (2.0, 0.5, 0.5)
 """Weights of the losses of scores, places and overlaps."""

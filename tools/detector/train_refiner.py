@@ -155,8 +155,8 @@ def train(
 ) -> tuple[Network, list[dict[str, int]]]:
     """Return the mean network of the last part of the training, and how the training went.
 
-    That is a row for each time that it was gone on with: from which step, up to which it was
-    planned, and on how many places and bodies.
+    The account of the training has a row for each time that it was gone on with: from which step,
+    up to which it was planned, and on how many places and bodies.
     """
     torch.manual_seed(seed)
     network = Network().to(memory_format=torch.channels_last)

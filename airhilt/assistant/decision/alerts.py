@@ -31,13 +31,13 @@ class Alert:
     traffic
         Callsigns of those in conflict.
     finding
-        What is wrong. Without one, a wording has kind, traffic and the note of the evidence.
+        The hazard in words. Without it, a wording has kind, traffic and the note of the evidence.
     recommendations
-        What each should do who should do anything, by callsign.
+        Recommended action of each recipient that should act, by callsign.
     active
         False where the conflict is over.
     t_ready_ns
-        When the last input had arrived that it rests on; None: the last one of all.
+        Arrival time of the last input that it rests on; None for the last input of all.
     """
 
     id: str

@@ -80,8 +80,8 @@ def pieces_of(found: Iterable[Found], tile: Tile, picture: Picture) -> list[Piec
 def merged(pieces: Sequence[Piece]) -> list[Found]:
     """Return each thing once, by falling confidence.
 
-    Of findings of one thing in several tiles, whole ones count before those that an edge cuts, and
-    then the more confident ones. Pieces of a thing that is bigger than the overlap may stay pieces.
+    Where several tiles show one thing, a whole finding is kept before one that an edge cuts, and
+    then the more confident one. Pieces of a thing that is bigger than the overlap may stay pieces.
     """
     kept: list[Found] = []
     for piece in sorted(pieces, key=lambda each: (each.is_cut, -each.found.confidence)):

@@ -30,7 +30,7 @@ MEDIA_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
 
 
 class CameraTimeline:
-    """When actors were in view of one camera and found, by the times of its pictures."""
+    """Intervals in which one camera had actors in view, and found them, at its pictures' times."""
 
     def __init__(self, info: CameraInfo) -> None:
         self.info = info

@@ -25,11 +25,11 @@ class Sighting:
         Area that is seen; 0 also of what is too small, or too far in the haze, to change any
         pixel.
     visible_fraction
-        Of the body's area within the picture, that nothing hides; 0 where ``pixels`` is 0.
+        Visible share of the body's area within the picture, 0..1; 0 where ``pixels`` is 0.
     truncation
         Part of the box about the whole body that lies outside of the picture.
     range_m
-        From the camera to the body's reference point.
+        Distance from the camera to the body's reference point.
     transmission
         Part of the body's contrast that the air leaves.
     """
@@ -58,8 +58,8 @@ class Frame:
     colour
         8-bit sRGB, shape (rows, columns, 3).
     distance_m
-        From the camera along the ray, infinite in the sky. Of the landscape before a camera
-        that moves it may be that of some pictures before: see
+        Distance from the camera along the ray, infinite in the sky. If the camera moves, the
+        distance of the landscape may be that of an earlier picture: see
         `airhilt.sensors.cameras.scene.background`.
     instance
         0 where no body fills the pixel, else the number of the actor in the scene, from 1.

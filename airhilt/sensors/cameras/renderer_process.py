@@ -57,7 +57,7 @@ class RendererProcess:
     actors
         Actors of the numbers in ``Frame.instance``, from 1.
     own_aircraft
-        For each camera the pixels that the aircraft which carries it may cover, shape (rows,
+        Pixels that the aircraft which carries the camera may cover, by camera; shape (rows,
         columns).
 
     Raises

@@ -58,7 +58,7 @@ class Publish(Protocol):
 
 @dataclass(frozen=True)
 class Exposures:
-    """When a camera exposes: evenly, without drift.
+    """The exposure times of a camera: evenly spaced, without drift.
 
     Attributes
     ----------

@@ -10,10 +10,11 @@ from pydantic import Field
 AircraftCategory = Literal["jet", "heavy_jet", "piston_single", "piston_twin"]
 
 WING_ROOT_SHARE = 0.1
-"""Where the wing's leading edge meets the fuselage, ahead of the reference point, as a share of
-the length."""
+"""Distance from the reference point forward to the leading edge of the wing at the fuselage, as a
+share of the length."""
 TAIL_ROOT_SHARE = -0.38
-"""Where the tailplane's leading edge meets the fuselage, in the same measure."""
+"""Distance from the reference point forward to the leading edge of the tailplane at the fuselage,
+as a share of the length."""
 TAIL_CHORD_SHARE = 0.1
 """Chord of the tailplane, as a share of the length."""
 

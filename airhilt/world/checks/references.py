@@ -33,7 +33,7 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
 
 
 def _no_cockpit(scenario: Scenario, path: str, callsign: str) -> Iterator[Problem]:
-    """Yield the problem of a cockpit of which there is no aircraft."""
+    """Yield a problem if the scenario has no aircraft with the cockpit's callsign."""
     aircraft = [actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)]
     if callsign not in aircraft:
         yield Problem(path, f"no aircraft {callsign!r}{library.nearest(callsign, aircraft)}")

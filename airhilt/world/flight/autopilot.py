@@ -173,15 +173,15 @@ class Autopilot:
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the aircraft now.
         turn_rate
-            Of the track, positive to the right (rad/s).
+            Turn rate of the track, positive to the right (rad/s).
         vertical_rate
-            Positive up (m/s).
+            Wanted vertical rate, positive up (m/s).
         airspeed
-            Calibrated (m/s).
+            Wanted calibrated airspeed (m/s).
         closely
-            Whether to follow the vertical rate as closely as in a flare.
+            True to follow the vertical rate as closely as in a flare.
         """
         climb_angle = vertical_rate / state.true_airspeed_m_s
         self._sense_energy(state, airspeed)
@@ -206,13 +206,13 @@ class Autopilot:
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the aircraft now.
         turn_rate
-            Of the track, positive to the right (rad/s).
+            Turn rate of the track, positive to the right (rad/s).
         airspeed
-            Calibrated (m/s).
+            Wanted calibrated airspeed (m/s).
         lever
-            Of all engines (0..1), moved there at the rate at which it moves.
+            Wanted position of all throttle levers (0..1); they move there at their own rate.
         steepest_climb, steepest_descent
             Limits of the climb angle (rad), both positive.
         """
@@ -237,15 +237,15 @@ class Autopilot:
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the aircraft now.
         pitch
-            Positive up (rad).
+            Wanted pitch, positive up (rad).
         pitch_rate
-            At most (rad/s).
+            Greatest pitch rate on the way there (rad/s).
         turn_rate
-            Of the track, positive to the right (rad/s); None while the wheels steer.
+            Turn rate of the track, positive to the right (rad/s); None while the wheels steer.
         lever
-            Of all engines (0..1), moved there at the rate at which it moves.
+            Wanted position of all throttle levers (0..1); they move there at their own rate.
         """
         self._sense_energy(state, state.calibrated_airspeed_m_s)
         self._move_lever(state, 0.0, lever)
@@ -277,18 +277,18 @@ class Autopilot:
         Parameters
         ----------
         state
-            Of the airframe now.
+            State of the aircraft now.
         turn_rate
-            Of the track, positive to the right (rad/s).
+            Turn rate of the track, positive to the right (rad/s).
         vertical_rate
-            Positive up (m/s).
+            Wanted vertical rate, positive up (m/s).
         vertical_acceleration
-            Of that rate (m/s2).
+            Rate of change of the vertical rate (m/s2).
         lever
-            Of all engines (0..1), moved there at the rate at which it moves.
+            Wanted position of all throttle levers (0..1); they move there at their own rate.
         crab
-            How far the nose points to the right of where the rudder shall bring it (rad); None for
-            no sideslip.
+            Angle from the wanted heading of the nose to its present heading, positive to the right
+            (rad); None to fly without sideslip.
         """
         speed = state.true_airspeed_m_s
         self._sense_energy(state, state.calibrated_airspeed_m_s)

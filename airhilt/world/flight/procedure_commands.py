@@ -163,7 +163,7 @@ class ProcedureCommands:
         Parameters
         ----------
         runway, exit_path
-            As for `land`.
+            The other runway, and the path by which the aircraft leaves it.
 
         Raises
         ------

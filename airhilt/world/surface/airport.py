@@ -52,7 +52,7 @@ class _Located(_Section):
 
 
 class Source(_Section):
-    """Where the numbers of a block come from."""
+    """Source of the numbers of a block."""
 
     text: str = Field(min_length=1)
     synthetic: bool = Field(
@@ -62,7 +62,7 @@ class Source(_Section):
 
 
 class ReferencePoint(_Located):
-    """Where the airport's local frame touches the ellipsoid."""
+    """Point at which the airport's local frame touches the ellipsoid."""
 
 
 class MagneticVariation(_Section):
@@ -120,7 +120,7 @@ class Taxiways(_Section):
 
 
 class HoldShort(_Section):
-    """Where traffic holds short of a runway: a node of the taxiways."""
+    """A node of the taxiways where traffic holds short of a runway."""
 
     node: str
     runway: str = Field(description="name of the whole runway, such as 01/19")

@@ -46,7 +46,7 @@ def import_airport(
     runways, frequencies
         ``runways.csv`` and ``airport-frequencies.csv``.
     year
-        For which the magnetic variation holds.
+        Year, with its fraction, of the magnetic variation.
     variation_deg
         Magnetic variation, east positive; without it, that of the World Magnetic Model.
 

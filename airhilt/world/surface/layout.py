@@ -48,7 +48,7 @@ POINT_STEP_M = 4.0
 
 @dataclass(frozen=True)
 class Hold:
-    """Where traffic holds short of a runway.
+    """A point where traffic holds short of a runway.
 
     Attributes
     ----------

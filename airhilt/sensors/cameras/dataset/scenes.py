@@ -66,7 +66,7 @@ class Sitting:
     place
         ICAO location indicator, or `EN_ROUTE`.
     models
-        By actor: some carry cameras, the others are named after their kind.
+        Models by actor: some carry cameras, the others are named after their kind.
     order
         The cameras of the pictures to take, in turn.
     """

@@ -16,7 +16,7 @@ TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
 
 
 class Canvas:
-    """Where is drawn: the first corner of a frame buffer that only grows.
+    """The first corner of a frame buffer that only grows: pictures are drawn into it.
 
     There is never more than one: a buffer for each size would in time take all memory.
     """

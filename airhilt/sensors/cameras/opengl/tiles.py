@@ -29,7 +29,7 @@ class Shown(NamedTuple):
     Attributes
     ----------
     places
-        In the order of the triangles.
+        Places of the triangles in the order of drawing.
     depth_m
         Nothing of it in the window is nearer; infinite where nothing is shown.
     """
@@ -47,7 +47,7 @@ class Tiles:
     order
         Numbers of the triangles, those of one tile after each other.
     corners
-        In that order: of shape (3, 3, n) for axes, corners and triangles.
+        Corners of the triangles in that order; shape (3, 3, n) for axes, corners and triangles.
     bounds
         Place of the first triangle of each tile in that order, and after the last.
     """

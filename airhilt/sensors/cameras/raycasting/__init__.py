@@ -22,7 +22,7 @@ Triangles = npt.NDArray[np.int32]
 
 
 class Hits(NamedTuple):
-    """Where n rays first meet a surface.
+    """The first surfaces that n rays meet.
 
     Attributes
     ----------

@@ -35,8 +35,8 @@ class Samples(NamedTuple):
     colour
         8-bit sRGB, shape (rows, columns, 3).
     distance_m
-        From the camera to the surface, along the ray; infinite where nothing is. Of shape (rows,
-        columns).
+        Distance from the camera to the surface along the ray, infinite where there is none; shape
+        (rows, columns).
     """
 
     colour: npt.NDArray[np.uint8]

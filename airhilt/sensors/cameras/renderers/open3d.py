@@ -111,7 +111,7 @@ def _numbers(found: Any) -> Triangles:
 def _bindings() -> Any:
     """Return the C++ part of Open3D: the package around it imports tools that show things.
 
-    Those take three times as long as this does.
+    Importing the whole package takes three times as long.
     """
     package = importlib.util.find_spec("open3d")
     if package is None or not package.submodule_search_locations:

@@ -24,7 +24,7 @@ SOON_PX = 0.35
 """Distance, in pixels, from which a band is drawn together with others that must be."""
 BAND_ROWS = 24
 PROBE_PX = 8
-"""Side of the squares, in pixels, of which the nearest point is watched."""
+"""Side of the squares in which the nearest point is watched, in pixels."""
 SKY_M = 1e7
 SAMPLES_AT_ONCE = 2_500_000
 
@@ -35,16 +35,16 @@ class Background:
     Parameters
     ----------
     samples
-        Along each side of a pixel.
+        Number of samples along each side of a pixel.
     finish
         Called with colours, distances and view of each picture that has been drawn whole.
 
     Attributes
     ----------
     colour, distance_m
-        As in `airhilt.sensors.cameras.renderers.Samples`; they change when the camera looks again.
+        Arrays as in `airhilt.sensors.cameras.renderers.Samples`; each look changes them.
     drawn
-        How often any of it has been drawn.
+        Number of times that any part of it has been drawn.
     """
 
     def __init__(
@@ -135,7 +135,7 @@ def _column(vector: tuple[float, float, float]) -> npt.NDArray[np.float64]:
 
 
 def _nearest(distance_m: Floats, down: int) -> Floats:
-    """Return the nearest of each square, of which there are ``down`` below each other."""
+    """Return the nearest distance in each square; a column has ``down`` squares."""
     rows, columns = distance_m.shape
     across = -(-columns // PROBE_PX)
     beyond = (0, down * PROBE_PX - rows), (0, across * PROBE_PX - columns)

@@ -25,7 +25,7 @@ LANDING_LIGHTS_BELOW_M = 3048.0
 
 
 class BodyState(NamedTuple):
-    """Where something is at an instant, and which of its shapes it has."""
+    """Place, attitude and shape of an actor at an instant."""
 
     actor: str
     east_m: float

@@ -29,11 +29,11 @@ class Layer:
     Attributes
     ----------
     colours
-        Of which each cell has one.
+        Colours of the cells; each cell has one of them.
     cells
-        That cover the area and do not overlap; none: all of it is one.
+        Polygons that cover the area without overlap; empty if the whole area is one cell.
     mottle
-        Greatest part by which a cell is lighter or darker.
+        Greatest change of a cell's brightness, as a share of it.
     """
 
     area: BaseGeometry

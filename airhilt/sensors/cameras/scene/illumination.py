@@ -60,7 +60,7 @@ class Illumination:
     overcast
         0 a blue sky, 1 none: fog and rain whiten it.
     background
-        How many times farther ground and clouds are seen than bodies.
+        Factor by which ground and clouds are seen farther than bodies.
     """
 
     sun: npt.NDArray[np.float64]

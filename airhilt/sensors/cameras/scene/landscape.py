@@ -74,9 +74,9 @@ class Landscape:
     lights
         Points of light that are on at dusk and at night.
     blocks
-        What cameras must not stand in.
+        Solids that cameras must not stand in.
     tallest_m
-        Nothing reaches higher.
+        Height that nothing exceeds.
     """
 
     mesh: Mesh

@@ -27,7 +27,7 @@ class Layer:
     number
         Number of the actor in `Frame.instance`.
     box, whole
-        About the body, within the picture and beyond it; pixels.
+        Boxes about the body: within the picture, and with what lies beyond it; pixels.
     silhouette
         Area of the body in the picture, hidden or not; pixels.
     cover
@@ -35,7 +35,7 @@ class Layer:
     colour
         Its light in each pixel, times what it fills; shape (rows, columns, 3).
     distance_m
-        Of its nearest sample in each pixel, infinite where there is none.
+        Distance of the body's nearest sample in each pixel, infinite where there is none.
     """
 
     number: int

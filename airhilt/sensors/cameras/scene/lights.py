@@ -107,7 +107,9 @@ class Lights:
     Attributes
     ----------
     places_m, colours, beams
-        Of shape (n, 3); what shines all round has a beam of sharpness 0.
+        Place, colour and direction of each light, shape (n, 3).
+    sharpness
+        Sharpness of each light's beam; 0 for a light that shines all round.
     """
 
     places_m: npt.NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Where the sun is."""
+"""The direction of the sun."""
 
 from __future__ import annotations
 

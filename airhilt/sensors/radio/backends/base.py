@@ -40,8 +40,8 @@ class RadioBackend(Protocol):
     ) -> bytes:
         """Return what the receiver gives out of a transmission, as far as it can be known.
 
-        That is the whole of a transmission whose speech was known when it began, and what has
-        been on the air by now of any other.
+        The result is the whole of a transmission whose speech was known when it began, and the
+        part that has been on the air by now of any other.
 
         Parameters
         ----------

@@ -31,7 +31,7 @@ class Final:
     Parameters
     ----------
     runway
-        Where it leads.
+        The end of the runway to which the approach leads.
     kind
         The type: its landing aim, and the height of its reference point above its wheels.
     """

@@ -34,9 +34,9 @@ class Flare:
     final
         The approach that was flown.
     exit_path
-        Along which the runway is left.
+        Path by which the aircraft leaves the runway.
     height_m
-        Of the main wheels, where the flare begins.
+        Height of the main wheels at which the flare begins, in m.
     """
 
     name = "flare"
