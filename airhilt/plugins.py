@@ -48,22 +48,53 @@ class Family:
     error: Callable[[str], AirhiltError] = AirhiltError
     not_members: frozenset[str] = frozenset()
 
-    def points(self) -> list[EntryPoint]:
-        """Return where all members are, those of AIRHILT first."""
-        modules = (
-            found.name
+    def own(self) -> list[EntryPoint]:
+        """Return where the members of AIRHILT are."""
+        return [
+            EntryPoint(found.name, f"{self.package}.{found.name}:{self.attribute}", self.group)
             for found in pkgutil.iter_modules(import_module(self.package).__path__)
             if not found.name.startswith("_") and found.name not in self.not_members
-        )
-        own = [
-            EntryPoint(name, f"{self.package}.{name}:{self.attribute}", self.group)
-            for name in modules
         ]
-        return [*own, *entry_points(group=self.group)]
+
+    def scan(self) -> Members:
+        """Return where all members are; it reads the metadata of every installed package."""
+        return Members(self, (*self.own(), *entry_points(group=self.group)))
 
     def names(self) -> list[str]:
         """Return the names of all members, sorted."""
-        return sorted({point.name for point in self.points()})
+        return self.scan().names()
+
+    def load(self, name: str) -> Any:
+        """Return the object of a member; no other package is looked at for one of AIRHILT.
+
+        Raises
+        ------
+        AirhiltError
+            There is none of that name, or more than one in other packages, or it cannot be loaded.
+            It is of the class that the family declares.
+        """
+        own = [point for point in self.own() if point.name == name]
+        return (Members(self, tuple(own)) if own else self.scan()).load(name)
+
+    def missing(self, member: object) -> list[str]:
+        """Return the public names that the protocol has and a member has not."""
+        names = [name for name in vars(self.protocol) if not name.startswith("_")]
+        return [name for name in names if not hasattr(member, name)]
+
+
+@dataclass(frozen=True)
+class Members:
+    """The members of a family as one scan has found them: AIRHILT's first.
+
+    Who asks for several of them scans once and asks this.
+    """
+
+    family: Family
+    points: tuple[EntryPoint, ...]
+
+    def names(self) -> list[str]:
+        """Return the names of all members, sorted."""
+        return sorted({point.name for point in self.points})
 
     def load(self, name: str) -> Any:
         """Return the object of a member.
@@ -74,28 +105,24 @@ class Family:
             There is none of that name, or more than one, or it cannot be loaded. It is of the
             class that the family declares.
         """
-        found = [point for point in self.points() if point.name == name]
+        family = self.family
+        found = [point for point in self.points if point.name == name]
         if not found:
-            raise self.error(f"no {self.word} named {name!r}{nearest(name, self.names())}")
+            raise family.error(f"no {family.word} named {name!r}{nearest(name, self.names())}")
         if len(found) > 1:
             where = ", ".join(point.value for point in found)
-            raise self.error(f"there is more than one {self.word} named {name!r}: {where}")
+            raise family.error(f"there is more than one {family.word} named {name!r}: {where}")
         try:
             member = found[0].load()
-        except Exception as error:
-            raise self.error(
-                f"{self.word} {name!r} cannot be loaded from {found[0].value}: "
+        except (Exception, SystemExit) as error:  # A script without a guard ends when imported.
+            raise family.error(
+                f"{family.word} {name!r} cannot be loaded from {found[0].value}: "
                 f"{type(error).__name__}: {error}"
             ) from error
-        if not isinstance(member, self.protocol) or getattr(member, "name", name) != name:
-            lacks = ", ".join(self._missing(member))
-            raise self.error(
-                f"{found[0].value} is no {self.word} named {name!r}: {member!r}"
+        if not isinstance(member, family.protocol) or getattr(member, "name", name) != name:
+            lacks = ", ".join(family.missing(member))
+            raise family.error(
+                f"{found[0].value} is no {family.word} named {name!r}: {member!r}"
                 + (f" has no {lacks}" if lacks else "")
             )
         return member
-
-    def _missing(self, member: object) -> list[str]:
-        """Return the public names that the protocol has and a member has not."""
-        names = [name for name in vars(self.protocol) if not name.startswith("_")]
-        return [name for name in names if not hasattr(member, name)]

@@ -10,7 +10,7 @@ import click
 
 from airhilt._version import __version__
 from airhilt.errors import AirhiltError
-from airhilt.plugins import Family
+from airhilt.plugins import Family, Members
 
 COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAND", click.Command)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
@@ -20,13 +20,45 @@ INTERRUPTED = 130
 class Commands(click.Group):
     """The commands of the family; each is loaded when it is asked for."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+    def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands."""
-        return COMMANDS.names()
+        return _installed(ctx).names()
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """Return a command, None if there is none of that name."""
-        return COMMANDS.load(cmd_name) if cmd_name in COMMANDS.names() else None
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return a command, None if there is none of that name.
+
+        One that cannot be loaded is there with the cause for its help; calling it is an error.
+        """
+        commands = _installed(ctx)
+        if cmd_name not in commands.names():
+            return None
+        try:
+            command: click.Command = commands.load(cmd_name)
+        except AirhiltError as error:
+            return _broken(cmd_name, error)
+        return command
+
+
+def _installed(ctx: click.Context) -> Members:
+    """Return the commands that are installed, found once in a call of the command line."""
+    commands: Members = ctx.meta.get(COMMANDS.group) or COMMANDS.scan()
+    ctx.meta[COMMANDS.group] = commands
+    return commands
+
+
+def _broken(name: str, error: AirhiltError) -> click.Command:
+    """Return a command in the place of one that cannot be loaded; it raises the cause."""
+
+    def fail(given: tuple[str, ...]) -> NoReturn:  # noqa: ARG001
+        raise error
+
+    return click.Command(
+        name,
+        context_settings={"ignore_unknown_options": True, "help_option_names": []},
+        callback=fail,
+        params=[click.Argument(["given"], nargs=-1, type=click.UNPROCESSED)],
+        short_help=str(error),
+    )
 
 
 @click.group(cls=Commands, context_settings=CONTEXT)

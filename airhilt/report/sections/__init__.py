@@ -160,9 +160,10 @@ def load_sections() -> tuple[list[Section], list[str]]:
     """Return all sections in their order, and a sentence on each that cannot be shown."""
     sections: list[Section] = []
     problems: list[str] = []
-    for name in FAMILY.names():
+    installed = FAMILY.scan()
+    for name in installed.names():
         try:
-            section: Section = FAMILY.load(name)
+            section: Section = installed.load(name)
             section.template()
         except (AirhiltError, OSError) as error:
             problems.append(f"The section {name!r} cannot be shown: {error}")

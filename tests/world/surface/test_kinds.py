@@ -7,15 +7,16 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NoReturn, cast
 
 import pytest
 
+from airhilt import plugins
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.surface import kinds
-from airhilt.world.surface.kinds import kind_names, load_kind
+from airhilt.world.surface.kinds import FAMILY, kind_names, load_kind
 from paths import DOCS
 
 GUIDE = DOCS / "actors.md"
@@ -158,13 +159,23 @@ def test_a_kind_goes_by_no_other_name_than_its_own(
         load_kind("coach")
 
 
-def test_two_kinds_of_one_name_are_refused(
+def test_two_kinds_of_one_name_are_refused_where_all_kinds_are_listed(
     added: Path, other_package: Path, bus_and_drone: tuple[str, str]
 ) -> None:
     for folder in (added, other_package):
         (folder / "drone.py").write_text(bus_and_drone[1])
     with pytest.raises(ScenarioError, match="more than one kind named 'drone'"):
-        load_kind("drone")
+        FAMILY.scan().load("drone")
+
+
+def test_a_kind_of_airhilt_is_loaded_without_a_look_at_other_packages(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def scan(group: str) -> NoReturn:
+        raise AssertionError(f"looked for {group}")
+
+    monkeypatch.setattr(plugins, "entry_points", scan)
+    assert load_kind("deer").name == "deer"
 
 
 def test_the_guide_lists_all_kinds() -> None:

@@ -1,0 +1,98 @@
+"""Other packages add commands; one that is broken takes none of the others away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.metadata import EntryPoints, entry_points
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.shell_completion import get_completion_class
+
+from airhilt import plugins
+from airhilt.cli.main import cli
+from engine_package import installed
+
+GOOD = """
+import click
+
+
+@click.command()
+@click.argument("name")
+def greet(name):
+    \"\"\"Greet somebody.\"\"\"
+    click.echo(f"hello {name}")
+
+
+ENGINE = greet
+"""
+BROKEN = "raise RuntimeError('it is broken')"
+CAUSE = "command 'broken' cannot be loaded from outside_broken:ENGINE: RuntimeError: it is broken"
+
+
+@pytest.fixture
+def foreign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Packages outside of AIRHILT with a command that works and one that does not."""
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.commands", "greet", GOOD),
+        installed(tmp_path, monkeypatch, "airhilt.commands", "broken", BROKEN),
+    ):
+        yield
+
+
+@pytest.mark.usefixtures("foreign")
+def test_a_command_of_another_package_is_called_and_has_its_row(airhilt_command: Any) -> None:
+    assert airhilt_command("greet", "Ada").stdout == "hello Ada\n"
+    assert "Greet somebody." in airhilt_command("--help").stdout
+
+
+@pytest.mark.usefixtures("foreign")
+def test_help_goes_on_without_a_broken_command_and_gives_the_cause(airhilt_command: Any) -> None:
+    done = airhilt_command("--help")
+    assert done.returncode == 0
+    assert "Run a scenario" in done.stdout
+    assert CAUSE in " ".join(done.stdout.split())
+
+
+@pytest.mark.usefixtures("foreign")
+def test_completion_goes_on_without_a_broken_command() -> None:
+    bash = get_completion_class("bash")
+    assert bash is not None
+    completion = bash(cli, {}, "airhilt", "_AIRHILT_COMPLETE")
+    assert {"cosim", "greet"} <= {item.value for item in completion.get_completions([], "")}
+    assert completion.get_completions(["broken"], "--") == []
+
+
+@pytest.mark.parametrize("arguments", [(), ("--help",), ("one", "--two", "-x")])
+@pytest.mark.usefixtures("foreign")
+def test_calling_a_broken_command_is_an_error(
+    airhilt_command: Any, arguments: tuple[str, ...]
+) -> None:
+    done = airhilt_command("broken", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"airhilt: {CAUSE}\n"
+
+
+def test_a_command_that_ends_the_process_on_import_does_not_end_the_help(
+    airhilt_command: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.commands", "broken", "raise SystemExit(7)"):
+        done = airhilt_command("--help")
+    assert done.returncode == 0
+    assert "SystemExit: 7" in done.stdout
+
+
+@pytest.mark.parametrize("arguments", [("--help",), ("schema", "--help")])
+def test_the_command_line_looks_for_commands_once(
+    airhilt_command: Any, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    scans = []
+
+    def scan(group: str) -> EntryPoints:
+        scans.append(group)
+        return entry_points(group=group)
+
+    monkeypatch.setattr(plugins, "entry_points", scan)
+    assert airhilt_command(*arguments).returncode == 0
+    assert scans == ["airhilt.commands"]
