@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import importlib.metadata
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
-from airhilt.plugins import Family
+from airhilt.plugins import Family, Members, missing
 from airhilt.services import is_service
 
 ASR = "embedded"
@@ -130,7 +130,10 @@ class Engine(Generic[T_co]):
 
     def lacks(self) -> str:
         """Return how to get what is missing for it; empty if nothing is."""
-        return next((each.remedy() for each in self.requires if not each.found()), "")
+        try:
+            return next((each.remedy() for each in self.requires if not each.found()), "")
+        except Exception as error:  # Requirements may be another package's code.
+            return f"what it needs cannot be looked up: {type(error).__name__}: {error}"
 
     def accepts(self, argument: str) -> bool:
         """Return whether this may follow the name; empty stands for nothing."""
@@ -143,11 +146,14 @@ class EngineFamily(Family, Generic[T]):
 
     Attributes
     ----------
+    product
+        What each engine must be an instance of, a protocol.
     also
         Words that may stand in the place of an engine, such as ``none``, for error messages.
     """
 
     protocol: type[Engine[T]] = Engine
+    product: type[Any] = object
     also: tuple[str, ...] = ()
 
     def create(self, text: str) -> T:
@@ -164,8 +170,30 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or it cannot be made. The error is of the class
             that the family declares.
         """
-        engine, argument = self.choose(text)
-        return engine.create(argument)
+        return self.make(*self.choose(text))
+
+    def make(self, engine: Engine[T], argument: str) -> T:
+        """Return what an engine makes of an argument, checked against the family's protocol.
+
+        Raises
+        ------
+        AirhiltError
+            It cannot be made, or is no such thing.
+        """
+        text = f"{engine.name}:{argument}" if argument else engine.name
+        try:
+            made = engine.create(argument)
+            fits = isinstance(made, self.product)
+        except AirhiltError:
+            raise
+        except (Exception, SystemExit) as error:
+            raise self.error(
+                f"{self.word} {text!r} cannot be made: {type(error).__name__}: {error}"
+            ) from error
+        if not fits:
+            lacks = ", ".join(missing(made, self.product))
+            raise self.error(f"{self.word} {text!r}: what it makes, {made!r}, has no {lacks}")
+        return made
 
     def choose(self, text: str) -> tuple[Engine[T], str]:
         """Return the engine that a text asks for, and the argument for it.
@@ -173,16 +201,18 @@ class EngineFamily(Family, Generic[T]):
         Raises
         ------
         AirhiltError
-            No engine is meant, or more than one. The error is of the class that the family
-            declares.
+            No engine is meant, or more than one, or one cannot say whether it is. The error is of
+            the class that the family declares.
         """
+        installed = self.scan()
         name, _, argument = text.partition(":")
-        if name in self.names() and not is_service(text):
-            engine: Engine[T] = self.load(name)
+        if name in installed.names() and not is_service(text):
+            engine: Engine[T] = installed.load(name)
             if engine.accepts(argument):
                 return engine, argument
             raise self.error(f"{self.word} {text!r}: expected {engine.forms()}")
-        takers = [engine for engine in self.members() if engine.takes(text)]
+        engines = _loadable(installed)
+        takers = [engine for engine in engines if self._takes(engine, text)]
         if len(takers) == 1:
             return takers[0], text
         if takers:
@@ -191,29 +221,39 @@ class EngineFamily(Family, Generic[T]):
         if text and Path(text).exists():
             problem, meant = f"no {self.word} knows such files", ""
         else:
-            problem, meant = "there is none of that name", self._suggestion(name)
-        raise self.error(f"{self.word} {text!r}: {problem}; expected {self.expected()}{meant}")
+            problem, meant = "there is none of that name", self._suggestion(name, engines)
+        raise self.error(f"{self.word} {text!r}: {problem}; expected {self._forms(engines)}{meant}")
 
-    def members(self) -> list[Engine[T]]:
-        """Return all engines that can be loaded: by name, those with an address last."""
-        found = []
-        for name in self.names():
-            try:
-                found.append(self.load(name))
-            except AirhiltError:  # Doctor says what is wrong with it.
-                continue
-        return sorted(found, key=lambda engine: bool(engine.usage))
+    def _takes(self, engine: Engine[T], text: str) -> bool:
+        try:
+            return bool(engine.takes(text))
+        except (Exception, SystemExit) as error:
+            raise self.error(
+                f"{self.word} {engine.name!r} cannot say whether {text!r} is for it: "
+                f"{type(error).__name__}: {error}"
+            ) from error
 
-    def expected(self) -> str:
+    def _forms(self, engines: Sequence[Engine[T]]) -> str:
         """Return what may be written, for error messages."""
         words = [
             f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
-            for engine in self.members()
+            for engine in engines
         ]
         *others, last = [*words, *self.also]
         return f"{', '.join(others)}, or {last}" if others else last
 
-    def _suggestion(self, name: str) -> str:
-        named = [engine.name for engine in self.members() if not engine.usage]
+    def _suggestion(self, name: str, engines: Sequence[Engine[T]]) -> str:
+        named = [engine.name for engine in engines if not engine.usage]
         tail = nearest(name, [*named, *self.also])
         return tail if "did you mean" in tail else ""
+
+
+def _loadable(installed: Members) -> list[Engine[Any]]:
+    """Return the engines that can be loaded: by name, those with an address last."""
+    found: list[Engine[Any]] = []
+    for name in installed.names():
+        try:
+            found.append(installed.load(name))
+        except AirhiltError:  # Doctor says what is wrong with it.
+            continue
+    return sorted(found, key=lambda engine: bool(engine.usage))

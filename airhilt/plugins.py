@@ -76,11 +76,6 @@ class Family:
         own = [point for point in self.own() if point.name == name]
         return (Members(self, tuple(own)) if own else self.scan()).load(name)
 
-    def missing(self, member: object) -> list[str]:
-        """Return the public names that the protocol has and a member has not."""
-        names = [name for name in vars(self.protocol) if not name.startswith("_")]
-        return [name for name in names if not hasattr(member, name)]
-
 
 @dataclass(frozen=True)
 class Members:
@@ -120,9 +115,15 @@ class Members:
                 f"{type(error).__name__}: {error}"
             ) from error
         if not isinstance(member, family.protocol) or getattr(member, "name", name) != name:
-            lacks = ", ".join(family.missing(member))
+            lacks = ", ".join(missing(member, family.protocol))
             raise family.error(
                 f"{found[0].value} is no {family.word} named {name!r}: {member!r}"
                 + (f" has no {lacks}" if lacks else "")
             )
         return member
+
+
+def missing(thing: object, protocol: type[Any]) -> list[str]:
+    """Return the public names that a protocol has and a thing has not."""
+    names = [name for name in vars(protocol) if not name.startswith("_")]
+    return [name for name in names if not hasattr(thing, name)]

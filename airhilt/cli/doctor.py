@@ -111,7 +111,7 @@ def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
         if lacks := engine.lacks():
             return Finding(title, "", needed, f"{engine.summary}; {lacks}")
         if engine.accepts("") and not engine.usage:
-            engine.create("")
+            family.make(engine, "")
     except AirhiltError as error:
         return Finding(title, "", needed, str(error))
     installed = "".join(f"{requirement.found()}, " for requirement in engine.requires)

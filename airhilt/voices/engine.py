@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from airhilt.audio.pcm import Audio
 
@@ -20,6 +20,7 @@ class VoiceSpec:
     """Pitch of the voice; 1 is the engine's own."""
 
 
+@runtime_checkable
 class TtsEngine(Protocol):
     """Turns text into speech. The same text and voice give the same samples every time."""
 

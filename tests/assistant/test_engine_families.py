@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import pytest
 
@@ -17,6 +17,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.reference import families
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
@@ -24,7 +25,7 @@ from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.engines import Package
+from airhilt.engines import EngineFamily, Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     ActorTruth,
@@ -115,6 +116,14 @@ UNUSABLE = (
 ENGINE = Engine("late", "needs something", str, requires=(Package("not-installed-1", "none"),))
 """
 )
+LACKS = (
+    "name, recognise",
+    "name, version, voice_of, synthesise",
+    "name, threshold, detect",
+    "name, reads, receive, decide",
+    "name, message",
+)
+"""What an object has not that is no engine, by family."""
 BROKEN = "raise RuntimeError('it is broken')"
 
 
@@ -283,6 +292,83 @@ def test_doctor_says_what_an_engine_lacks(tmp_path: Path, monkeypatch: pytest.Mo
     assert (late.found, late.remedy) == ("", "needs something; pip install 'airhilt[none]'")
     assert (broken.found, broken.needed) == ("", False)
     assert "RuntimeError: it is broken" in broken.remedy
+
+
+def faulty(create: str = "lambda _: 42", more: str = "") -> str:
+    """Return the source of an engine that does not do what it must."""
+    return f"""
+from airhilt.engines import Engine
+
+
+def fail(*_):
+    raise LookupError("no model")
+
+
+class Need:
+    found = remedy = fail
+
+
+ENGINE = Engine("faulty", "fails", {create}{more})
+"""
+
+
+@pytest.mark.parametrize("family", families(), ids=lambda family: family.word)
+def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
+    family: EngineFamily[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = f"{family.word} 'faulty' cannot be made: LookupError: no model"
+    with (
+        installed(tmp_path, monkeypatch, family.group, "faulty", faulty("fail")),
+        pytest.raises(AirhiltError, match=words) as caught,
+    ):
+        family.create("faulty")
+    assert type(caught.value) is family.error
+
+
+@pytest.mark.parametrize(
+    ("family", "lacks"), list(zip(families(), LACKS, strict=True)), ids=lambda one: str(one)[:9]
+)
+def test_an_engine_that_makes_something_else_is_told_what_that_lacks(
+    family: EngineFamily[Any], lacks: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with (
+        installed(tmp_path, monkeypatch, family.group, "faulty", faulty()),
+        pytest.raises(AirhiltError, match=f"'faulty': what it makes, 42, has no {lacks}$"),
+    ):
+        family.create("faulty")
+
+
+def test_an_engine_that_fails_over_a_path_is_named_with_the_cause(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = "recogniser 'faulty' cannot say whether 'some/path' is for it: LookupError: no model"
+    source = faulty(more=", takes=fail")
+    with (
+        installed(tmp_path, monkeypatch, "airhilt.asr", "faulty", source),
+        pytest.raises(SpeechError, match=words),
+    ):
+        RECOGNISERS.create("some/path")
+
+
+@pytest.mark.parametrize(
+    ("source", "cause"),
+    [
+        (faulty("fail"), "LookupError: no model"),
+        (faulty(), "42, has no name, recognise"),
+        (faulty(more=", requires=(Need(),)"), "cannot be looked up: LookupError: no model"),
+        ("raise SystemExit('it ends')", "SystemExit: it ends"),
+    ],
+)
+def test_doctor_survives_a_broken_engine_and_gives_the_cause(
+    source: str, cause: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
+    with installed(tmp_path, monkeypatch, "airhilt.asr", "faulty", source):
+        found = {one.name: one for one in examine()}
+    broken = found["recogniser faulty"]
+    assert (broken.found, broken.needed) == ("", False)
+    assert cause in broken.remedy
+    assert found["recogniser embedded"].found
 
 
 def test_a_broken_engine_does_not_hide_the_others(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from airhilt.audio.pcm import Audio
 
@@ -21,6 +21,7 @@ class Recognised:
     """Confidence in the whole, in [0, 1]; where it is empty, that nothing was said."""
 
 
+@runtime_checkable
 class AsrEngine(Protocol):
     """Turns the audio of one transmission into words."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,7 @@ class PictureMissed(VisionError):
     """A detector has failed with one picture, and may succeed with the next."""
 
 
+@runtime_checkable
 class Detector(Protocol):
     """Finds aircraft, vehicles and animals in pictures of any size."""
 

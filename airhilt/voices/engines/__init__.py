@@ -11,7 +11,9 @@ from airhilt.errors import SpeechError
 from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import TtsEngine
 
-FAMILY = EngineFamily[TtsEngine]("voice", "airhilt.tts", __name__, "ENGINE", error=SpeechError)
+FAMILY = EngineFamily[TtsEngine](
+    "voice", "airhilt.tts", __name__, "ENGINE", error=SpeechError, product=TtsEngine
+)
 
 
 def tts_engine(name: str) -> TtsEngine:

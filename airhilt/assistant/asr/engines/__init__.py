@@ -10,7 +10,9 @@ from airhilt.assistant.asr.engine import AsrEngine
 from airhilt.engines import EngineFamily
 from airhilt.errors import SpeechError
 
-FAMILY = EngineFamily[AsrEngine]("recogniser", "airhilt.asr", __name__, "ENGINE", error=SpeechError)
+FAMILY = EngineFamily[AsrEngine](
+    "recogniser", "airhilt.asr", __name__, "ENGINE", error=SpeechError, product=AsrEngine
+)
 
 
 def asr_engine(name: str) -> AsrEngine:

@@ -10,7 +10,12 @@ from airhilt.assistant.decision.engine import DecisionEngine
 from airhilt.engines import EngineFamily
 
 FAMILY = EngineFamily[DecisionEngine](
-    "assistant", "airhilt.assistants", __name__, "ENGINE", also=("none", "external")
+    "assistant",
+    "airhilt.assistants",
+    __name__,
+    "ENGINE",
+    product=DecisionEngine,
+    also=("none", "external"),
 )
 
 

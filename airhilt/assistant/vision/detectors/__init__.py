@@ -11,7 +11,13 @@ from airhilt.engines import EngineFamily
 from airhilt.errors import VisionError
 
 FAMILY = EngineFamily[Detector](
-    "detector", "airhilt.detectors", __name__, "ENGINE", error=VisionError, also=("none",)
+    "detector",
+    "airhilt.detectors",
+    __name__,
+    "ENGINE",
+    error=VisionError,
+    product=Detector,
+    also=("none",),
 )
 
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from airhilt.assistant.wording.engine import AdvisoryWording
 from airhilt.engines import EngineFamily
 
-FAMILY = EngineFamily[AdvisoryWording]("wording", "airhilt.wording", __name__, "ENGINE")
+FAMILY = EngineFamily[AdvisoryWording](
+    "wording", "airhilt.wording", __name__, "ENGINE", product=AdvisoryWording
+)
 
 
 def advisory_wording(name: str) -> AdvisoryWording:
