@@ -109,12 +109,13 @@ class Members:
             raise family.error(f"there is more than one {family.word} named {name!r}: {where}")
         try:
             member = found[0].load()
+            fits = isinstance(member, family.protocol) and getattr(member, "name", name) == name
         except (Exception, SystemExit) as error:  # A script without a guard ends when imported.
             raise family.error(
                 f"{family.word} {name!r} cannot be loaded from {found[0].value}: "
                 f"{type(error).__name__}: {error}"
             ) from error
-        if not isinstance(member, family.protocol) or getattr(member, "name", name) != name:
+        if not fits:
             lacks = ", ".join(missing(member, family.protocol))
             raise family.error(
                 f"{found[0].value} is no {family.word} named {name!r}: {member!r}"

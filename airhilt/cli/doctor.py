@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from airhilt import library
 from airhilt._version import __version__
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
+from airhilt.plugins import Family, Members
 
 NEEDED = (
     "jsbsim",
@@ -71,6 +73,7 @@ def examine() -> list[Finding]:
         _jsbsim_models(),
         *_engines(),
         *_renderers(),
+        *_families(),
     ]
     return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
 
@@ -97,25 +100,60 @@ def _engines() -> list[Finding]:
     from airhilt.assistant.reference import DEFAULTS, families
 
     return [
-        _engine(family, name, needed=name == DEFAULTS[family.group])
+        _engine(family, installed, name, needed=name == DEFAULTS[family.group])
         for family in families()
-        for name in family.names()
+        for installed in [family.scan()]
+        for name in installed.names()
     ]
 
 
-def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
+def _engine(family: EngineFamily[Any], installed: Members, name: str, needed: bool) -> Finding:
     """Look for what an engine needs, and load it if its name alone is enough for that."""
     title = f"{family.word} {name}"
     try:
-        engine: Engine[Any] = family.load(name)
+        engine: Engine[Any] = installed.load(name)
         if lacks := engine.lacks():
             return Finding(title, "", needed, f"{engine.summary}; {lacks}")
         if engine.accepts("") and not engine.usage:
             family.make(engine, "")
     except AirhiltError as error:
         return Finding(title, "", needed, str(error))
-    installed = "".join(f"{requirement.found()}, " for requirement in engine.requires)
-    return Finding(title, f"({installed}{engine.summary})", needed)
+    packages = "".join(f"{requirement.found()}, " for requirement in engine.requires)
+    return Finding(title, f"({packages}{engine.summary})", needed)
+
+
+def _families() -> list[Finding]:
+    """Load the members of the families that are no engines; every run needs AIRHILT's sensors."""
+    from airhilt.cli.main import COMMANDS
+    from airhilt.report.sections import FAMILY as SECTIONS
+    from airhilt.report.sections import load_section
+    from airhilt.sensors.base import FAMILY as SENSORS
+    from airhilt.sensors.base import load_sensor_type
+    from airhilt.world.surface.kinds import FAMILY as KINDS
+
+    sensors = [point.name for point in SENSORS.own()]
+    return [
+        *_members(SENSORS, load_sensor_type, needed=sensors),
+        *_members(KINDS, Members.load),
+        *_members(SECTIONS, load_section),
+        *_members(COMMANDS, Members.load),
+    ]
+
+
+def _members(
+    family: Family, load: Callable[[Members, str], object], needed: Sequence[str] = ()
+) -> list[Finding]:
+    """Load all members of a family: a line on those that can be used, and one on each other."""
+    installed = family.scan()
+    usable, broken = [], []
+    for name in installed.names():
+        try:
+            load(installed, name)
+            usable.append(name)
+        except AirhiltError as error:
+            broken.append(Finding(f"{family.word} {name}", "", name in needed, str(error)))
+    found = f"({len(usable)}: {', '.join(usable)})"
+    return [Finding(f"{family.word}s", found, needed=False), *broken]
 
 
 def _renderers() -> list[Finding]:

@@ -47,6 +47,8 @@ class Setup:
         The scenario as it was before.
     pace
         Pace of the run until its participants are known.
+    notices
+        Sentences for the user on what the run does without.
     ends_ns
         Planned end of each line, by its id.
     """
@@ -64,6 +66,7 @@ class Setup:
     actors: dict[str, Actor]
     sound: RadioBackend
     sensor_types: Sequence[SensorType]
+    notices: Sequence[str]
     lines: Sequence[EffectiveLine]
     ends_ns: Mapping[str, int]
 
@@ -114,6 +117,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     tts = options.tts if options.speech else None
     sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
     lines = apply_failures(scenario)
+    sensor_types, problems = load_sensor_types(scenario.sensors)
     # For the summary alone; a record knows what was said, but not what was planned and was not.
     planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
     return Setup(
@@ -129,7 +133,8 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         site=site,
         actors=actors,
         sound=sound,
-        sensor_types=load_sensor_types(scenario),
+        sensor_types=sensor_types,
+        notices=problems,
         lines=lines,
         ends_ns=planned_ends_ns(lines, planned),
     )

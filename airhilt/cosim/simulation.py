@@ -80,6 +80,8 @@ def run(
     with ExitStack() as stack:
         link = stack.enter_context(started_renderer(scenario, options, recorded, bool(workers)))
         setup = set_up(scenario, options, recorded)
+        for text in setup.notices:
+            observer.notice(text)
         options, pace = setup.options, setup.pace
         bus = stack.enter_context(closing(Bus(setup.name, options.endpoint)))
         _tell_clock(bus, 0, "waiting", pace)

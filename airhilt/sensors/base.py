@@ -13,14 +13,14 @@ because they need a renderer, voices, and what crews and workers say.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, runtime_checkable
 
 from airhilt.errors import AirhiltError, ScenarioError, SensorError
 from airhilt.library import nearest
 from airhilt.messages import WORKER_OUTPUTS, Message
-from airhilt.plugins import Family
+from airhilt.plugins import Family, Members
 from airhilt.scenario.models import Scenario
 from airhilt.sim import Director, LatencySpec, StepRecord
 from airhilt.world.actors.actor import Actor
@@ -121,32 +121,46 @@ FAMILY = Family(
 )
 
 
-def sensor_messages() -> dict[str, type[Message]]:
-    """Return the message of each key that installed sensors publish on, those of AIRHILT included.
+def sensor_messages(types: Iterable[SensorType]) -> dict[str, type[Message]]:
+    """Return the message of each key that sensors of some types publish on."""
+    return {key: model for each in types for key, model in each.messages.items()}
+
+
+def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], list[str]]:
+    """Return all installed sensor types in the order of their names, and what is wrong with others.
+
+    Those of AIRHILT and those that are asked for must be there. A broken type of another package
+    that nobody asked for is left out, with a sentence on it.
+
+    Parameters
+    ----------
+    asked
+        Names of sensor types that a scenario has settings for.
 
     Raises
     ------
     SensorError
-        A sensor type cannot be loaded, or claims a key that is not below its name.
-    """
-    return {key: model for name in FAMILY.names() for key, model in _load(name).messages.items()}
-
-
-def load_sensor_types(scenario: Scenario) -> list[SensorType]:
-    """Return all installed sensor types in the order of their names.
-
-    Raises
-    ------
-    SensorError
-        A sensor type cannot be loaded, or its name or its keys belong to something else.
+        A sensor type that must be there cannot be loaded, or its name or its keys belong to
+        something else.
     ScenarioError
-        The scenario has settings for a sensor that is not installed.
+        A sensor type that is asked for is not installed.
     """
-    names = FAMILY.names()
-    for name in scenario.sensors:
+    installed = FAMILY.scan()
+    names = installed.names()
+    for name in asked:
         if name not in names:
             raise ScenarioError(f"sensors: no sensor named {name!r}{nearest(name, names)}")
-    return [_load(name) for name in names]
+    needed = {*asked, *(point.name for point in FAMILY.own())}
+    types: list[SensorType] = []
+    problems: list[str] = []
+    for name in names:
+        try:
+            types.append(load_sensor_type(installed, name))
+        except SensorError as error:
+            if name in needed:
+                raise
+            problems.append(f"{error}; there is no such sensor in a run")
+    return types, problems
 
 
 def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[Sensor]:
@@ -181,13 +195,28 @@ def _create(sensor_type: SensorType, context: SensorContext) -> Sensor | None:
         ) from error
 
 
-def _load(name: str) -> SensorType:
-    sensor_type: SensorType = FAMILY.load(name)
+def load_sensor_type(installed: Members, name: str) -> SensorType:
+    """Return a sensor type.
+
+    Raises
+    ------
+    SensorError
+        It cannot be loaded, or its name or its keys belong to something else.
+    """
+    sensor_type: SensorType = installed.load(name)
     if name in RESERVED:
         raise SensorError(f"a sensor is named {name!r}, and those keys are not a sensor's")
-    for key in sensor_type.messages:
-        if not key.startswith(f"{name}/"):
+    try:
+        declared = dict(sensor_type.messages)
+    except Exception as error:
+        raise SensorError(
+            f"sensor {name!r} does not say what it publishes: {type(error).__name__}: {error}"
+        ) from error
+    for key, model in declared.items():
+        if not str(key).startswith(f"{name}/"):
             raise SensorError(f"sensor {name!r} declares the key {key!r}; expected {name}/...")
+        if not (isinstance(model, type) and issubclass(model, Message)):
+            raise SensorError(f"sensor {name!r} declares {model!r} on {key!r}; expected a Message")
     return sensor_type
 
 

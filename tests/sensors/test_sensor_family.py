@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 from mcap.reader import make_reader
@@ -17,7 +18,7 @@ from airhilt.errors import ScenarioError, SensorError
 from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.base import FAMILY, RESERVED, sensor_messages
+from airhilt.sensors.base import FAMILY, RESERVED, load_sensor_types, sensor_messages
 from airhilt.sim.worker import Input
 from airhilt.workers import Step
 from airhilt.world.loading import load_text
@@ -134,7 +135,7 @@ def test_it_rests_where_the_scenario_does_not_ask_for_it(
 
 
 def test_its_messages_are_among_the_schemas(installed: Path) -> None:
-    assert sensor_messages()["loop/{name}"].__name__ == "LoopState"
+    assert sensor_messages(load_sensor_types()[0])["loop/{name}"].__name__ == "LoopState"
 
 
 def test_settings_for_a_sensor_that_is_not_installed_are_refused(
@@ -170,8 +171,52 @@ def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(
         go(scenario, tmp_path / "run")
 
 
+class Listening(airhilt.Observer):
+    """An observer that keeps the notices."""
+
+    def __init__(self) -> None:
+        self.notices: list[str] = []
+
+    def notice(self, text: str) -> None:
+        self.notices.append(text)
+
+
+@pytest.mark.parametrize(
+    ("change", "cause"),
+    [
+        (lambda _: "import no_such_module\n", "ModuleNotFoundError: No module named"),
+        (lambda _: "raise SystemExit('it ends')\n", "SystemExit: it ends"),
+        (lambda text: text.replace('"loop/{name}"', '"truth/{name}"'), "expected loop/..."),
+        (lambda text: text.replace(": LoopState}", ": 42}"), "expected a Message"),
+        (lambda text: text.replace('{"loop/{name}": LoopState}', "42"), "TypeError: 'int' object"),
+    ],
+)
+def test_a_broken_sensor_that_nobody_asked_for_is_a_notice(
+    installed: Path,
+    encounter: Scenario,
+    tmp_path: Path,
+    airhilt_command: Any,
+    change: Callable[[str], str],
+    cause: str,
+) -> None:
+    source = installed / "loop.py"
+    source.write_text(change(source.read_text()))
+    observer = Listening()
+    short = encounter.model_copy(update={"duration_s": 2.0})
+    airhilt.run(
+        short, out=tmp_path / "run", latency="fixed", cameras=False, speech=False, observer=observer
+    )
+    (notice,) = observer.notices
+    assert "sensor 'loop'" in notice
+    assert cause in notice
+    schema = airhilt_command("schema")
+    assert schema.returncode == 0
+    assert "LoopState" not in schema.stdout
+    assert schema.stderr == f"airhilt: {notice}\n"
+
+
 def test_the_sensors_of_airhilt_declare_what_is_on_the_bus() -> None:
-    own = sensor_messages()
+    own = sensor_messages(load_sensor_types()[0])
     assert {key: BUS_MESSAGES[key] for key in own} == own
 
 

@@ -23,9 +23,12 @@ def schema(scenario: bool) -> None:
         document = Scenario.model_json_schema()
     else:
         from airhilt.messages import json_schemas
-        from airhilt.sensors.base import sensor_messages
+        from airhilt.sensors.base import load_sensor_types, sensor_messages
 
-        document = json_schemas(sensor_messages())
+        types, problems = load_sensor_types()
+        for problem in problems:
+            click.echo(f"airhilt: {problem}", err=True)
+        document = json_schemas(sensor_messages(types))
     click.echo(json.dumps(document, indent=2))
 
 

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError
-from airhilt.plugins import Family
+from airhilt.plugins import Family, Members
 from airhilt.record import Logged, RunFolder
 
 if TYPE_CHECKING:
@@ -156,6 +156,22 @@ FAMILY = Family(
 )
 
 
+def load_section(installed: Members, name: str) -> Section:
+    """Return a section whose template can be read.
+
+    Raises
+    ------
+    AirhiltError
+        It cannot be loaded, or its template cannot be read.
+    """
+    section: Section = installed.load(name)
+    try:
+        section.template()
+    except Exception as error:
+        raise AirhiltError(f"{type(error).__name__}: {error}") from error
+    return section
+
+
 def load_sections() -> tuple[list[Section], list[str]]:
     """Return all sections in their order, and a sentence on each that cannot be shown."""
     sections: list[Section] = []
@@ -163,10 +179,7 @@ def load_sections() -> tuple[list[Section], list[str]]:
     installed = FAMILY.scan()
     for name in installed.names():
         try:
-            section: Section = installed.load(name)
-            section.template()
-        except (AirhiltError, OSError) as error:
+            sections.append(load_section(installed, name))
+        except AirhiltError as error:
             problems.append(f"The section {name!r} cannot be shown: {error}")
-        else:
-            sections.append(section)
     return sorted(sections, key=lambda section: (section.order, section.name)), problems
