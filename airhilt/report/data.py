@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +18,7 @@ from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
-from airhilt.report.sections import GuardedContent, Section
+from airhilt.report.sections import GuardedContent
 from airhilt.report.text import cut
 from airhilt.report.tracks import Locate, Phases, Projection, ThinnedStates, Track
 from airhilt.shapes.sizes import Size
@@ -117,7 +117,7 @@ class RunData:
         }
 
 
-def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, GuardedContent]) -> RunData:
+def read_run(folder: RunFolder, page: Path, contents: Sequence[GuardedContent]) -> RunData:
     """Read a run folder, and give the messages of its log to the sections that ask for them.
 
     Parameters
@@ -127,7 +127,7 @@ def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, GuardedCo
     page
         File that the page is written to.
     contents
-        Receivers of messages, by the section that states their keys.
+        Receivers of messages: each gets those with the keys of its section.
 
     Raises
     ------
@@ -163,7 +163,7 @@ def read_run(folder: RunFolder, page: Path, contents: Mapping[Section, GuardedCo
 class _Log:
     """Sorts the messages of a log."""
 
-    def __init__(self, points_a_track: int, contents: Mapping[Section, GuardedContent]) -> None:
+    def __init__(self, points_a_track: int, contents: Sequence[GuardedContent]) -> None:
         self.states: dict[str, ThinnedStates] = {}
         self.phases: dict[str, Phases] = {}
         self.events = Events()
@@ -199,9 +199,7 @@ class _Log:
     def _receivers_of(self, key: str) -> list[GuardedContent]:
         if key not in self._receivers:
             self._receivers[key] = [
-                content
-                for section, content in self._contents.items()
-                if key.startswith(section.keys)
+                content for content in self._contents if key.startswith(content.section.keys)
             ]
         return self._receivers[key]
 

@@ -13,14 +13,14 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from airhilt.errors import RunFolderError
+from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.record import RunFolder
 from airhilt.report.data import read_run
-from airhilt.report.sections import GuardedContent, Section, load_sections
+from airhilt.report.sections import GuardedContent, Section, cannot_be_shown, load_sections
 from airhilt.report.text import cut
 
 if TYPE_CHECKING:
-    from jinja2 import Environment, Template
+    from jinja2 import Environment
 
 Json = dict[str, Any]
 
@@ -78,12 +78,12 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
 def render(folder: RunFolder, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
     sections, problems = load_sections()
-    contents = {section: GuardedContent(section, folder) for section in sections}
+    contents = [GuardedContent(section, folder) for section in sections]
     run = read_run(folder, page, contents)
-    own = {section.name: content.as_json(run) for section, content in contents.items()}
-    problems += [content.problem for content in contents.values() if content.problem]
+    own = {content.section.name: content.as_json(run) for content in contents}
+    problems += [note for content in contents for note in content.notes]
     run.notes.extend(map(cut, problems))
-    whole = [section for section, content in contents.items() if not content.problem]
+    whole = [content.section for content in contents if content.is_whole]
     return _Assembly(whole, run.as_json() | {"sections": own}).page()
 
 
@@ -96,44 +96,81 @@ class _Assembly:
 
         self._sections = sections
         self._data = data
+        self._scripts: dict[str, str] = {}
+        """Scripts of the sections whose markup could be made, by the name of the section."""
+        self._failed: set[str] = set()
         self._environment: Environment = Environment(
             autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
         )
 
     def page(self) -> str:
         """Return the document."""
-        return self._template(_own_file("page.html")).render(
+        outer = [self._markup(one) for one in self._sections if not one.within]
+        self._note_homeless()
+        return self._environment.from_string(_own_file("page.html")).render(
             style=_own_file("page.css"),
-            sections=[self._markup(one) for one in self._sections if not one.within],
+            sections=outer,
             data=embeddable(self._data),
-            scripts=self._scripts(),
+            scripts=self._all_scripts(),
         )
 
     def _markup(self, section: Section) -> str:
-        """Return the markup of a section; a template that fails is noted and left out."""
-        from jinja2 import TemplateError
+        """Return the markup of a section; one that fails is noted and left out."""
+        from jinja2 import meta
 
-        parts = [self._markup(one) for one in self._sections if one.within == section.name]
-        own = self._data["sections"].get(section.name)
         try:
-            return self._template(section.template()).render(run=self._data, data=own, parts=parts)
-        except TemplateError as error:
-            note = f"The template of section {section.name!r} cannot be shown: {error}"
-            self._data["notes"].append(cut(note))
+            template, script = self._environment.parse(section.template()), section.script()
+            inner = [one for one in self._sections if one.within == section.name]
+            if "parts" not in meta.find_undeclared_variables(template):
+                inner = []
+            markup = self._environment.from_string(template).render(
+                run=self._data,
+                data=self._data["sections"].get(section.name),
+                parts=[self._markup(one) for one in inner],
+            )
+            markup.encode()
+        except Exception as error:
+            self._failed.add(section.name)
+            self._note(
+                f"The template of section {section.name!r} cannot be shown: "
+                f"{type(error).__name__}: {error}"
+            )
             return ""
+        self._scripts[section.name] = script
+        return markup
 
-    def _scripts(self) -> list[str]:
+    def _note_homeless(self) -> None:
+        """Note the sections that stand within one that is not on the page, or takes in none."""
+        for section in self._sections:
+            if section.name not in self._failed and not self._is_on_page(section):
+                self._note(
+                    cannot_be_shown(
+                        section.name,
+                        AirhiltError(
+                            f"it stands within {section.within!r}, and the page has no section of "
+                            "that name whose template shows its parts"
+                        ),
+                    )
+                )
+
+    def _is_on_page(self, section: Section) -> bool:
+        outer = [one for one in self._sections if one.name == section.within]
+        return section.name in self._scripts and (
+            not section.within or any(map(self._is_on_page, outer))
+        )
+
+    def _note(self, text: str) -> None:
+        self._data["notes"].append(cut(text))
+
+    def _all_scripts(self) -> list[str]:
         """Return all scripts; a section has a scope of its own."""
         shared = [_own_file(f"shared/{name}.js") for name in SHARED]
         own = [
             f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n"
             for section in self._sections
-            if (script := section.script())
+            if self._is_on_page(section) and (script := self._scripts[section.name])
         ]
         return [_inline(script) for script in (*shared, *own, "page.begin();\n")]
-
-    def _template(self, source: str) -> Template:
-        return self._environment.from_string(source)
 
 
 def _own_file(name: str) -> str:

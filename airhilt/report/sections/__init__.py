@@ -19,12 +19,13 @@ Both may return a function, which is then called with each time that is shown, i
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
+from pydantic.dataclasses import dataclass
 
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family, Members
@@ -88,15 +89,22 @@ class Section:
 
     def template(self) -> str:
         """Return the Jinja template."""
-        return self._beside(".html").read_text("utf-8")
+        return _read(self._beside(".html"))
 
     def script(self) -> str:
         """Return the script, empty if there is none."""
         path = self._beside(".js")
-        return path.read_text("utf-8") if path.is_file() else ""
+        return _read(path) if path.is_file() else ""
 
     def _beside(self, suffix: str) -> Path:
         return Path(self.module).with_suffix(suffix)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text("utf-8")
+    except UnicodeDecodeError as error:
+        raise AirhiltError(f"{path}: not UTF-8 from byte {error.start} on") from None
 
 
 class GuardedContent:
@@ -104,13 +112,18 @@ class GuardedContent:
 
     Attributes
     ----------
-    problem
-        A sentence on the failure, empty if there was none.
+    section
+        The section.
+    is_whole
+        False once the content has failed: the section cannot be shown.
+    notes
+        Sentences on what failed.
     """
 
     def __init__(self, section: Section, folder: RunFolder) -> None:
-        self.problem = ""
-        self._section = section
+        self.section = section
+        self.is_whole = True
+        self.notes: list[str] = []
         self._content: Content | None = None
         try:
             self._content = None if section.content is None else section.content(folder)
@@ -135,20 +148,28 @@ class GuardedContent:
             self._fail(error)
 
     def as_json(self, run: RunData) -> Any:
-        """Return the section's data, None if it failed."""
+        """Return the section's data, None if it failed or JSON cannot hold it."""
         if self._content is None:
             return None
         try:
-            return self._content.as_json(run)
+            data = self._content.as_json(run)
+            json.dumps(data, allow_nan=False)
         except Exception as error:
             self._fail(error)
             return None
+        return data
 
     def _fail(self, error: Exception) -> None:
-        self.problem = (
-            f"The section {self._section.name!r} cannot be shown: {type(error).__name__}: {error}"
-        )
+        self.notes.append(cannot_be_shown(self.section.name, error))
+        self.is_whole = False
         self._content = None
+
+
+def cannot_be_shown(section: str, error: Exception) -> str:
+    """Return a sentence on why a section of that name is not on the page."""
+    known = isinstance(error, AirhiltError | OSError)
+    cause = str(error) if known else f"{type(error).__name__}: {error}"
+    return f"The section {section!r} cannot be shown: {cause}"
 
 
 FAMILY = Family(
@@ -157,16 +178,18 @@ FAMILY = Family(
 
 
 def load_section(installed: Members, name: str) -> Section:
-    """Return a section whose template can be read.
+    """Return a section whose template and script can be read.
 
     Raises
     ------
     AirhiltError
-        It cannot be loaded, or its template cannot be read.
+        It cannot be loaded, or its template or script cannot be read.
     """
     section: Section = installed.load(name)
     try:
-        section.template()
+        section.template(), section.script()
+    except AirhiltError:
+        raise
     except Exception as error:
         raise AirhiltError(f"{type(error).__name__}: {error}") from error
     return section
@@ -180,6 +203,6 @@ def load_sections() -> tuple[list[Section], list[str]]:
     for name in installed.names():
         try:
             sections.append(load_section(installed, name))
-        except AirhiltError as error:
-            problems.append(f"The section {name!r} cannot be shown: {error}")
+        except Exception as error:
+            problems.append(cannot_be_shown(name, error))
     return sorted(sections, key=lambda section: (section.order, section.name)), problems
