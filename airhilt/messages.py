@@ -19,6 +19,15 @@ from airhilt.commands import Command
 
 Nanoseconds = Annotated[int, Field(ge=0, description="nanoseconds since the start of the run")]
 Confidence = Annotated[float, Field(ge=0.0, le=1.0)]
+VisibleClass = Annotated[
+    str,
+    Field(
+        pattern=r"^[a-z][a-z0-9_-]{0,39}$",
+        description="class of what cameras see, by COCO's name where COCO has one",
+        examples=["airplane", "truck", "bird", "deer", "coyote"],
+    ),
+]
+"""Class of what cameras see. Each kind of actor has its own; a detector knows those on its card."""
 
 
 class Part(BaseModel):
@@ -136,6 +145,9 @@ class Briefing(Message):
         default=(), description="aircraft and vehicles that the controller expects"
     )
     airport: AirportBriefing | None = None
+    animals: tuple[VisibleClass, ...] = Field(
+        default=("bird", "coyote", "deer"), description="classes of pictures that are animals"
+    )
 
 
 # --- sensors --------------------------------------------------------------------------------
@@ -322,16 +334,6 @@ class CockpitInstruments(Message):
     selected_altitude_ft: int = Field(description="altitude that is flown to, or held")
     selected_airspeed_kt: int = Field(description="calibrated airspeed that is flown to, or held")
 
-
-VisibleClass = Annotated[
-    str,
-    Field(
-        pattern=r"^[a-z][a-z0-9_-]{0,39}$",
-        description="class of what cameras see, by COCO's name where COCO has one",
-        examples=["airplane", "truck", "bird", "deer", "coyote"],
-    ),
-]
-"""Class of what cameras see. Each kind of actor has its own; a detector knows those on its card."""
 
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom in pixels; (0, 0) is the outer corner of the first pixel."""

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from airhilt.messages import AirportBriefing, Briefing, RosterEntry, RunwayBriefing
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import AircraftSpec, VehicleSpec
+from airhilt.scenario.models import AircraftSpec, VehicleSpec, WildlifeSpec
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.kinds import animal_labels
 
 if TYPE_CHECKING:
     from airhilt.geodesy.wgs84 import Place
@@ -25,6 +26,9 @@ def briefing_of(scenario: Scenario, site: ScenarioSite) -> Briefing:
         vertical_separation_ft=separation.vertical_ft,
         roster=_roster(scenario),
         airport=None if site.layout is None else _charted(site.layout),
+        animals=animal_labels(
+            actor.kind for actor in scenario.actors if isinstance(actor, WildlifeSpec)
+        ),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -22,7 +22,6 @@ from airhilt.assistant.decision.visual_tracks import (
 from airhilt.messages import CameraView, VisibleClass
 from airhilt.units import SECOND_NS
 
-ANIMALS: frozenset[VisibleClass] = frozenset(("deer", "coyote", "bird"))
 MOTION_NS = 2 * SECOND_NS
 """Time over which a speed is measured, in ns."""
 LEAST_MOTION_NS = SECOND_NS
@@ -42,17 +41,13 @@ class SeenOnGround(NamedTuple):
     """Something on the ground, as one or more cameras show it."""
 
     label: VisibleClass
+    is_animal: bool
     fix: GroundFix
     belief: float
     is_established: bool
     track: VisualTrack
     """The visual track with the highest belief."""
     t_ns: int
-
-    @property
-    def is_animal(self) -> bool:
-        """True if it is an animal, and neither vehicle nor aircraft."""
-        return self.label in ANIMALS
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +71,20 @@ class SeenAloft:
 
 
 def seen_on_ground(
-    visual_tracks: VisualTracks, aerodrome: Aerodrome, aloft: Iterable[SeenAloft] = ()
+    visual_tracks: VisualTracks,
+    aerodrome: Aerodrome,
+    aloft: Iterable[SeenAloft],
+    animals: Collection[VisibleClass],
 ) -> Iterator[SeenOnGround]:
-    """Yield what is on the ground and not known by ADS-B, by falling belief."""
+    """Yield what is on the ground and not known by ADS-B, by falling belief.
+
+    Parameters
+    ----------
+    aloft
+        What flies, which is left out.
+    animals
+        Labels of animals.
+    """
     flying = {id(track) for thing in aloft for track in thing.tracks}
     known: list[tuple[VisualTrack, GroundFix]] = []
     for track in visual_tracks:
@@ -90,10 +96,12 @@ def seen_on_ground(
     known.sort(key=lambda pair: -pair[0].belief)
     while known:
         (first, fix), *known = known
+        is_animal = first.label in animals
         together, rest = [first], []
         for other, place in known:
             is_new = all(other.camera != one.camera for one in together)
-            if is_new and _alike(first, other) and fix.is_same(place):
+            is_alike = (other.label in animals) == is_animal
+            if is_new and is_alike and fix.is_same(place):
                 together.append(other)
                 fix = fix.merged(place)
             else:
@@ -101,16 +109,13 @@ def seen_on_ground(
         known = rest
         yield SeenOnGround(
             first.label,
+            is_animal,
             fix,
             belief_in(together),
             is_established(together),
             first,
             max(track.last.t_ns for track in together),
         )
-
-
-def _alike(first: VisualTrack, second: VisualTrack) -> bool:
-    return (first.label in ANIMALS) == (second.label in ANIMALS)
 
 
 def _ground_fix(observation: Observation, aerodrome: Aerodrome) -> GroundFix | None:

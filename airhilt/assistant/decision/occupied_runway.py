@@ -42,6 +42,8 @@ HARD_BRAKING_M_S2 = 4.0
 ONE_SIDED = 0.67
 """Share of the 95 % radius of a position error that is exceeded in 5 % of cases in one direction:
 1.645 / 2.4477."""
+AIRCRAFT = "airplane"
+"""Class of aircraft in pictures; all else that is no animal has a driver."""
 CROSSING_NS = 30 * SECOND_NS
 """Time after which an unseen mobile that was cleared to cross is taken to be across, in ns."""
 
@@ -86,7 +88,7 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
     severity, time_to_go_s = coming
     callsign = None
     if not thing.is_animal:
-        callsign = _sent_there(outlook, use.strip, thing.label == "truck")
+        callsign = _sent_there(outlook, use.strip, thing.label != AIRCRAFT)
     cleared_to = outlook.cleared_to(callsign, use.strip)
     clear_s = None if "proceed" in cleared_to else seen.clear_s
     if seen.is_certain and _is_harmless(

@@ -64,7 +64,7 @@ class RunwayWatch:
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the airport, and who is expected there."""
         if briefing.airport is not None and briefing.airport.runways:
-            self._situation = Situation(briefing.airport, briefing.roster)
+            self._situation = Situation(briefing.airport, briefing)
 
     def take_report(self, report: AdsbReport) -> None:
         """Update the position of an aircraft or a vehicle."""

@@ -17,7 +17,7 @@ from airhilt.assistant.decision.occupancy import (
     velocity_of,
 )
 from airhilt.assistant.decision.visual_tracks import VisualTracks
-from airhilt.messages import AdsbReport, AirportBriefing, RosterEntry, Transcript
+from airhilt.messages import AdsbReport, AirportBriefing, Briefing, Transcript
 from airhilt.phraseology import Call, parse_call
 from airhilt.units import SECOND_NS
 
@@ -74,13 +74,14 @@ class SeenObstacle(NamedTuple):
 class Situation:
     """The runways of an airport, and everybody near them."""
 
-    def __init__(self, airport: AirportBriefing, roster: tuple[RosterEntry, ...]) -> None:
+    def __init__(self, airport: AirportBriefing, briefing: Briefing) -> None:
         self.aerodrome = Aerodrome(airport)
         self.clearances = Clearances()
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
-        self._roster = {entry.callsign: entry.category == "vehicle" for entry in roster}
+        self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
         """Mark of each callsign that is a vehicle."""
+        self._animals = frozenset(briefing.animals)
         self._mobiles: dict[str, Mobile] = {}
         self._obstacles: dict[str, dict[str, Obstacle]] = {
             strip.name: {} for strip in self.aerodrome.strips
@@ -115,7 +116,7 @@ class Situation:
     def look(self, visual_tracks: VisualTracks) -> None:
         """Update what cameras show on the ground and in the air."""
         self.aloft = tuple(seen_aloft(visual_tracks, self.aerodrome))
-        things = list(seen_on_ground(visual_tracks, self.aerodrome, self.aloft))
+        things = list(seen_on_ground(visual_tracks, self.aerodrome, self.aloft, self._animals))
         self._seen = {
             strip.name: [
                 obstacle

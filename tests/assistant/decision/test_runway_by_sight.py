@@ -166,10 +166,11 @@ def test_two_cameras_that_agree_need_not_wait() -> None:
     assert alone >= 41.0
 
 
-def test_the_vehicle_that_was_sent_there_is_named_and_told() -> None:
+@pytest.mark.parametrize("label", ["truck", "bus"])
+def test_the_vehicle_that_was_sent_there_is_named_and_told(label: str) -> None:
     truck = silent(stands(800))
     calls = [(3.0, "Ops one, proceed onto runway zero one for inspection.")]
-    field = look_at(arrival(), truck, cameras=[on_tower(truck.body("truck", TRUCK))], calls=calls)
+    field = look_at(arrival(), truck, cameras=[on_tower(truck.body(label, TRUCK))], calls=calls)
     _, warning = field.first("WARNING")
     assert warning.recipients == ("AAL123", "OPS1", "ATC")
     assert warning.evidence.sources == ("vision", "adsb", "radio")
@@ -200,6 +201,18 @@ def test_a_deer_is_seen_by_a_camera_that_is_near_enough() -> None:
     assert warning.traffic == ("AAL123", "wildlife")
     assert field.advice("AAL123") == [("go_around", "01")]
     assert look_at(arrival(), cameras=[far]).told == []
+
+
+def test_an_animal_that_only_the_briefing_knows_is_announced_as_one() -> None:
+    moose = still("moose", at(760.0, 0.0), DEER)
+    look = {"width_px": 1280, "height_px": 720, "smallest_px": 8.0}
+    near = camera("side", (600.0, 110.0, 8.0), -35.0, [moose], **look)
+    briefing = BRIEFING.model_copy(update={"animals": (*BRIEFING.animals, "moose")})
+    field = Airfield([arrival()], cameras=[near], briefing=briefing).run(LANDS_S - 5.0)
+    _, warning = field.first("WARNING")
+    assert "moose on runway 01" in warning.message
+    assert "unidentified" not in warning.message
+    assert warning.traffic == ("AAL123", "wildlife")
 
 
 def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway() -> None:

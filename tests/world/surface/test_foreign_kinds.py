@@ -11,11 +11,13 @@ from typing import Any
 
 import pytest
 
+from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.simulation import run
 from airhilt.errors import ScenarioError
 from airhilt.messages import (
     AdsbReport,
     Advisory,
+    Briefing,
     CameraTruth,
     Climb,
     Evidence,
@@ -186,3 +188,16 @@ def test_a_driver_follows_the_recommendations_that_the_kind_follows() -> None:
 def test_radar_and_transponder_take_the_numbers_of_the_kind() -> None:
     assert load_kind("moose").radar_cross_section_m2 == 3.0
     assert actors(scenario())["UAV1"].emitter_category == "B6"
+
+
+@pytest.mark.usefixtures("other_package")
+def test_the_briefing_names_the_animals_among_the_labels() -> None:
+    given = scenario()
+    told = briefing_of(given, ScenarioSite.of(given))
+    assert told.animals == ("bird", "coyote", "deer", "moose")
+
+
+def test_a_briefing_from_before_knows_the_animals_of_airhilt(encounter: Scenario) -> None:
+    now = briefing_of(encounter, ScenarioSite.of(encounter))
+    before = now.model_dump(exclude={"animals"})
+    assert Briefing.model_validate(before) == now

@@ -7,9 +7,11 @@ Nothing is ever loaded because a scenario file says where it lies.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Literal, overload
 
 from airhilt.errors import ScenarioError
+from airhilt.messages import VisibleClass
 from airhilt.plugins import Family
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.surface.kind import Category, Kind
@@ -46,3 +48,21 @@ def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
     if category is not None and kind.category != category:
         raise ScenarioError(f"{name!r} is a kind of {kind.category}; expected one of {category}")
     return kind
+
+
+def animal_labels(more: Iterable[str] = ()) -> tuple[VisibleClass, ...]:
+    """Return the labels that animals have in pictures, sorted.
+
+    Parameters
+    ----------
+    more
+        Names of kinds of wildlife besides those of AIRHILT.
+
+    Raises
+    ------
+    ScenarioError
+        One of them is not there, or is a kind of vehicle.
+    """
+    own: list[Kind[Any]] = [point.load() for point in FAMILY.own()]
+    labels = {kind.label for kind in own if kind.category == "wildlife"}
+    return tuple(sorted(labels | {load_kind(name, "wildlife").label for name in more}))
