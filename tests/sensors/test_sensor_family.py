@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 
 import airhilt
 from airhilt.cosim.replay import replay
-from airhilt.errors import ScenarioError, SensorError
+from airhilt.errors import ScenarioError, SensorError, WorkerError
 from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
@@ -120,6 +120,67 @@ def test_raw_bytes_reach_the_worker_with_their_header(
     assert go(scenario, tmp_path / "run", worker)
     assert {item.payload for item in worker.inputs} == {bytes(3)}
     assert all(item.attachment["occupied"] is False for item in worker.inputs)
+
+
+WATCHFUL = """
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision
+from airhilt.engines import Engine
+from airhilt.messages import Evidence, Severity
+from my_package.loop import LoopState
+
+
+class Watchful:
+    name, reads = "watchful", ()
+    inputs = {"loop/*": LoopState}
+
+    def __init__(self):
+        self.states = 0
+
+    def receive(self, received):
+        self.states += isinstance(received.message, LoopState) and not received.message.occupied
+
+    def decide(self, t_ns):
+        return Decision([self.alert()] if self.states == 3 else [])
+
+    def alert(self):
+        return Alert(
+            id="loop", revision=0, kind="runway_conflict", severity=Severity.ADVISORY,
+            recipients=("ATC",), traffic=(), evidence=Evidence(sources=("loop",), note="free"),
+        )
+
+
+ENGINE = Engine("watchful", "watches the loop", lambda _: Watchful())
+"""
+
+
+def decide_by(source: str, installed: Path, scenario: Scenario, folder: Path) -> list[str]:
+    """Run with an assistant of the same package, and return the keys of what it tells."""
+    (installed / "watchful.py").write_text(source)
+    points = installed.parent / "my_package-1.0.dist-info" / "entry_points.txt"
+    points.write_text(
+        f"{points.read_text()}\n[airhilt.assistants]\nwatchful = my_package.watchful:ENGINE\n"
+    )
+    airhilt.run(
+        scenario, out=folder, latency="fixed", cameras=False, speech=False, assistant="watchful"
+    )
+    log = read_log(folder / "log.mcap")
+    return [m.key for m in log if m.key.startswith("advisory/")]
+
+
+def test_an_assistant_of_another_package_decides_by_it(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    assert decide_by(WATCHFUL, installed, scenario, tmp_path / "run")[:1] == ["advisory/ATC"]
+    assert replay(tmp_path / "run").identical
+
+
+def test_no_assistant_names_truth_as_an_input(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    cheating = WATCHFUL.replace("loop/*", "truth/state/*")
+    with pytest.raises(WorkerError, match="'decision' asks for 'truth/state/"):
+        decide_by(cheating, installed, scenario, tmp_path / "run")
 
 
 def test_it_comes_again_in_a_replay(installed: Path, scenario: Scenario, tmp_path: Path) -> None:

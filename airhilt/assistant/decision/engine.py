@@ -6,7 +6,7 @@ It knows no keys and no bus, and nothing of queues: that is its worker's part (s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.decision.alerts import Alert
@@ -22,11 +22,14 @@ class Received(NamedTuple):
         When it arrived at the assistant.
     t_ns
         Time now: later than that if the worker was busy.
+    payload
+        The raw bytes that the message is the header of; empty for other messages.
     """
 
     message: Message
     t_in_ns: int
     t_ns: int
+    payload: bytes = b""
 
 
 class Decision(NamedTuple):
@@ -62,4 +65,14 @@ class DecisionEngine(Protocol):
 
     def decide(self, t_ns: int) -> Decision:
         """Return what is new or has changed at simulation time ``t_ns``."""
+        ...
+
+
+@runtime_checkable
+class NamesInputs(Protocol):
+    """Part that a decision engine may have besides: messages that it wants, by their keys."""
+
+    @property
+    def inputs(self) -> Mapping[str, object]:
+        """Message, or union of messages, of each key, such as ``loop/*``."""
         ...

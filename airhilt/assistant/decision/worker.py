@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import DecisionEngine, Received
+from airhilt.assistant.decision.engine import DecisionEngine, NamesInputs, Received
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording
 from airhilt.errors import WorkerError, first_problem
@@ -28,7 +29,7 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.pool import is_match
+from airhilt.workers.pool import is_match, require_no_truth
 from airhilt.workers.protocol import Step
 
 KEYS: dict[type[Message], str] = {
@@ -42,7 +43,7 @@ KEYS: dict[type[Message], str] = {
     Transmission: "radio/*/tx",
     Status: "status/*",
 }
-"""The key of each message that an engine may read."""
+"""The key of each message that an engine may read by its class alone."""
 GATE_READS = (Transcript, Transmission, Status)
 """Messages that tell that a transcript is to come, has come, or will not come."""
 
@@ -58,7 +59,8 @@ class DecisionWorker:
     Raises
     ------
     WorkerError
-        The engine wants messages that do not reach a decision worker.
+        The engine wants truth, or messages without saying on which key they are, or takes those
+        of a key for others.
     """
 
     def __init__(
@@ -73,22 +75,27 @@ class DecisionWorker:
         if unknown:
             raise WorkerError(
                 f"assistant {engine.name!r} reads {', '.join(unknown)}; expected some of "
-                f"{', '.join(model.__name__ for model in KEYS)}"
+                f"{', '.join(model.__name__ for model in KEYS)}, and others in `inputs` by key"
             )
         self._name = name
         self._engine = engine
         self._wording = wording
         self._gate = FusionGate() if is_gated else None
-        wanted = {*engine.reads, *(GATE_READS if is_gated else ())}
-        self._models = {key: model for model, key in KEYS.items() if model in wanted}
+        read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
+        read |= _named_by(engine)
+        self._read = frozenset(read)
+        gating = {KEYS[model]: model for model in GATE_READS} if is_gated else {}
+        self._models: dict[str, TypeAdapter[Message]] = {
+            key: TypeAdapter(model) for key, model in (read | gating).items()
+        }
         self.description = WorkerDescription(
             name=name,
             modality="decision",
-            inputs=tuple(
-                InputSpec(key=key, policy="batch") for model, key in KEYS.items() if model in wanted
-            ),
+            inputs=tuple(InputSpec(key=key, policy="batch") for key in self._models),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
         )
+        for wanted in self.description.inputs:
+            require_no_truth(name, wanted.key)
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         """Give the engine what has arrived, and publish what has changed.
@@ -117,22 +124,13 @@ class DecisionWorker:
 
     def _give(self, t_ns: int, item: Input) -> None:
         """Give one input to the gate and to the engine, as far as they read it."""
-        message = self._parse(item)
+        pattern = next(pattern for pattern in self._models if is_match(item.key, pattern))
+        message = _parse(item, self._models[pattern])
         if self._gate is not None:
             self._gate.receive(message)
-        if isinstance(message, self._engine.reads):
-            self._engine.receive(Received(message, item.t_in_ns, t_ns))
-
-    def _parse(self, item: Input) -> Message:
-        model = next(m for pattern, m in self._models.items() if is_match(item.key, pattern))
-        try:
-            if item.attachment is not None:
-                return model.model_validate(item.attachment)
-            return model.model_validate_json(item.payload)
-        except ValidationError as error:
-            raise WorkerError(
-                f"{item.key}: no {model.__name__}: {first_problem(error)}; see `airhilt schema`"
-            ) from None
+        if pattern in self._read:
+            raw = b"" if item.attachment is None else item.payload
+            self._engine.receive(Received(message, item.t_in_ns, t_ns, raw))
 
     def _advisories(self, alert: Alert, t_ready_ns: int) -> Iterator[Advisory]:
         """Yield the advisory for each recipient."""
@@ -151,3 +149,31 @@ class DecisionWorker:
                 evidence=alert.evidence,
                 t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
             )
+
+
+def _named_by(engine: DecisionEngine) -> dict[str, Any]:
+    """Return the inputs that an engine names by their keys; none if it names none.
+
+    Raises
+    ------
+    WorkerError
+        It takes the messages of a key for others.
+    """
+    named = dict(engine.inputs) if isinstance(engine, NamesInputs) else {}
+    for model, key in KEYS.items():
+        if named.get(key, model) is not model:
+            raise WorkerError(
+                f"assistant {engine.name!r}: input {key!r}: expected {model.__name__}"
+            )
+    return named
+
+
+def _parse(item: Input, model: TypeAdapter[Message]) -> Message:
+    try:
+        if item.attachment is not None:
+            return model.validate_python(item.attachment)
+        return model.validate_json(item.payload)
+    except ValidationError as error:
+        raise WorkerError(
+            f"{item.key}: no {error.title}: {first_problem(error)}; see `airhilt schema`"
+        ) from None
