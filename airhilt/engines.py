@@ -108,6 +108,9 @@ class Engine(Generic[T_co]):
         Words for error messages; empty: made from name and argument.
     requires
         What must be installed.
+    is_remote
+        Whether it asks a program elsewhere, which may answer differently another time: a replay
+        takes its results from the record.
     """
 
     name: str
@@ -118,6 +121,7 @@ class Engine(Generic[T_co]):
     takes: Callable[[str], bool] = _takes_nothing
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
+    is_remote: bool = False
 
     def forms(self) -> str:
         """Return what to write on the command line."""

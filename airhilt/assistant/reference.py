@@ -105,6 +105,29 @@ def decision_worker(
     )
 
 
+def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
+    """Return whether the reference worker of a modality asks a program elsewhere.
+
+    Raises
+    ------
+    AirhiltError
+        There is no engine of such a name here.
+    """
+    asr, tts, detector, wording = engines
+    names = {
+        "airhilt.asr": ("asr", asr),
+        "airhilt.tts": ("tts", tts),
+        "airhilt.detectors": ("vision", detector),
+        "airhilt.assistants": ("decision", assistant),
+        "airhilt.wording": ("decision", wording),
+    }
+    for family in families():
+        does, name = names[family.group]
+        if does == modality and name is not None and family.choose(name)[0].is_remote:
+            return True
+    return False
+
+
 def families() -> tuple[EngineFamily[Any], ...]:
     """Return the families of engines that workers are made of."""
     # Not at the top: a run without speech or cameras starts without the libraries behind them.

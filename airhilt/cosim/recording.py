@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
+from airhilt.assistant.reference import Engines, is_remote
 from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
@@ -31,9 +32,9 @@ from airhilt.record import Logged, RunFolder, RunInfo
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import RecordedLatencies
 from airhilt.sensors.radio.on_air import OnAir
-from airhilt.services import is_service
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
+from airhilt.voices.engines import FAMILY as VOICES
 from airhilt.workers.pool import Participant
 
 if TYPE_CHECKING:
@@ -98,11 +99,12 @@ def read_recorded(
 def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
     """Return the workers whose results cannot be had again by computing them here."""
     options = info.options
-    engines = {"asr": options.asr, "tts": options.tts, "vision": options.detector}
+    engines = Engines(options.asr, options.tts, options.detector, options.wording)
     return [
         worker.description
         for worker in info.workers
-        if worker.where != "in process" or is_service(engines.get(worker.description.modality, ""))
+        if worker.where != "in process"
+        or is_remote(worker.description.modality, info.assistant, engines)
     ]
 
 
@@ -126,7 +128,7 @@ def _cameras_lost(log: Sequence[Logged]) -> tuple[int, str] | None:
 
 
 def _is_spoken_elsewhere(options: Options) -> bool:
-    return options.speech and is_service(options.tts)
+    return options.speech and VOICES.choose(options.tts)[0].is_remote
 
 
 def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:

@@ -268,6 +268,48 @@ def test_an_assistant_that_reads_truth_is_refused() -> None:
         DecisionWorker(Cheat(), Template())
 
 
+REMOTE = """
+import pathlib
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision
+from airhilt.engines import Engine
+from airhilt.messages import AdsbReport, Evidence, Severity
+
+ANSWERS = pathlib.Path(__file__).with_name("answers")
+
+
+class Asking:
+    name, reads = "asking", (AdsbReport,)
+
+    def receive(self, received): ...
+
+    def decide(self, t_ns):
+        with ANSWERS.open("a") as answers:  # A service that never answers the same.
+            answers.write("x")
+        note = str(ANSWERS.stat().st_size)
+        return Decision([Alert(
+            id=note, revision=0, kind="runway_conflict", severity=Severity.ADVISORY,
+            recipients=("ATC",), traffic=(), evidence=Evidence(sources=(), note=note),
+        )])
+
+
+ENGINE = Engine("asking", "asks a service", lambda _: Asking(), is_remote=True)
+"""
+
+
+def test_a_replay_takes_from_the_record_what_an_engine_asked_elsewhere(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    short = encounter.model_copy(update={"duration_s": 3.0})
+    with installed(tmp_path, monkeypatch, "airhilt.assistants", "asking", REMOTE):
+        result = run(short, out=tmp_path / "run", latency="fixed", speech=False, assistant="asking")
+        asked = (tmp_path / "answers").read_text()
+        assert messages(result, "advisory/", Advisory)
+        verdict = replay(result.folder)
+    assert verdict.identical, verdict.difference
+    assert (tmp_path / "answers").read_text() == asked
+
+
 @pytest.mark.usefixtures("added")
 def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("airhilt.cli.doctor._renderers", list)

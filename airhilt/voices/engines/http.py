@@ -51,4 +51,5 @@ ENGINE = Engine(
     create=HttpTts,
     takes=is_service,
     usage=USAGE,
+    is_remote=True,
 )

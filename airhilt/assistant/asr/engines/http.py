@@ -87,4 +87,5 @@ ENGINE = Engine(
     create=HttpAsr,
     takes=is_service,
     usage=USAGE,
+    is_remote=True,
 )

@@ -109,4 +109,5 @@ ENGINE = Engine(
     create=HttpDetector,
     takes=is_service,
     usage=USAGE,
+    is_remote=True,
 )
