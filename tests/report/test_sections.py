@@ -177,7 +177,7 @@ def test_a_file_of_a_section_that_is_not_utf_8_is_named_and_the_rest_is_shown(
     [
         ("return {", "return {1, 2}, {"),
         ("return {", "import numpy; return numpy.float32(1), {"),
-        ("return {", "return float('nan'), {"),
+        ('"keys": self._keys', '"keys": float("nan")'),
         ('keys=("truth/radio/",)', "keys=5"),
         ("order=45", "order='late'"),
         ("order=45", "order=45, within='nowhere'"),
