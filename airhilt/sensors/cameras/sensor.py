@@ -20,10 +20,10 @@ from airhilt.messages import (
     CameraInfo,
     CameraTruth,
     CameraView,
-    Message,
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
+from airhilt.sensors.base import Publish
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
@@ -48,12 +48,6 @@ class FrameSource(Protocol):
             It cannot, and never will again.
         """
         ...
-
-
-class Publish(Protocol):
-    """Publishes a message; ``raw`` is the payload where the message is its header."""
-
-    def __call__(self, key: str, message: Message, *, raw: bytes | None = None) -> None: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
