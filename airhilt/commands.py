@@ -193,7 +193,6 @@ AircraftCommand = (
     | HoldPositionCommand
     | ContinueCommand
 )
-VehicleCommand = TaxiCommand | HoldPositionCommand | ContinueCommand
 WildlifeCommand = MoveCommand | StandCommand
 
 Command = Annotated[AircraftCommand | WildlifeCommand, Field(discriminator="action")]

@@ -208,7 +208,7 @@ def _alone(words: str, icao: str | None = None, readback: str | None = None) -> 
 def _hold_short(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
     point = _runway(instruction, style) or (
-        _spell(instruction.hold_short, style) if instruction.hold_short else ""
+        speak_taxiway(instruction.hold_short, style) if instruction.hold_short else ""
     )
     return _join("hold short", f"of {point}" if point else "", _at(instruction, style))
 
@@ -218,7 +218,7 @@ def _taxi(instruction: Instruction, style: Style, readback: bool) -> str:
     to = _runway(instruction, style) or (
         _place(instruction.position, style) if instruction.position else ""
     )
-    via = ", ".join(_spell(each, style) for each in instruction.via)
+    via = ", ".join(speak_taxiway(each, style) for each in instruction.via)
     return _join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
 
 

@@ -129,11 +129,6 @@ class Mesh:
         length = np.linalg.norm(total, axis=1, keepdims=True)
         return np.asarray(total / np.maximum(length, 1e-12), dtype=np.float32)
 
-    @property
-    def lowest_m(self) -> float:
-        """Height of the lowest point."""
-        return float(self.corners[..., 2].min())
-
 
 def join(meshes: Sequence[Mesh]) -> Mesh:
     """Return several meshes as one."""

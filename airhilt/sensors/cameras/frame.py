@@ -43,11 +43,6 @@ class Sighting:
     range_m: float
     transmission: float
 
-    @property
-    def occlusion(self) -> float:
-        """Hidden part of the body's area within the picture."""
-        return 1.0 - self.visible_fraction
-
 
 @dataclass(frozen=True)
 class Frame:

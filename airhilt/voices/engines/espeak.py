@@ -33,7 +33,6 @@ ACCENTS = (
 """English accents of espeak-ng in its wheel."""
 VARIANTS = ("m1", "m3", "m7", "f2", "f4", "Alex", "Annie", "Andy", "Lee", "steph", "Michael", "max")
 """Timbres that are intelligible over a radio."""
-LIBRARY_RATE_HZ = 22_050
 NORMAL_WORDS_PER_MINUTE = 175
 NORMAL_PITCH = 50
 _RATE, _PITCH = 1, 3

@@ -67,17 +67,6 @@ class EnRouteCommands:
         require_finite("track_rad", track_rad)
         self._control.commanded().lateral = self._control.modes.track(track_rad)
 
-    def hold_heading(self, heading_rad: float) -> None:
-        """Turn to a true heading by the shorter side, and hold it.
-
-        Raises
-        ------
-        ValueError
-            It is not finite.
-        """
-        require_finite("heading_rad", heading_rad)
-        self._control.commanded().lateral = self._control.modes.heading(heading_rad)
-
     def turn_by(self, angle_rad: float) -> None:
         """Turn from the present track by an angle, positive to the right, and hold the new track.
 

@@ -1,7 +1,7 @@
 """Outer loops: they turn commands into a turn rate, a vertical rate and an airspeed.
 
-Each direction has its modes, small objects that are replaced when a command comes: `Track`,
-`Heading`, `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. Procedures
+Each direction has its modes, small objects that are replaced when a command comes: `Track`
+and `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. Procedures
 (takeoff, approach, flare) are further modes.
 """
 
@@ -75,14 +75,6 @@ class Track:
         if abs(remaining) < math.pi / 2.0:
             self._remaining = None
         return remaining
-
-
-class Heading(Track):
-    """Turns to a true heading and holds it."""
-
-    def turn_rate(self, state: AircraftState) -> float:
-        """Return the commanded rate of turn."""
-        return self._gain * self._error(state.heading_rad)
 
 
 class Route:

@@ -11,7 +11,6 @@ from airhilt.world.flight.guidance import (
     Airspeed,
     Altitude,
     AltitudeClearance,
-    Heading,
     Route,
     Track,
 )
@@ -34,10 +33,6 @@ class GuidanceModes:
     def track(self, track_rad: float, turn_rad: float | None = None) -> Track:
         """Return the mode that turns to a track, by the shorter side or through an angle."""
         return Track(track_rad, self.kind.gains.guidance.course_per_s, turn_rad)
-
-    def heading(self, heading_rad: float) -> Heading:
-        """Return the mode that turns to a heading by the shorter side."""
-        return Heading(heading_rad, self.kind.gains.guidance.course_per_s)
 
     def route(self, legs: tuple[Leg, ...]) -> Route:
         """Return the mode that flies legs."""

@@ -92,10 +92,6 @@ class TaxiwayGraph:
             raise ScenarioError(f"{self._icao} has no taxiway node {name!r}{nearest}")
         return self.nodes[name]
 
-    def runways_entered(self, a: str, b: str) -> set[str]:
-        """Return the names of the runways whose protected areas a piece of taxiway enters."""
-        return set(self._graph.edges[a, b]["inside"])
-
     def to_centreline(self, hold: str, runway: str) -> list[str]:
         """Return the nodes from a hold to the centre line of the runway that it protects.
 

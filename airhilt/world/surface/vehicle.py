@@ -95,14 +95,6 @@ class Vehicle:
         self._cruise = kind.cruise_m_s
         self.state = self._state(0.0, 0.0, heading_rad)
 
-    @property
-    def distance_to_go_m(self) -> float:
-        """Length of what is left of the path; 0 without a path."""
-        if not self._stages:
-            return 0.0
-        stage = self._stages[self._index]
-        return stage.element.length_m - self._along + stage.beyond_m
-
     def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
         """Follow a path from here, and stop exactly at its end.
 

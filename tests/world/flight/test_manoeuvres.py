@@ -11,7 +11,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
-from airhilt.world.flight import Atmosphere
 
 CLIMBS = {"737": (2_000, 1_500), "B747": (2_000, 1_500), "c172p": (500, 500), "c310": (500, 1_000)}
 """Feet, and feet per minute."""
@@ -78,16 +77,6 @@ def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(
     assert flown[700].roll_rad < -15 * DEGREE
 
 
-def test_it_holds_a_heading_in_wind(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = in_cruise("c172p", atmosphere=Atmosphere(wind_east_m_s=12.0))
-    aircraft.en_route.hold_heading(0.0)
-    *_, state = states(aircraft, 60)
-    assert abs(wrap_angle(state.heading_rad)) < 1 * DEGREE
-    assert state.track_rad > 10 * DEGREE
-
-
 @pytest.mark.parametrize("change_kt", [20, -20])
 def test_it_changes_speed(
     name: str, change_kt: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
@@ -143,7 +132,6 @@ def test_a_command_that_is_not_finite_is_refused(bad: float, in_cruise: Callable
     aircraft = in_cruise("c172p")
     for command in (
         aircraft.en_route.hold_track,
-        aircraft.en_route.hold_heading,
         aircraft.en_route.turn_by,
         aircraft.en_route.hold_altitude,
         aircraft.en_route.hold_speed,

@@ -16,7 +16,7 @@ from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.surface import kinds
-from airhilt.world.surface.kinds import FAMILY, kind_names, load_kind
+from airhilt.world.surface.kinds import FAMILY, load_kind
 from paths import DOCS
 
 GUIDE = DOCS / "actors.md"
@@ -59,7 +59,7 @@ def other_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[P
 def test_all_kinds_have_a_file_and_say_where_their_numbers_come_from() -> None:
     folder = Path(kinds.__path__[0])
     files = {path.stem for path in folder.glob("*.py")} - {"__init__"}
-    assert set(kind_names()) >= files
+    assert set(FAMILY.names()) >= files
     for name in files:
         kind = load_kind(name)
         assert kind.name == name
@@ -94,7 +94,7 @@ def test_a_deer_is_no_vehicle() -> None:
 
 def test_a_file_is_all_that_a_new_kind_needs(added: Path, bus_and_drone: tuple[str, str]) -> None:
     (added / "bus.py").write_text(bus_and_drone[0])
-    assert "bus" in kind_names()
+    assert "bus" in FAMILY.names()
     bus = load_kind("bus", "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
     bus.drive([THERE])
     for _ in range(2000):
@@ -107,7 +107,7 @@ def test_another_package_brings_a_kind_with_behaviour_of_its_own(
     other_package: Path, bus_and_drone: tuple[str, str]
 ) -> None:
     (other_package / "drone.py").write_text(bus_and_drone[1])
-    assert "drone" in kind_names()
+    assert "drone" in FAMILY.names()
     drone = load_kind("drone", "vehicle").create(HERE, 0.0, ground_m=4.0, tick_s=0.05)
     assert isinstance(drone, Driven)
     drone.drive([THERE])

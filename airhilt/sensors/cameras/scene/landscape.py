@@ -32,9 +32,7 @@ APRON = srgb(150, 149, 145)
 PAINT = srgb(222, 222, 216)
 YELLOW = srgb(228, 178, 34)
 GRASS = srgb(104, 122, 62)
-MOWN = srgb(116, 132, 70)
 WATER = srgb(70, 92, 104)
-ROAD = srgb(120, 118, 116)
 LAND = (srgb(96, 112, 62), srgb(78, 98, 56), srgb(112, 112, 80), srgb(128, 124, 108),
         srgb(66, 88, 54), srgb(140, 134, 120))  # fmt: skip
 FIELDS = (srgb(104, 122, 66), srgb(132, 128, 80), srgb(72, 94, 56), srgb(150, 138, 96),

@@ -19,11 +19,6 @@ from airhilt.world.surface.kind import Category, Kind
 FAMILY = Family("kind", "airhilt.kinds", __name__, "KIND", Kind, ScenarioError)
 
 
-def kind_names() -> list[str]:
-    """Return the names of all kinds that can be loaded, sorted."""
-    return FAMILY.names()
-
-
 @overload
 def load_kind(name: str) -> Kind[Any]: ...
 @overload
