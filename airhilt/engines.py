@@ -31,6 +31,11 @@ ASSISTANT = "reference"
 """Decision engine of a run unless another is named."""
 WORDING = "template"
 """Wording of advisories unless another is named."""
+RENDERER_HELP = (
+    "What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
+    "open3d, moderngl, or a renderer of another package."
+)
+"""Help of ``--renderer``, for runs and for the commands that draw pictures."""
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)

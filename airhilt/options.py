@@ -14,7 +14,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from airhilt.engines import ASR, DETECTOR, TTS, WORDING
+from airhilt.engines import ASR, DETECTOR, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.library import nearest
 from airhilt.messages import RadarKind
@@ -128,8 +128,7 @@ class Options(BaseModel):
         str,
         Flag(
             "--renderer",
-            "What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
-            "open3d, moderngl, or a renderer of another package.",
+            RENDERER_HELP,
             "NAME",
             needs="cameras",
         ),

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from airhilt.engines import RENDERER_HELP
 from airhilt.sensors.cameras import AUTO
 
 
@@ -31,6 +32,5 @@ renderer_option = click.option(
     default=AUTO,
     show_default=True,
     metavar="NAME",
-    help="What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
-    "open3d, moderngl, or a renderer of another package.",
+    help=RENDERER_HELP,
 )
