@@ -38,21 +38,9 @@ def attach(
     Raises
     ------
     BusError
-        One did not come in time.
+        A name cannot be that of a worker, or a worker did not come in time.
     """
-    for name in names:
-        if not re.fullmatch(WORKER_NAME, name):
-            raise BusError(
-                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
-                "'decision'"
-            )
-        if name in RESERVED:
-            raise BusError(
-                f"worker name {name!r}: the log calls others so; expected another than "
-                f"{', '.join(RESERVED)}"
-            )
-    if len(set(names)) < len(names):
-        raise BusError(f"workers {', '.join(names)}: expected each name once")
+    _require_names(names)
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)
@@ -70,6 +58,23 @@ def attach(
             ) from None
     workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
     return [(worker, worker.describe()) for worker in workers]
+
+
+def _require_names(names: Sequence[str]) -> None:
+    """Refuse names that are malformed, reserved, or given twice."""
+    for name in names:
+        if not re.fullmatch(WORKER_NAME, name):
+            raise BusError(
+                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
+                "'decision'"
+            )
+        if name in RESERVED:
+            raise BusError(
+                f"worker name {name!r}: the log calls others so; expected another than "
+                f"{', '.join(RESERVED)}"
+            )
+    if len(set(names)) < len(names):
+        raise BusError(f"workers {', '.join(names)}: expected each name once")
 
 
 def _how_to_start(name: str, endpoint: str) -> str:
