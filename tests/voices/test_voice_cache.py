@@ -11,7 +11,7 @@ import pytest
 
 from airhilt.voices.cache import CachedTts, user_cache_folder
 from airhilt.voices.engine import VoiceSpec
-from tone import Tone
+from tone import Tone, say_lines
 
 PILOT = VoiceSpec("pilot")
 
@@ -100,14 +100,9 @@ def test_what_was_used_longest_ago_goes_first(tmp_path: Path) -> None:
     assert len(engine.asked) == 1
 
 
-def say_all(folder: Path) -> list[bytes]:
-    cached = CachedTts(Tone(), folder)
-    return [cached.synthesise(f"line {i % 7}", PILOT).tobytes() for i in range(70)]
-
-
 def test_parallel_processes_share_it(tmp_path: Path) -> None:
     with multiprocessing.get_context("spawn").Pool(3) as pool:
-        first, *others = pool.map(say_all, [tmp_path] * 3)
+        first, *others = pool.map(say_lines, [tmp_path] * 3)
     assert all(other == first for other in others)
     assert len(list(tmp_path.iterdir())) == 7
 
