@@ -18,6 +18,8 @@ from airhilt.cli import main
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 
+WHOLE_RUNS = ("bus", "cli", "cosim", "docs")
+"""Folders of tests that take long each."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -58,3 +60,8 @@ def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator
     yield call
     for number, handler in zip(numbers, handlers, strict=True):
         signal.signal(number, handler)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with whole runs, so that no process is left alone with them at the end."""
+    items.sort(key=lambda item: item.path.parent.name not in WHOLE_RUNS)

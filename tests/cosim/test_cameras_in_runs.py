@@ -100,7 +100,7 @@ def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
 ) -> None:
     """A replay draws all pictures again, and each header vouches for its pixels."""
     glance = short.model_copy(update={"duration_s": 0.5})
-    log = log_of(glance, tmp_path / "run", renderer="open3d", latency="measured")
+    log = log_of(glance, tmp_path / "run", renderer="auto", latency="measured")
     assert len(messages(log, "camera/nose")) == 2 * (1 + 5)
     assert replay(tmp_path / "run").identical
 
