@@ -129,7 +129,7 @@ def sensor_messages(types: Iterable[SensorType]) -> dict[str, type[Message]]:
 def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], list[str]]:
     """Return all installed sensor types in the order of their names, and what is wrong with others.
 
-    Those of AIRHILT and those that are asked for must be there. A broken type of another package
+    Types of AIRHILT and requested types must be there. A broken type of another package
     that nobody asked for is left out, with a sentence on it.
 
     Parameters
