@@ -46,7 +46,7 @@ class LandingScene:
             [
                 self._body("737", 4.4 * k - 700.0, 45.0 - 0.23 * k, turn_rad * k, "gear"),
                 self._body("B747", 900.0 + k, 4.1, 1.2, "gear"),
-                self._body("fire_truck", 500.0 + k, 0.0, 1.5, "driving"),
+                self._body("fire_truck", 500.0 + k, 0.0, 1.5, "body"),
             ]
             for k in range(16)
         ]
