@@ -123,7 +123,7 @@ LACKS = (
     "name, reads, receive, decide",
     "name, message",
 )
-"""What an object has not that is no engine, by family."""
+"""Member that a wrong object lacks, by family."""
 BROKEN = "raise RuntimeError('it is broken')"
 
 

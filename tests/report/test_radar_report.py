@@ -1,4 +1,4 @@
-"""What the report of a run shows of its radars."""
+"""The report shows what the radars of a run measured."""
 
 from __future__ import annotations
 
