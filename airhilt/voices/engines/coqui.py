@@ -126,5 +126,7 @@ ENGINE = Engine(
     argument="FOLDER",
     is_argument_required=True,
     takes=lambda text: (Path(text) / "model.pth").is_file(),
-    requires=(Package("coqui-tts", extra="coqui"),),
+    requires=tuple(
+        Package(name, extra="coqui") for name in ("coqui-tts", "torch", "torchaudio", "torchcodec")
+    ),
 )
