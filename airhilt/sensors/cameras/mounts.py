@@ -10,10 +10,11 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.library import nearest
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import ActorMount, FixedMount
+from airhilt.scenario.models import ActorMount, AircraftSpec, FixedMount
 from airhilt.scenario.models import Camera as DeclaredCamera
-from airhilt.sensors.cameras.scene.bodies import BodyState, Model, model_of
+from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.units import DEGREE, FOOT
+from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.airport import Camera as AirportCamera
 
@@ -77,9 +78,7 @@ def local_frame_of(site: ScenarioSite) -> LocalFrame:
     return LocalFrame((site.centre.lat_deg * DEGREE, site.centre.lon_deg * DEGREE))
 
 
-def cameras_of(
-    scenario: Scenario, site: ScenarioSite, models: Mapping[str, Model]
-) -> dict[str, Camera]:
+def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
     """Return the cameras that a scenario declares, and those of its airport, by name.
 
     Raises
@@ -88,12 +87,17 @@ def cameras_of(
         One is none.
     """
     local_frame = local_frame_of(site)
+    types = {
+        actor.callsign: load_aircraft_type(actor.aircraft)
+        for actor in scenario.actors
+        if isinstance(actor, AircraftSpec)
+    }
     cameras: dict[str, Camera] = {}
     if site.layout is not None:
         for given in site.layout.airport.cameras:
             cameras[given.name] = _of_airport(given, local_frame)
     for declared in scenario.cameras:
-        cameras[declared.name] = _declared(declared, site, local_frame, models)
+        cameras[declared.name] = _declared(declared, site, local_frame, types)
     return cameras
 
 
@@ -105,11 +109,7 @@ def cameras_named(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]
     CameraError
         There is no camera of one of the names, or it is none.
     """
-    carriers = {camera.carrier for camera in scenario.cameras}
-    models = {
-        actor.callsign: model_of(actor) for actor in scenario.actors if actor.callsign in carriers
-    }
-    known = cameras_of(scenario, ScenarioSite.of(scenario), models)
+    known = cameras_of(scenario, ScenarioSite.of(scenario))
     return {name: find_camera(known, name) for name in names}
 
 
@@ -139,7 +139,7 @@ def _declared(
     declared: DeclaredCamera,
     site: ScenarioSite,
     local_frame: LocalFrame,
-    models: Mapping[str, Model],
+    types: Mapping[str, AircraftType],
 ) -> Camera:
     lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
     match declared.mount:
@@ -152,10 +152,11 @@ def _declared(
             )
             return Camera(declared.name, lens, pose)
         case ActorMount(actor=actor, station=station):
-            return Camera(declared.name, lens, station_mount(declared.name, actor, station, models))
+            mount = station_mount(declared.name, actor, station, types.get(actor))
+            return Camera(declared.name, lens, mount)
 
 
-def station_mount(name: str, actor: str, station: str, models: Mapping[str, Model]) -> Mount:
+def station_mount(name: str, actor: str, station: str, kind: AircraftType | None) -> Mount:
     """Return where a camera sits on the nose or the tail of an aircraft.
 
     Raises
@@ -163,7 +164,6 @@ def station_mount(name: str, actor: str, station: str, models: Mapping[str, Mode
     CameraError
         The actor is no aircraft.
     """
-    kind = models[actor].aircraft if actor in models else None
     if kind is None:
         raise CameraError(
             f"camera {name!r} is mounted on {actor!r}; expected the callsign of an aircraft"

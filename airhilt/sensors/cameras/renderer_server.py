@@ -22,7 +22,7 @@ from airhilt.sensors.cameras.mounts import cameras_named
 from airhilt.sensors.cameras.renderers import require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
-from airhilt.sensors.cameras.shared_pixels import places_of, planes
+from airhilt.sensors.cameras.shared_pixels import Planes, places_of, planes
 from airhilt.world.site import ScenarioSite
 
 
@@ -41,8 +41,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
     scenario = Scenario.model_validate(opening["scenario"])
     names = opening["cameras"]
     cameras = cameras_named(scenario, names)
-    places = places_of(cameras)
-    pixels = mmap.mmap(shared, 0)
+    places, pixels = places_of(cameras), mmap.mmap(shared, 0)
     try:
         scene_renderer = open_scene_renderer(
             scenario,
@@ -71,13 +70,16 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
             continue
         for frame in frames:
             if not frame.unchanged:
-                place, camera = places[frame.camera], cameras[frame.camera]
-                colour, instance, distance = planes(pixels, place, camera)
-                colour[...] = frame.colour
-                instance[...] = frame.instance
-                distance[...] = frame.distance_m
+                _write_pixels(frame, planes(pixels, places[frame.camera], cameras[frame.camera]))
         answer({"pictures": {frame.camera: _picture(frame) for frame in frames}})
     scene_renderer.close()
+
+
+def _write_pixels(frame: Frame, planes: Planes) -> None:
+    colour, instance, distance = planes
+    colour[...] = frame.colour
+    instance[...] = frame.instance
+    distance[...] = frame.distance_m
 
 
 def _picture(frame: Frame) -> dict[str, Any]:

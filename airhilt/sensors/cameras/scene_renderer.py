@@ -70,6 +70,23 @@ class _Seen(NamedTuple):
         return self.box.area * self.transmission > FAINTEST
 
 
+class _Content(NamedTuple):
+    """Everything that reaches into a picture, besides the landscape and rain."""
+
+    drawn: list[_Seen]
+    faint: list[_Seen]
+    """Bodies that change no pixel."""
+    shadows: list[Part]
+    own: Layer | None
+    """The aircraft that carries the camera."""
+    spots: list[Spot]
+
+    @property
+    def is_busy(self) -> bool:
+        """True if there is more than the own aircraft."""
+        return bool(self.drawn or self.shadows or self.spots)
+
+
 class _Plain(NamedTuple):
     """A picture of the landscape with at most the own aircraft before it, and what it shows."""
 
@@ -84,7 +101,7 @@ class SceneRenderer:
     Parameters
     ----------
     models
-        How each actor looks, by callsign.
+        Appearance of each actor, by callsign.
     rain_mm_h
         Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
     supersampling
@@ -218,25 +235,50 @@ class SceneRenderer:
         view = camera.view(bodies)
         background = self._backgrounds[camera.name]
         background.look(view)
+        content = self._content(camera, view, bodies, poses, lights)
+        is_plain = not (content.is_busy or camera.name in self._streaks)
+        last = self._plain.get(camera.name)
+        if is_plain and last and last.drawn == background.drawn and last.own is content.own:
+            sightings = self._sightings([], content.faint)
+            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
+        frame = self._draw(camera.name, t_ns, view, background, content)
+        if is_plain:
+            self._plain[camera.name] = _Plain(background.drawn, content.own, frame)
+        else:
+            self._plain.pop(camera.name, None)
+        return frame
+
+    def _content(
+        self,
+        camera: Camera,
+        view: View,
+        bodies: Mapping[str, BodyState],
+        poses: Mapping[str, Pose],
+        lights: Mapping[str, Sequence[Light]],
+    ) -> _Content:
+        """Return what reaches into a picture."""
         mount = camera.at if isinstance(camera.at, Mount) else None
-        carrier = camera.carrier
-        others = [body for actor, body in bodies.items() if actor != carrier]
+        others = [body for actor, body in bodies.items() if actor != camera.carrier]
         seen = [one for body in others if (one := self._seen(body, poses[body.actor], view))]
-        drawn = [one for one in seen if one.leaves_a_trace]
-        faint = [one for one in seen if not one.leaves_a_trace]
         shadows = [part for body in others if (part := self._shadow(body, poses[body.actor], view))]
         own = None
         if mount is not None and mount.sees_own_aircraft:
             own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
-        spots = self._spots(camera, view, lights, poses, carrier)
-        is_plain = not (drawn or shadows or spots or camera.name in self._streaks)
-        last = self._plain.get(camera.name)
-        if is_plain and last and last.drawn == background.drawn and last.own is own:
-            sightings = self._sightings([], faint)
-            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
+        return _Content(
+            drawn=[one for one in seen if one.leaves_a_trace],
+            faint=[one for one in seen if not one.leaves_a_trace],
+            shadows=shadows,
+            own=own,
+            spots=self._spots(camera, view, lights, poses, camera.carrier),
+        )
 
+    def _draw(
+        self, name: str, t_ns: int, view: View, background: Background, content: _Content
+    ) -> Frame:
+        """Return the picture of a camera: its background, and everything before that."""
         colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
+        drawn, shadows = content.drawn, content.shadows
         parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
@@ -245,23 +287,18 @@ class SceneRenderer:
             self._layer(one, part, picture, background.distance_m[one.window.slices])
             for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
         ]
-        if own is not None:
-            layers.append(own)
+        if content.own is not None:
+            layers.append(content.own)
         layers.sort(key=lambda layer: -layer.range_m)
         for layer in layers:
             layer.lay(colour, distance, instance)
-        shine(colour, distance, spots)
-        if camera.name in self._streaks:
+        shine(colour, distance, content.spots)
+        if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
-            self._streaks[camera.name].fall(colour, self._taken[camera.name], bright)
-        self._taken[camera.name] += 1
-        sightings = self._sightings(layers, faint, own)
-        frame = Frame(camera.name, t_ns, view, colour, distance, instance, sightings).sealed()
-        if is_plain:
-            self._plain[camera.name] = _Plain(background.drawn, own, frame)
-        else:
-            self._plain.pop(camera.name, None)
-        return frame
+            self._streaks[name].fall(colour, self._taken[name], bright)
+        self._taken[name] += 1
+        sightings = self._sightings(layers, content.faint, content.own)
+        return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
 
     def _background(self, camera: Camera) -> Background:
         if not camera.is_fixed:

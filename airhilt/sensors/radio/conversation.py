@@ -13,7 +13,7 @@ from functools import partial
 from airhilt.commands import Command
 from airhilt.messages import Message
 from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import Condition, RadioLine, Scenario
+from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
@@ -93,18 +93,21 @@ class RadioConversation:
             stuck=microphone_stuck,
             all_free=microphones_free,
         )
-        self._listeners = Listeners(
-            director,
+        self._listeners = self._make_listeners(radio, hearing or HearingModel(seed))
+        self._compliance = Compliance(director, once, do)
+        self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
+
+    def _make_listeners(self, radio: Radio, hearing: HearingModel) -> Listeners:
+        return Listeners(
+            self._director,
             radio,
-            stations,
-            hearing or HearingModel(seed),
+            self._stations,
+            hearing,
             reaches=self._transmissions.reaches,
-            publish=publish,
+            publish=self._publish,
             understood=self._understood,
             overheard=self._overheard,
         )
-        self._compliance = Compliance(director, once, do)
-        self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
 
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""

@@ -26,7 +26,7 @@ CHUNK_NS = SECOND_NS // 2
 """Period in ns at which the audio of a transmission is published while it lasts."""
 
 
-class Receiver:
+class RadioReceiver:
     """Publishes what is received: chunks on ``audio`` while a call lasts, all of it on ``tx``."""
 
     def __init__(

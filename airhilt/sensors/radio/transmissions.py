@@ -12,7 +12,7 @@ from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
-from airhilt.sensors.radio.receiver import Receiver
+from airhilt.sensors.radio.receiver import RadioReceiver
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director
 
@@ -51,7 +51,7 @@ class Transmissions:
         self._stations = stations
         self._backend = backend
         self._publish = publish
-        self._receiver = Receiver(director, radio, stations, backend, publish)
+        self._receiver = RadioReceiver(director, radio, stations, backend, publish)
         self._arbiter = FrequencyArbiter(
             director,
             backend.speak,

@@ -224,7 +224,7 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
 def test_the_renderer_is_that_of_the_package_that_starts_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of a checkout that is not installed, too."""
+    """A checkout that is not installed has its own renderer too."""
     package = tmp_path / "airhilt" / "sensors" / "cameras"
     package.mkdir(parents=True)
     for folder in (package, package.parent, package.parent.parent):

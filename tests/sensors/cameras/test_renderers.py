@@ -48,7 +48,7 @@ class Airfield:
         self.site = ScenarioSite.of(self.scenario)
         self.light = light_of(self.scenario, self.site)
         self.landscape = landscape_of(self.scenario, self.site, self.light)
-        known = cameras_of(self.scenario, self.site, MODELS)
+        known = cameras_of(self.scenario, self.site)
         lens = Intrinsics(640, 360, 40.0 * DEGREE)
         nose = Mount("c310", Pose.of((0.0, 4.5, 0.5), 0.0, -0.04), sees_own_aircraft=False)
         tail = Mount("c310", Pose.of((0.0, -3.7, 2.6), 0.0, -0.12), sees_own_aircraft=True)

@@ -1,4 +1,4 @@
-"""Of the still world only what may show in a picture is drawn."""
+"""Only the tiles of the still world that may show in a picture are drawn."""
 
 from __future__ import annotations
 

@@ -216,7 +216,7 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     Parameters
     ----------
     about
-        What stands under ``info``, beside the version.
+        Content of ``info``, beside the version.
 
     Raises
     ------
@@ -230,13 +230,8 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
             raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
         try:
             for number, picture in enumerate(pictures, start=1):
-                (folder / "images").mkdir(parents=True, exist_ok=True)
                 name = f"images/{number:06}.jpg"
-                buffer = io.BytesIO()
-                Image.fromarray(picture.frame.colour).save(
-                    buffer, format="JPEG", quality=QUALITY, subsampling=0
-                )
-                replace_file(folder / name, buffer.getvalue())
+                _write_jpeg(folder / name, picture)
                 images.append(_image(number, name, picture))
                 for sighting in picture.frame.sightings:
                     if sighting.pixels >= FAINTEST_PX:
@@ -245,18 +240,7 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
                         annotations.append((annotation, sighting.label))
         finally:
             if images:
-                classes = _classes(label for _, label in annotations)
-                document = {
-                    "info": {"description": "AIRHILT", "version": __version__, **about},
-                    "images": images,
-                    "annotations": [
-                        {**annotation, "category_id": classes.index(label) + 1}
-                        for annotation, label in annotations
-                    ],
-                    "categories": [
-                        {"id": number, "name": name} for number, name in enumerate(classes, start=1)
-                    ],
-                }
+                document = _document(images, annotations, about)
                 data = json.dumps(document, separators=(",", ":")).encode()
                 replace_file(folder / "annotations.json", data)
     except OSError as error:
@@ -265,6 +249,35 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
         ) from None
     found = [label for _, label in annotations]
     return {name: found.count(name) for name in _classes(found)}
+
+
+def _write_jpeg(path: Path, picture: Picture) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    buffer = io.BytesIO()
+    Image.fromarray(picture.frame.colour).save(
+        buffer, format="JPEG", quality=QUALITY, subsampling=0
+    )
+    replace_file(path, buffer.getvalue())
+
+
+def _document(
+    images: Sequence[dict[str, Any]],
+    annotations: Sequence[tuple[dict[str, Any], VisibleClass]],
+    about: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return the content of ``annotations.json``."""
+    classes = _classes(label for _, label in annotations)
+    return {
+        "info": {"description": "AIRHILT", "version": __version__, **about},
+        "images": images,
+        "annotations": [
+            {**annotation, "category_id": classes.index(label) + 1}
+            for annotation, label in annotations
+        ],
+        "categories": [
+            {"id": number, "name": name} for number, name in enumerate(classes, start=1)
+        ],
+    }
 
 
 def _classes(found: Iterable[VisibleClass]) -> tuple[VisibleClass, ...]:

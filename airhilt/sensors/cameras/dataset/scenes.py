@@ -130,10 +130,11 @@ class Casting:
         stations: dict[str, str] = {}
         for index in range(5 if layout is not None else 8):
             carrier = f"carrier-{index}"
-            models[carrier] = self._models[_pick([kind for kind, *_ in AIRCRAFT], draws)]
+            model = self._models[_pick([kind for kind, *_ in AIRCRAFT], draws)]
+            models[carrier] = model
             station = "nose" if index % 5 < 3 else "tail"
             name = f"{station}-{index}"
-            mount = station_mount(name, carrier, station, models)
+            mount = station_mount(name, carrier, station, model.aircraft)
             cameras[name] = Camera(name, self._lens(draws), mount)
             stations[name] = station
         if layout is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,17 +53,19 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
         left = shapely.difference(area, taken, grid_size=GRID_M)
         taken = _surfaces(shapely.union(taken, area, grid_size=GRID_M))
         shapely.prepare(left)
-        for cell in layer.cells or (left,):
-            piece = left
-            if layer.cells:
-                piece = shapely.intersection(left, cell, grid_size=GRID_M)
-            if piece.is_empty:
+        parts: Iterable[BaseGeometry] = (left,)
+        if layer.cells:
+            parts = shapely.intersection(left, np.asarray(layer.cells), grid_size=GRID_M)
+        areas, looks = [], []
+        for part in parts:
+            if part.is_empty:
                 continue
             colour = layer.colours[int(draws.integers(len(layer.colours)))]
             change = 1.0 + layer.mottle * float(draws.uniform(-1.0, 1.0))
-            red, green, blue = (part * change for part in colour)
-            for part, sunlit in _split(piece, shadows):
-                pieces.append(_triangles(part, (red, green, blue), sunlit))
+            for piece, sunlit in _split(part, shadows):
+                areas.append(piece)
+                looks.append((*(share * change for share in colour), sunlit))
+        pieces.append(_triangles(areas, looks))
     return join(pieces)
 
 
@@ -88,30 +90,30 @@ def _split(area: BaseGeometry, shadows: BaseGeometry) -> Iterator[tuple[BaseGeom
             yield part, sunlit
 
 
-def _triangles(area: BaseGeometry, colour: Colour, sunlit: float) -> Mesh:
-    polygons = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon"]
-    faces = [shapely.constrained_delaunay_triangles(polygon) for polygon in polygons]
-    corners = [
-        shapely.get_coordinates(face)[:3] for group in faces for face in shapely.get_parts(group)
-    ]
-    flat = np.zeros((len(corners), 3, 3), dtype=np.float64)
-    if corners:
-        flat[..., :2] = np.stack(corners)
+def _triangles(areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]]) -> Mesh:
+    """Return areas as triangles; the looks of each are its colour and its share of sunlight."""
+    parts, area = shapely.get_parts(np.asarray(areas, dtype=object), return_index=True)
+    is_surface = shapely.get_dimensions(parts) == 2
+    groups = shapely.constrained_delaunay_triangles(parts[is_surface])
+    faces, group = shapely.get_parts(groups, return_index=True)
+    flat = np.zeros((len(faces), 3, 3), dtype=np.float64)
+    flat[..., :2] = shapely.get_coordinates(faces).reshape(-1, 4, 2)[:, :3]
     edges = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     area_2 = edges[0][:, 0] * edges[1][:, 1] - edges[0][:, 1] * edges[1][:, 0]
-    flat = flat[np.abs(area_2) > 1e-3]
-    clockwise = area_2[np.abs(area_2) > 1e-3] < 0.0
+    proper = np.abs(area_2) > 1e-3
+    flat, clockwise = flat[proper], area_2[proper] < 0.0
     flat[clockwise] = flat[clockwise][:, ::-1]
     flat[..., 2] = -drop_m(np.hypot(flat[..., 0], flat[..., 1]))
+    look = np.asarray(looks, dtype=np.float32).reshape(-1, 4)[area[is_surface][group[proper]]]
     count = len(flat)
     up = np.zeros((count, 3, 3), dtype=np.float32)
     up[..., 2] = 1.0
     return Mesh(
         flat.astype(np.float32),
         up,
-        np.tile(np.asarray(colour, dtype=np.float32), (count, 1)),
+        np.ascontiguousarray(look[:, :3]),
         np.zeros(count, dtype=np.float32),
-        np.full(count, sunlit, dtype=np.float32),
+        np.ascontiguousarray(look[:, 3]),
     )
 
 

@@ -50,7 +50,7 @@ class Box(NamedTuple):
 
 @dataclass(frozen=True)
 class Outline:
-    """The corners and edges of the convex hull of a mesh."""
+    """The corners and edges of a mesh."""
 
     points: npt.NDArray[np.float64]
     edges: npt.NDArray[np.int64]
@@ -58,15 +58,10 @@ class Outline:
     @classmethod
     def of(cls, mesh: Mesh) -> Outline:
         """Return the outline of a mesh."""
-        from scipy.spatial import ConvexHull  # only who draws needs it, and it takes long
-
-        points = np.unique(mesh.corners.reshape(-1, 3), axis=0).astype(np.float64)
-        hull = ConvexHull(points)
-        number = np.full(len(points), -1)
-        number[hull.vertices] = np.arange(len(hull.vertices))
-        faces = number[hull.simplices]
+        points, number = np.unique(mesh.corners.reshape(-1, 3), axis=0, return_inverse=True)
+        faces = number.reshape(-1, 3)
         edges = np.sort(np.vstack((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
-        return cls(points[hull.vertices], np.unique(edges, axis=0))
+        return cls(points.astype(np.float64), np.unique(edges, axis=0))
 
     def box(self, pose: Pose, view: View) -> Box | None:
         """Return the box about the body, also outside of the picture; None behind the camera."""
