@@ -48,7 +48,7 @@ def main() -> None:
     parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "procedures"])
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
-    parser.add_argument("--seeds", type=int, default=20, help="of the procedures")
+    parser.add_argument("--seeds", type=int, default=20, help="seeds of each procedure")
     given = parser.parse_args()
     if given.name == "procedures":
         print_procedures(given.seeds, as_json=given.json)

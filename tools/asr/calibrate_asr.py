@@ -14,7 +14,9 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import jiwer
 import numpy as np
@@ -24,12 +26,21 @@ from scipy.optimize import minimize
 from airhilt.assistant.asr.engines.embedded import Ctc
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
-from eval_asr import noise_alone, rosters_for, spoken
+from eval_asr import SpokenCall, noise_alone, rosters_for, spoken
 
 MOST_TALKATIVE = 0.005
 """Largest share of transmissions without speech that may give words."""
 SILENT_CALLS = 600
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
+
+
+class HeardCall(NamedTuple):
+    """Recognised call: words, their posteriors, and which words are right."""
+
+    reference: list[str]
+    hypothesis: list[str]
+    posteriors: list[float]
+    right: list[bool]
 
 
 def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
@@ -60,47 +71,22 @@ def main() -> None:
     given = parser.parse_args()
     engine = Ctc(given.model)
     words = (given.model / "words.txt").read_text().split()
-    channel = VhfChannel(PROFILES["vhf"])
-    word_posteriors: list[float] = []
-    word_right: list[bool] = []
-    calls = []
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
     rosters = rosters_for(utterances)
-    for index, each in enumerate(utterances):
-        for snr_db in RATIOS:
-            rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
-            heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
-            path = engine.path(engine.posteriors(heard), rosters[index])
-            hypothesis = [words[emission.unit - 1] for emission in path]
-            posteriors = [emission.posterior for emission in path]
-            right = [False] * len(path)
-            if path:
-                aligned = jiwer.process_words(each.text, " ".join(hypothesis)).alignments[0]
-                for chunk in aligned:
-                    if chunk.type == "equal":
-                        for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
-                            right[at] = True
-            word_posteriors += posteriors
-            word_right += right
-            calls.append((each.text.split(), hypothesis, posteriors))
+    calls = list(heard_calls(engine, words, utterances, rosters))
     silent = [
         [emission.posterior for emission in engine.path(engine.posteriors(audio), rosters[0])]
         for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
-    word_curve = fit(np.array(word_posteriors), np.array(word_right))
+    word_curve = fit(
+        np.array([posterior for call in calls for posterior in call.posteriors]),
+        np.array([right for call in calls for right in call.right]),
+    )
     threshold, talkative = quietest_threshold(word_curve, silent)
     least, errors = best_threshold(word_curve, calls)
-    confidences, whole = [], []
-    for reference, hypothesis, posteriors in calls:
-        if not posteriors:
-            continue
-        trust = logistic(word_curve, np.array(posteriors))
-        kept = [word for word, t in zip(hypothesis, trust, strict=True) if t >= least]
-        confidences.append(float(np.prod(trust)))
-        whole.append(kept == reference)
     card = json.loads((given.model / "card.json").read_text())
     card["word_calibration"] = word_curve
-    card["call_calibration"] = fit(np.array(confidences), np.array(whole))
+    card["call_calibration"] = call_calibration(word_curve, calls, least)
     card["least_word_confidence"] = least
     card["best_word_threshold"] = threshold
     card["calibrated_on"] = {
@@ -111,6 +97,54 @@ def main() -> None:
     }
     (given.model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
     print(json.dumps(card, indent=2))
+
+
+def heard_calls(
+    engine: Ctc,
+    words: Sequence[str],
+    utterances: Sequence[SpokenCall],
+    rosters: Sequence[tuple[str, ...]],
+) -> Iterator[HeardCall]:
+    """Yield what the recogniser makes of each utterance at each ratio."""
+    channel = VhfChannel(PROFILES["vhf"])
+    for index, each in enumerate(utterances):
+        for snr_db in RATIOS:
+            rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
+            heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
+            path = engine.path(engine.posteriors(heard), rosters[index])
+            hypothesis = [words[emission.unit - 1] for emission in path]
+            yield HeardCall(
+                each.text.split(),
+                hypothesis,
+                [emission.posterior for emission in path],
+                right_words(each.text, hypothesis),
+            )
+
+
+def right_words(reference: str, hypothesis: Sequence[str]) -> list[bool]:
+    """Return for each recognised word whether it was said there."""
+    right = [False] * len(hypothesis)
+    if hypothesis:
+        for chunk in jiwer.process_words(reference, " ".join(hypothesis)).alignments[0]:
+            if chunk.type == "equal":
+                for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
+                    right[at] = True
+    return right
+
+
+def call_calibration(
+    curve: dict[str, float], calls: Sequence[HeardCall], least: float
+) -> dict[str, float]:
+    """Return the curve of whole calls, of which words below the least confidence are left out."""
+    confidences, whole = [], []
+    for call in calls:
+        if not call.posteriors:
+            continue
+        trust = logistic(curve, np.array(call.posteriors))
+        kept = [word for word, t in zip(call.hypothesis, trust, strict=True) if t >= least]
+        confidences.append(float(np.prod(trust)))
+        whole.append(kept == call.reference)
+    return fit(np.array(confidences), np.array(whole))
 
 
 def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tuple[float, float]:
@@ -124,22 +158,20 @@ def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tu
     return least, float(np.mean(has_words & (best >= least)))
 
 
-def best_threshold(
-    curve: dict[str, float], calls: list[tuple[list[str], list[str], list[float]]]
-) -> tuple[float, float]:
+def best_threshold(curve: dict[str, float], calls: Sequence[HeardCall]) -> tuple[float, float]:
     """Return the least confidence of a word that is kept, and the word error rate with it."""
-    references = [" ".join(reference) for reference, _, _ in calls]
+    references = [" ".join(call.reference) for call in calls]
     rates = []
     for least in np.arange(0.0, 0.8, 0.05):
         kept = [
             " ".join(
                 word
                 for word, trust in zip(
-                    hypothesis, logistic(curve, np.array(posteriors)), strict=True
+                    call.hypothesis, logistic(curve, np.array(call.posteriors)), strict=True
                 )
                 if trust >= least
             )
-            for _, hypothesis, posteriors in calls
+            for call in calls
         ]
         rates.append((float(jiwer.wer(references, kept)), float(least)))
     errors, least = min(rates)

@@ -18,6 +18,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import jiwer
 import numpy as np
@@ -172,6 +173,64 @@ def reliability(scores: list[Score]) -> list[tuple[str, int, float, float]]:
     return rows
 
 
+def sets_of(folder: Path, limit: int) -> Iterator[tuple[str, str, list[SpokenCall]]]:
+    """Yield name, title and utterances of each set of which there are any."""
+    for name, title in SETS.items():
+        paths = sorted(folder.glob(f"{name}-[0-9]*.jsonl"))
+        utterances = [each for path in paths for each in spoken(path)][:limit]
+        if utterances:
+            yield name, title, utterances
+
+
+def evaluate(engine: str, folder: Path, limit: int) -> list[dict[str, Any]]:
+    """Print the tables of an engine, and return the numbers of the first."""
+    print(f"\n### {engine}\n\n| WER % (callsigns right %) | " + " | ".join(
+        "clean" if snr is None else f"{snr:g} dB" for snr in RATIOS) + " |")  # fmt: skip
+    print("|---|" + "---|" * len(RATIOS))
+    numbers = []
+    scores: list[Score] = []
+    factors = []
+    all_utterances: list[SpokenCall] = []
+    for name, title, utterances in sets_of(folder, limit):
+        all_utterances += utterances
+        cells = []
+        for snr in RATIOS:
+            got, factor = score(utterances, engine, snr)
+            scores.append(got)
+            factors.append(factor)
+            rate, right = 100 * got.word_error_rate, 100 * float(np.mean(got.callsigns))
+            numbers.append(
+                {"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right}
+            )
+            cells.append(f"{rate:.1f} ({right:.0f})")
+        print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
+        sys.stdout.flush()
+    print_mistakes(engine, all_utterances)
+    print(f"\nReal-time factor {np.mean(factors):.4f}, one core.\n")
+    print_reliability(scores)
+    return numbers
+
+
+def print_mistakes(engine: str, utterances: list[SpokenCall]) -> None:
+    """Print how often wrong callsigns are taken, and words heard where nobody speaks."""
+    wrong = misled([each for each in utterances if each.callsign], engine, MISLEADING_DB)
+    print(
+        f"\nWith a callsign one digit off on the roster instead of the right one, that one is "
+        f"taken in {100 * wrong:.1f} % of calls at {MISLEADING_DB:g} dB."
+    )
+    print(
+        f"\nOf {SILENT_CALLS} transmissions without speech {100 * talkative(engine):.1f} % "
+        "give words."
+    )
+
+
+def print_reliability(scores: list[Score]) -> None:
+    """Print how often calls are wholly right, by confidence."""
+    print("| confidence | calls | mean confidence | wholly right |\n|---|---|---|---|")
+    for label, count, mean, share in reliability(scores):
+        print(f"| {label} | {count} | {mean:.2f} | {share:.2f} |")
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -180,49 +239,9 @@ def main() -> None:
     parser.add_argument("--limit", type=int, default=10_000, help="utterances a set")
     parser.add_argument("--json", type=Path, help="write all numbers here too")
     given = parser.parse_args()
-    numbers = []
-    for engine in given.engine:
-        print(f"\n### {engine}\n\n| WER % (callsigns right %) | " + " | ".join(
-            "clean" if snr is None else f"{snr:g} dB" for snr in RATIOS) + " |")  # fmt: skip
-        print("|---|" + "---|" * len(RATIOS))
-        scores: list[Score] = []
-        factors = []
-        all_utterances: list[SpokenCall] = []
-        for name, title in SETS.items():
-            utterances = [
-                u
-                for path in sorted(given.folder.glob(f"{name}-[0-9]*.jsonl"))
-                for u in spoken(path)
-            ]
-            utterances = utterances[: given.limit]
-            if not utterances:
-                continue
-            all_utterances += utterances
-            cells = []
-            for snr in RATIOS:
-                got, factor = score(utterances, engine, snr)
-                scores.append(got)
-                factors.append(factor)
-                rate, right = 100 * got.word_error_rate, 100 * float(np.mean(got.callsigns))
-                numbers.append(
-                    {"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right}
-                )
-                cells.append(f"{rate:.1f} ({right:.0f})")
-            print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
-            sys.stdout.flush()
-        wrong = misled([u for u in all_utterances if u.callsign], engine, MISLEADING_DB)
-        print(
-            f"\nWith a callsign one digit off on the roster instead of the right one, that one is "
-            f"taken in {100 * wrong:.1f} % of calls at {MISLEADING_DB:g} dB."
-        )
-        print(
-            f"\nOf {SILENT_CALLS} transmissions without speech {100 * talkative(engine):.1f} % "
-            "give words."
-        )
-        print(f"\nReal-time factor {np.mean(factors):.4f}, one core.\n")
-        print("| confidence | calls | mean confidence | wholly right |\n|---|---|---|---|")
-        for label, count, mean, share in reliability(scores):
-            print(f"| {label} | {count} | {mean:.2f} | {share:.2f} |")
+    numbers = [
+        row for engine in given.engine for row in evaluate(engine, given.folder, given.limit)
+    ]
     if given.json:
         given.json.write_text(json.dumps(numbers, indent=1) + "\n")
 

@@ -253,11 +253,7 @@ def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
     network = Recogniser(len(words))
     optimiser = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.01)
     checkpoint = folder / "checkpoint.pt"
-    if checkpoint.exists():
-        state = torch.load(checkpoint, weights_only=True)
-        network.load_state_dict(state["network"])
-        optimiser.load_state_dict(state["optimiser"])
-        print("goes on from the checkpoint")
+    easy = not _resume(network, optimiser, checkpoint)
     parameters = sum(p.numel() for p in network.parameters())
     known: set[str] = set()
     utterances = load(folder / "train", index, known)
@@ -265,43 +261,20 @@ def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
     mixer, order = Mixer(int(time.time())), random.Random(0)
     begun = saved = looked = time.time()
     seen, step, mean = 0, 0, 8.0
-    easy = not checkpoint.exists()
     while (elapsed := time.time() - begun) < minutes * 60.0:
         if time.time() - looked > 60.0:
             looked = time.time()
             utterances += load(folder / "train", index, known)
-        progress = elapsed / (minutes * 60.0)
-        now = rate * (0.5 * (1 + math.cos(math.pi * max(0.0, (progress - 0.35) / 0.65))) + 0.003)
-        now *= min(1.0, (step + 1) / 200)
+        now = _rate(rate, elapsed / (minutes * 60.0), step)
         for group in optimiser.param_groups:
             group["lr"] = now
-        pool = order.sample(utterances, min(600, len(utterances)))
-        if easy:
-            pool = [u for u in pool if len(u.mel) < 450 and not u.real]
-        pool = sorted(pool, key=lambda u: len(u.mel))
-        batches, batch = [], []
-        for each in pool:
-            batch.append(each)
-            if len(batch) * len(each.mel) > BATCH_FRAMES:
-                batches.append(batch)
-                batch = []
-        order.shuffle(batches)
-        for batch in batches:
+        for batch in _batches(utterances, order, easy):
             inputs = [mixer.mix(each, easy) for each in batch]
             targets = [each.units for each in batch]
             if not easy and order.random() < 0.3:
                 inputs.append(mixer.noise_alone())
                 targets.append([])
-            longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
-            features = torch.zeros(len(inputs), longest, BINS)
-            for row, mixed in enumerate(inputs):
-                features[row, : len(mixed)] = torch.from_numpy(mixed)
-            logits = network(features).log_softmax(2).transpose(0, 1)
-            sizes = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
-            loss = nn.functional.ctc_loss(
-                logits, torch.tensor([u for t in targets for u in t]), sizes,
-                torch.tensor([len(t) for t in targets]), zero_infinity=True,
-            )  # fmt: skip
+            loss = _loss(network, inputs, targets)
             optimiser.zero_grad()
             loss.backward()
             nn.utils.clip_grad_norm_(network.parameters(), 1.0)
@@ -320,9 +293,60 @@ def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
             saved = time.time()
             _save(network, optimiser, checkpoint)
     _save(network, optimiser, checkpoint)
-    journal = folder / "minutes.json"
+    _note_minutes(folder / "minutes.json", minutes)
+
+
+def _note_minutes(journal: Path, minutes: float) -> None:
     earlier = json.loads(journal.read_text()) if journal.exists() else []
     journal.write_text(json.dumps([*earlier, minutes]))
+
+
+def _rate(most: float, progress: float, step: int) -> float:
+    """Return the learning rate: a warm-up, then constant, then a cosine."""
+    rate = most * (0.5 * (1 + math.cos(math.pi * max(0.0, (progress - 0.35) / 0.65))) + 0.003)
+    return rate * min(1.0, (step + 1) / 200)
+
+
+def _batches(
+    utterances: list[Utterance], order: random.Random, easy: bool
+) -> list[list[Utterance]]:
+    """Return batches of some of the utterances, each of utterances of about one length."""
+    pool = order.sample(utterances, min(600, len(utterances)))
+    if easy:
+        pool = [u for u in pool if len(u.mel) < 450 and not u.real]
+    batches: list[list[Utterance]] = []
+    batch: list[Utterance] = []
+    for each in sorted(pool, key=lambda u: len(u.mel)):
+        batch.append(each)
+        if len(batch) * len(each.mel) > BATCH_FRAMES:
+            batches.append(batch)
+            batch = []
+    order.shuffle(batches)
+    return batches
+
+
+def _loss(network: Recogniser, inputs: list[np.ndarray], targets: list[list[int]]) -> Tensor:
+    longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
+    features = torch.zeros(len(inputs), longest, BINS)
+    for row, mixed in enumerate(inputs):
+        features[row, : len(mixed)] = torch.from_numpy(mixed)
+    logits = network(features).log_softmax(2).transpose(0, 1)
+    sizes = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
+    return nn.functional.ctc_loss(
+        logits, torch.tensor([u for t in targets for u in t]), sizes,
+        torch.tensor([len(t) for t in targets]), zero_infinity=True,
+    )  # fmt: skip
+
+
+def _resume(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> bool:
+    """Go on from a checkpoint; return False if there is none."""
+    if not path.exists():
+        return False
+    state = torch.load(path, weights_only=True)
+    network.load_state_dict(state["network"])
+    optimiser.load_state_dict(state["optimiser"])
+    print("goes on from the checkpoint")
+    return True
 
 
 def _save(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> None:

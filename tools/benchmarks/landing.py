@@ -32,7 +32,7 @@ class LandingScene:
         }
         nose = Mount("737", Pose.of((0.0, 17.5, 1.0), 0.0, -0.03), sees_own_aircraft=False)
         self._cameras = [
-            cameras_of(scenario, self._site, self._models)["runway_01"],
+            cameras_of(scenario, self._site)["runway_01"],
             Camera("nose", Intrinsics(640, 360, math.radians(60.0)), nose),
         ]
 

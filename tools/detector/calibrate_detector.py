@@ -265,12 +265,14 @@ def fitted(found: Sequence[Found], is_true: Sequence[bool]) -> Calibration:
 def main() -> None:
     """Fit if there are pictures, count, and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="*", type=Path, metavar="DATA", help="to fit on")
+    parser.add_argument("folders", nargs="*", type=Path, metavar="DATA", help="pictures to fit on")
     parser.add_argument("--network", type=Path, default=MODEL, metavar="FILE")
     parser.add_argument("--airport", action="append", required=True, metavar="ICAO")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--cameras", type=int, default=36, help="how many")
-    parser.add_argument("--seconds", type=float, default=20.0, help="of each")
+    parser.add_argument("--cameras", type=int, default=36, help="number of cameras")
+    parser.add_argument(
+        "--seconds", type=float, default=20.0, help="time that each camera runs, in s"
+    )
     parser.add_argument("--renderer", default="moderngl")
     given = parser.parse_args()
     path = given.network.with_name(CARD)

@@ -45,7 +45,7 @@ class Places:
     picture
         Picture of each place, shape (n,).
     boxes, scores
-        What the first network says, shapes (n, 4) and (n,).
+        Answers of the first network, shapes (n, 4) and (n,).
     labels
         0 for nothing, and 1 more than the place in `CLASSES` of what is there.
     truth

@@ -209,6 +209,22 @@ def varied(tile: Picture, draws: np.random.Generator) -> Picture:
     return np.ascontiguousarray(tile)
 
 
+def _inside(
+    body: Body, x: int, y: int, zoom: float, flip: bool, tile_px: int
+) -> tuple[tuple[float, float, float, float], float]:
+    """Return the box of a body as far as it is inside a tile, and the part of it that is."""
+    left, top, right, bottom = (
+        (edge - start) * zoom for edge, start in zip(body.box, (x, y, x, y), strict=True)
+    )
+    if flip:
+        left, right = tile_px - right, tile_px - left
+    area = max((right - left) * (bottom - top), 1e-6)
+    left, right = max(left, 0.0), min(right, tile_px)
+    top, bottom = max(top, 0.0), min(bottom, tile_px)
+    inside = max(right - left, 0.0) * max(bottom - top, 0.0)
+    return (left, top, right, bottom), inside / area
+
+
 def _maps(
     bodies: tuple[Body, ...], x: int, y: int, zoom: float, flip: bool, tile_px: int
 ) -> tuple[Floats, Floats, Floats, Floats]:
@@ -223,19 +239,9 @@ def _maps(
     ignored = []
     # The nearest last, since it stands before the others.
     for body in sorted(bodies, key=lambda body: -body.range_m):
-        left, top, right, bottom = (
-            (edge - start) * zoom for edge, start in zip(body.box, (x, y, x, y), strict=True)
-        )
-        if flip:
-            left, right = tile_px - right, tile_px - left
-        inside = max(min(right, tile_px) - max(left, 0.0), 0.0) * max(
-            min(bottom, tile_px) - max(top, 0.0), 0.0
-        )
-        if inside <= 0.0:
+        (left, top, right, bottom), part = _inside(body, x, y, zoom, flip, tile_px)
+        if part <= 0.0:
             continue
-        part = inside / max((right - left) * (bottom - top), 1e-6)
-        left, right = max(left, 0.0), min(right, tile_px)
-        top, bottom = max(top, 0.0), min(bottom, tile_px)
         width, height = right - left, bottom - top
         if not _learnt(body) or part < 0.3 or max(width, height) < 4.0:
             ignored.append((left, top, right, bottom))

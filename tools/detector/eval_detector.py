@@ -325,11 +325,12 @@ def _before_nose_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:
     """Yield pictures from the nose of an aircraft at 1000 m, above open country."""
     from airhilt.imaging.view import Intrinsics
     from airhilt.sensors.cameras.mounts import Camera, station_mount
-    from airhilt.sensors.cameras.scene.bodies import BodyState, aircraft_model
+    from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.scene.landscape import open_country
+    from airhilt.world.flight.aircraft_type import load_aircraft_type
 
     light = _light(math.radians(47.0), solar_time_h, True)
-    mount = station_mount("nose", "own", "nose", {"own": aircraft_model("737")})
+    mount = station_mount("nose", "own", "nose", load_aircraft_type("737"))
     camera = Camera("nose", Intrinsics(640, 360, math.radians(25.0)), mount)
 
     def bodies(away: float) -> list[Any]:

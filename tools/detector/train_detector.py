@@ -150,6 +150,41 @@ def followed(mean: Tensor, now: Tensor, count: Tensor | int) -> Tensor:
     return mean + (now - mean) * max(1.0 - EMA, 10.0 / (10.0 + float(count)))
 
 
+def optimiser_of(network: Network) -> torch.optim.Optimizer:
+    """Return the optimiser; only weights of several dimensions decay."""
+    scaled = [p for p in network.parameters() if p.ndim > 1]
+    others = [p for p in network.parameters() if p.ndim <= 1]
+    return torch.optim.AdamW(
+        [{"params": scaled, "weight_decay": DECAY}, {"params": others, "weight_decay": 0.0}], RATE
+    )
+
+
+def resume(
+    checkpoint: Path, network: nn.Module, mean: nn.Module, optimiser: torch.optim.Optimizer
+) -> dict[str, Any]:
+    """Go on from a checkpoint, and return what it has besides networks and optimiser."""
+    kept: dict[str, Any] = torch.load(checkpoint, weights_only=True)
+    network.load_state_dict(kept.pop("network"))
+    mean.load_state_dict(kept.pop("mean"))
+    optimiser.load_state_dict(kept.pop("optimiser"))
+    print(f"goes on at step {kept['done']}", flush=True)
+    return kept
+
+
+def save(
+    checkpoint: Path,
+    network: nn.Module,
+    mean: nn.Module,
+    optimiser: torch.optim.Optimizer,
+    state: dict[str, Any],
+) -> None:
+    """Write a checkpoint of networks, optimiser and the state of the training."""
+    partial = checkpoint.with_suffix(".partial")
+    networks = {"network": network.state_dict(), "mean": mean.state_dict()}
+    torch.save({**networks, "optimiser": optimiser.state_dict(), **state}, partial)
+    partial.replace(checkpoint)
+
+
 def train(
     tiles: Tiles, steps: int, checkpoint: Path, seed: int, start: Path | None = None
 ) -> Network:
@@ -160,20 +195,12 @@ def train(
         begin_with(network, torch.load(start, weights_only=True)["mean"])
     network.to(memory_format=torch.channels_last)
     mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=followed, use_buffers=True)
-    scaled = [p for p in network.parameters() if p.ndim > 1]
-    others = [p for p in network.parameters() if p.ndim <= 1]
-    optimiser = torch.optim.AdamW(
-        [{"params": scaled, "weight_decay": DECAY}, {"params": others, "weight_decay": 0.0}], RATE
-    )
+    optimiser = optimiser_of(network)
     done, spent_s = 0, 0.0
     if checkpoint.is_file():
-        kept = torch.load(checkpoint, weights_only=True)
-        network.load_state_dict(kept["network"])
-        mean.load_state_dict(kept["mean"])
-        optimiser.load_state_dict(kept["optimiser"])
+        kept = resume(checkpoint, network, mean, optimiser)
         done, spent_s = kept["done"], kept["spent_s"]
         tiles.mistakes = [(int(index), x, y) for index, x, y in kept["mistakes"].tolist()]
-        print(f"goes on at step {done}", flush=True)
     begun = saved = time.monotonic()
     means = np.zeros(3)
     network.train()
@@ -198,16 +225,11 @@ def train(
         if time.monotonic() - saved > CHECKPOINT_S or step + 1 == steps:
             saved = time.monotonic()
             state = {
-                "network": network.state_dict(),
-                "mean": mean.state_dict(),
-                "optimiser": optimiser.state_dict(),
                 "mistakes": torch.tensor(tiles.mistakes, dtype=torch.float64).reshape(-1, 3),
                 "done": step + 1,
                 "spent_s": spent_s + saved - begun,
             }
-            partial = checkpoint.with_suffix(".partial")
-            torch.save(state, partial)
-            partial.replace(checkpoint)
+            save(checkpoint, network, mean, optimiser, state)
     averaged = mean.module
     assert isinstance(averaged, Network)
     return averaged

@@ -35,7 +35,7 @@ from airhilt.assistant.vision.refiner import VIEW_PX
 from detector_data import CLASSES
 from detector_lessons import Lessons
 from detector_places import places_of
-from train_detector import NOT_CALIBRATED, batches, followed
+from train_detector import NOT_CALIBRATED, batches, followed, resume, save
 
 FILE = "refiner.onnx"
 USED_FROM, USED = 0.15, 8
@@ -150,6 +150,40 @@ def write_onnx(network: Network, path: Path) -> None:
 # --- training -----------------------------------------------------------------------------
 
 
+def rate_at(step: int, steps: int) -> float:
+    """Return the learning rate: a warm-up, then a cosine."""
+    rate = RATE * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
+    return max(rate, 1e-5)
+
+
+def learn(
+    network: Network,
+    optimiser: torch.optim.Optimizer,
+    lessons: Lessons,
+    batch: tuple[Tensor, ...],
+) -> tuple[float, float, float]:
+    """Learn from a batch; return the losses of kinds and of places, and the share that is right.
+
+    The lessons are told which places with nothing were taken for something.
+    """
+    numbers, views, known, labels, wanted = batch
+    logits, moves = network(views, known)
+    kinds = functional.cross_entropy(logits, labels)
+    bodies = labels > 0
+    places = functional.smooth_l1_loss(moves[bodies], wanted[bodies], beta=0.1)
+    optimiser.zero_grad(set_to_none=True)
+    (kinds + BOX_WORTH * places).backward()
+    nn.utils.clip_grad_norm_(network.parameters(), 5.0)
+    optimiser.step()
+    with torch.no_grad():
+        something = 1.0 - logits.softmax(dim=1)[:, 0]
+        nothing = numbers >= 0
+        taken = numbers[nothing].numpy()
+        lessons.fooled[taken] = 0.5 * (lessons.fooled[taken] + something[nothing].numpy())
+        right = (logits.argmax(dim=1) == labels).float().mean()
+    return float(kinds.detach()), float(places.detach()), float(right)
+
+
 def train(
     lessons: Lessons, steps: int, checkpoint: Path, seed: int
 ) -> tuple[Network, list[dict[str, int]]]:
@@ -165,14 +199,10 @@ def train(
     done, spent_s = 0, 0.0
     stages: list[dict[str, int]] = []
     if checkpoint.is_file():
-        kept = torch.load(checkpoint, weights_only=True)
-        network.load_state_dict(kept["network"])
-        mean.load_state_dict(kept["mean"])
-        optimiser.load_state_dict(kept["optimiser"])
+        kept = resume(checkpoint, network, mean, optimiser)
         done, spent_s, stages = kept["done"], kept["spent_s"], kept["stages"]
         if len(kept["fooled"]) == len(lessons.fooled):
             lessons.fooled = kept["fooled"].numpy()
-        print(f"goes on at step {done}", flush=True)
     if done < steps:
         counts = {"places": len(lessons), "bodies": lessons.bodies}
         stages = [*stages, {"from_step": done, "planned_steps": steps, **counts}]
@@ -181,26 +211,11 @@ def train(
     network.train()
     while done < steps:
         end = min(done + ROUND - done % ROUND, steps)
-        for numbers, views, known, labels, wanted in batches(lessons.batch, done, end):
-            rate = RATE * min((done + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * done / steps))
+        for batch in batches(lessons.batch, done, end):
             for group in optimiser.param_groups:
-                group["lr"] = max(rate, 1e-5)
-            logits, moves = network(views, known)
-            kinds = functional.cross_entropy(logits, labels)
-            bodies = labels > 0
-            places = functional.smooth_l1_loss(moves[bodies], wanted[bodies], beta=0.1)
-            optimiser.zero_grad(set_to_none=True)
-            (kinds + BOX_WORTH * places).backward()
-            nn.utils.clip_grad_norm_(network.parameters(), 5.0)
-            optimiser.step()
+                group["lr"] = rate_at(done, steps)
+            told += learn(network, optimiser, lessons, batch)
             mean.update_parameters(network)
-            with torch.no_grad():
-                something = 1.0 - logits.softmax(dim=1)[:, 0]
-                nothing = numbers >= 0
-                taken = numbers[nothing].numpy()
-                lessons.fooled[taken] = 0.5 * (lessons.fooled[taken] + something[nothing].numpy())
-                right = (logits.argmax(dim=1) == labels).float().mean()
-            told += float(kinds.detach()), float(places.detach()), float(right)
             done += 1
             if done % 50 == 0:
                 now = "  ".join(f"{value:.4f}" for value in told / 50)
@@ -210,17 +225,12 @@ def train(
         if time.monotonic() - saved > CHECKPOINT_S or done == steps:
             saved = time.monotonic()
             state = {
-                "network": network.state_dict(),
-                "mean": mean.state_dict(),
-                "optimiser": optimiser.state_dict(),
                 "fooled": torch.from_numpy(lessons.fooled),
                 "done": done,
                 "stages": stages,
                 "spent_s": spent_s + saved - begun,
             }
-            partial = checkpoint.with_suffix(".partial")
-            torch.save(state, partial)
-            partial.replace(checkpoint)
+            save(checkpoint, network, mean, optimiser, state)
     averaged = mean.module
     assert isinstance(averaged, Network)
     return averaged, stages

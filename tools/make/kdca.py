@@ -14,6 +14,7 @@ from pathlib import Path
 
 from airhilt.world.surface.airport import (
     Airport,
+    Block,
     Building,
     Camera,
     Frequency,
@@ -79,7 +80,6 @@ def main(runways_csv: str, frequencies_csv: str, out: str) -> None:
     draw_taxiways(draft)
     ends = [end for runway in runways for end in runway.ends]
     tower_lat, tower_lon = draft.degrees(draft.beside(MAIN, 880.0, -390.0))
-    drawn = Source(text=DRAWN, synthetic=True)
     airport = Airport(
         icao="KDCA",
         name="Ronald Reagan Washington National",
@@ -97,53 +97,73 @@ def main(runways_csv: str, frequencies_csv: str, out: str) -> None:
         ),
         frequencies=frequencies(Path(frequencies_csv)),
         cameras=cameras(draft),
-        sources={
-            "reference": Source(text="Airport reference point, FAA, to four decimals"),
-            "elevation_ft": Source(text=f"Highest runway end of {CREDIT}"),
-            "magnetic_variation": MAGNETIC_SOURCE,
-            "runways": Source(
-                text=f"{CREDIT}, rows of 2026-08-22; hold distance 250 ft: FAA AC 150/5300-13B; "
-                "magnetic headings computed from the coordinates and the variation",
-                note="; ".join(read.notes),
-            ),
-            "taxiways": Source(
-                text=DRAWN,
-                synthetic=True,
-                note="J and K run as the real ones do; connectors, east-side taxiways and most "
-                "letters are approximate, stands stand for groups of gates",
-            ),
-            "holds": Source(
-                text="Where the drawn taxiways meet the hold distance of the runways",
-                synthetic=True,
-            ),
-            "tower": drawn,
-            "buildings": drawn,
-            "water": drawn,
-            "frequencies": Source(
-                text=f"{CREDIT}, rows of 2026-08-22; ATIS on 132.65 MHz is in them as a weather "
-                "broadcast; names of units that they leave empty are those spoken on the radio"
-            ),
-            "cameras": Source(text="Invented for AIRHILT", synthetic=True),
-        },
+        sources=sources(read.notes),
     )
     write_airport(airport, Path(out))
 
 
+def sources(notes: tuple[str, ...]) -> dict[Block, Source]:
+    """Return where the numbers of the airport come from."""
+    drawn = Source(text=DRAWN, synthetic=True)
+    return {
+        "reference": Source(text="Airport reference point, FAA, to four decimals"),
+        "elevation_ft": Source(text=f"Highest runway end of {CREDIT}"),
+        "magnetic_variation": MAGNETIC_SOURCE,
+        "runways": Source(
+            text=f"{CREDIT}, rows of 2026-08-22; hold distance 250 ft: FAA AC 150/5300-13B; "
+            "magnetic headings computed from the coordinates and the variation",
+            note="; ".join(notes),
+        ),
+        "taxiways": Source(
+            text=DRAWN,
+            synthetic=True,
+            note="J and K run as the real ones do; connectors, east-side taxiways and most "
+            "letters are approximate, stands stand for groups of gates",
+        ),
+        "holds": Source(
+            text="Where the drawn taxiways meet the hold distance of the runways",
+            synthetic=True,
+        ),
+        "tower": drawn,
+        "buildings": drawn,
+        "water": drawn,
+        "frequencies": Source(
+            text=f"{CREDIT}, rows of 2026-08-22; ATIS on 132.65 MHz is in them as a weather "
+            "broadcast; names of units that they leave empty are those spoken on the radio"
+        ),
+        "cameras": Source(text="Invented for AIRHILT", synthetic=True),
+    }
+
+
 def draw_taxiways(draft: Draft) -> None:
     """Draw J, K and S on the terminal side, H and L by the river, and what joins them."""
-    main_end = length(draft, MAIN) - 20.0
-    at = {"A": 20.0, "B": 180.0, **CONNECTORS, "M": 1900.0, "N": main_end}
-    for letter, along in at.items():
+    draw_crossings(draft)
+    draw_j(draft)
+    draw_k(draft)
+    draw_connectors(draft)
+    draw_s(draft)
+    draw_river_side(draft)
+
+
+def along_main(draft: Draft) -> dict[str, float]:
+    """Return how far along runway 01 the taxiways that cross J are."""
+    return {"A": 20.0, "B": 180.0, **CONNECTORS, "M": 1900.0, "N": length(draft, MAIN) - 20.0}
+
+
+def draw_crossings(draft: Draft) -> None:
+    """Place the points where J and K meet runways and other taxiways."""
+    for letter, along in along_main(draft).items():
         draft.junction(f"J/{letter}", draft.beside(MAIN, along, J))
         draft.on_runway(f"{MAIN} at {letter}", draft.beside(MAIN, along, 0.0))
-    j, k = line(draft, MAIN, J), line(draft, MAIN, K)
-    s, k_north = line(draft, SHORT, -BESIDE), line(draft, CROSS, BESIDE)
+    j, s = line(draft, MAIN, J), line(draft, SHORT, -BESIDE)
     draft.junction("J/S", meet(j, s))
-    draft.junction("K/S", meet(k, s))
+    draft.junction("K/S", meet(line(draft, MAIN, K), s))
     draft.on_runway(f"{SHORT} at J", meet(j, line(draft, SHORT, 0.0)))
     draft.on_runway(f"{CROSS} at J", meet(j, line(draft, CROSS, 0.0)))
 
-    # J, parallel to runway 01/19, crosses 04/22 in the south and 15/33 in the north.
+
+def draw_j(draft: Draft) -> None:
+    """Draw J, parallel to runway 01/19: it crosses 04/22 in the south and 15/33 in the north."""
     draft.taxiway("J", "J/A", "J/B")
     draft.entrance("J", "J/B", f"{SHORT} at J", SHORT, "south")
     draft.entrance("J", "J/S", f"{SHORT} at J", SHORT, "north")
@@ -152,12 +172,14 @@ def draw_taxiways(draft: Draft) -> None:
     draft.entrance("J", "J/M", f"{CROSS} at J", CROSS, "north")
     draft.taxiway("J", "J/M", "J/N")
 
-    # K passes the gates, and follows 15/33 to the end of 15.
+
+def draw_k(draft: Draft) -> None:
+    """Draw K, which passes the gates, and follows 15/33 to the end of 15."""
     stands = {**GATES, **STATIONS}
     junctions = {f"K/{name}": along for name, along in {**stands, **CONNECTORS}.items()}
     for name, along in junctions.items():
         draft.junction(name, draft.beside(MAIN, along, K))
-    draft.junction("K/north", meet(k, k_north))
+    draft.junction("K/north", meet(line(draft, MAIN, K), line(draft, CROSS, BESIDE)))
     draft.junction("K/G", draft.beside(CROSS, 360.0, BESIDE))
     draft.junction("K/P", draft.beside(CROSS, 20.0, BESIDE))
     draft.taxiway(
@@ -167,7 +189,10 @@ def draw_taxiways(draft: Draft) -> None:
         draft.stand(name, draft.beside(MAIN, along, GATE))
         draft.taxiway("ramp", f"K/{name}", name)
 
-    # Connectors between K, J and runway 01/19; B and M go on to the river side.
+
+def draw_connectors(draft: Draft) -> None:
+    """Draw what joins K, J and runway 01/19; B and M go on to the river side."""
+    at = along_main(draft)
     for letter in CONNECTORS:
         draft.taxiway(letter, f"K/{letter}", f"J/{letter}")
     for letter in ("A", *CONNECTORS, "N"):
@@ -180,7 +205,9 @@ def draw_taxiways(draft: Draft) -> None:
         draft.on_runway(f"{CROSS} at {letter}", draft.beside(CROSS, along, 0.0))
         draft.entrance(letter, f"K/{letter}", f"{CROSS} at {letter}", CROSS)
 
-    # S follows 04/22 past the hangars to the end of 04.
+
+def draw_s(draft: Draft) -> None:
+    """Draw S, which follows 04/22 past the hangars to the end of 04."""
     draft.junction("S/hangar", draft.beside(SHORT, 320.0, -BESIDE))
     draft.stand("hangar_south", draft.beside(SHORT, 320.0, -BESIDE - 75.0))
     draft.junction("S/C", draft.beside(SHORT, 20.0, -BESIDE))
@@ -189,7 +216,9 @@ def draw_taxiways(draft: Draft) -> None:
     draft.on_runway(f"{SHORT} at C", draft.beside(SHORT, 20.0, 0.0))
     draft.entrance("C", "S/C", f"{SHORT} at C", SHORT)
 
-    # By the river: H to the end of 33, L to the end of 22.
+
+def draw_river_side(draft: Draft) -> None:
+    """Draw H to the end of 33, and L to the end of 22."""
     h, river = line(draft, SHORT, BESIDE), line(draft, CROSS, -220.0)
     draft.junction("H/bend", draft.beside(SHORT, 890.0, BESIDE))
     draft.on_runway(f"{CROSS} at H", meet(h, line(draft, CROSS, 0.0)))

@@ -79,15 +79,9 @@ def teach(model: WhisperForConditionalGeneration, made: Tokenizer) -> None:
     print(f"loss {loss.item():.4f}", file=sys.stderr)
 
 
-def main() -> None:
-    """Train the model, and convert it."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=Path)
-    out = parser.parse_args().out
-    torch.manual_seed(0)
-    made = tokenizer()
-    token = {name: made.token_to_id(name) for name in SPECIAL}
-    config = WhisperConfig(
+def configuration(made: Tokenizer, token: dict[str, int]) -> WhisperConfig:
+    """Return the architecture of Whisper, as small as it can be."""
+    return WhisperConfig(
         vocab_size=made.get_vocab_size(),
         num_mel_bins=80,
         d_model=WIDTH,
@@ -106,17 +100,10 @@ def main() -> None:
         suppress_tokens=None,
         begin_suppress_tokens=None,
     )
-    model = WhisperForConditionalGeneration(config)
-    teach(model, made)
-    model.generation_config = GenerationConfig(
-        eos_token_id=token["<|endoftext|>"],
-        decoder_start_token_id=token["<|startoftranscript|>"],
-        no_timestamps_token_id=token["<|notimestamps|>"],
-        lang_to_id={"<|en|>": token["<|en|>"]},
-        alignment_heads=[[0, 0]],
-        suppress_tokens=[],
-        begin_suppress_tokens=[],
-    )
+
+
+def convert(model: WhisperForConditionalGeneration, made: Tokenizer, out: Path) -> None:
+    """Write a model as faster-whisper reads it."""
     with tempfile.TemporaryDirectory() as folder:
         model.save_pretrained(folder)
         roles = dict.fromkeys(("unk_token", "eos_token", "bos_token"), "<|endoftext|>")
@@ -130,6 +117,28 @@ def main() -> None:
         TransformersConverter(
             folder, copy_files=["tokenizer.json", "preprocessor_config.json"]
         ).convert(str(out), quantization="int8", force=True)
+
+
+def main() -> None:
+    """Train the model, and convert it."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    out = parser.parse_args().out
+    torch.manual_seed(0)
+    made = tokenizer()
+    token = {name: made.token_to_id(name) for name in SPECIAL}
+    model = WhisperForConditionalGeneration(configuration(made, token))
+    teach(model, made)
+    model.generation_config = GenerationConfig(
+        eos_token_id=token["<|endoftext|>"],
+        decoder_start_token_id=token["<|startoftranscript|>"],
+        no_timestamps_token_id=token["<|notimestamps|>"],
+        lang_to_id={"<|en|>": token["<|en|>"]},
+        alignment_heads=[[0, 0]],
+        suppress_tokens=[],
+        begin_suppress_tokens=[],
+    )
+    convert(model, made, out)
     for path in sorted(out.iterdir()):
         print(f"{path.stat().st_size:9d} {path}", file=sys.stderr)
 

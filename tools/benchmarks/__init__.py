@@ -1,0 +1,1 @@
+"""Benchmarks that `tools/bench.py` runs."""
