@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from airhilt.engines import ASR, ASSISTANT, DETECTOR, TTS, WORDING, EngineFamily
@@ -21,8 +21,10 @@ DEFAULTS = {
 """The engine of each family unless another is named, by entry point group."""
 NO_ASSISTANT = "none"
 """Name that stands for no assistant: nobody decides, and nobody is warned."""
+NO_DETECTOR = "none"
+"""Name that stands for no detector: no worker looks at pictures."""
 EXTERNAL = "external"
-"""Name that stands for an attached program, which decides."""
+"""Name that stands for a worker or program of the user, which decides."""
 
 
 class Engines(NamedTuple):
@@ -75,10 +77,11 @@ def reference_workers(
     if tts is not None and "tts" not in taken and is_assisted:
         workers.append(reference_worker("tts", tts, style=radio.phraseology))
     if detector is not None and "vision" not in taken and is_assisted:
-        workers.append(reference_worker("vision", detector))
+        workers.append(reference_worker("vision", detector, also=(NO_DETECTOR,)))
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
-        workers.append(decision_worker(assistant, wording, is_gated=is_gated))
+        also = (NO_ASSISTANT, EXTERNAL)
+        workers.append(decision_worker(assistant, wording, is_gated=is_gated, also=also))
     return workers
 
 
@@ -88,8 +91,14 @@ def decision_worker(
     *,
     is_gated: bool = False,
     name: str = "decision",
+    also: Sequence[str] = (),
 ) -> Worker:
     """Return the worker around a decision engine.
+
+    Parameters
+    ----------
+    also
+        Words that the caller takes in the place of an engine, such as ``none``, for error messages.
 
     Raises
     ------
@@ -101,7 +110,7 @@ def decision_worker(
     from airhilt.assistant.wording.engines import advisory_wording
 
     return DecisionWorker(
-        decision_engine(engine), advisory_wording(wording), is_gated=is_gated, name=name
+        decision_engine(engine, also), advisory_wording(wording), is_gated=is_gated, name=name
     )
 
 
@@ -141,7 +150,11 @@ def families() -> tuple[EngineFamily[Any], ...]:
 
 
 def reference_worker(
-    kind: str, engine: str | None = None, name: str | None = None, style: Style = "faa"
+    kind: str,
+    engine: str | None = None,
+    name: str | None = None,
+    style: Style = "faa",
+    also: Sequence[str] = (),
 ) -> Worker:
     """Return one worker with its default settings.
 
@@ -153,6 +166,8 @@ def reference_worker(
         Engine as on the command line; None: the usual one.
     style
         Style in which ``tts`` says numbers.
+    also
+        Words that the caller takes in the place of an engine, such as ``none``, for error messages.
 
     Raises
     ------
@@ -177,7 +192,11 @@ def reference_worker(
             from airhilt.assistant.vision.detectors import vision_engine
             from airhilt.assistant.vision.worker import VisionWorker
 
-            return VisionWorker(vision_engine(DETECTOR if engine is None else engine), name or kind)
+            return VisionWorker(
+                vision_engine(DETECTOR if engine is None else engine, also), name or kind
+            )
         case "decision":
-            return decision_worker(ASSISTANT if engine is None else engine, name=name or kind)
+            return decision_worker(
+                ASSISTANT if engine is None else engine, name=name or kind, also=also
+            )
     raise WorkerError(f"no reference worker {kind!r}; expected decision, asr, tts or vision")

@@ -89,6 +89,8 @@ class Call:
     """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False
     """True if it says pan pan (5.3.3)."""
+    emergency_descent: bool = False
+    """True if it announces an emergency descent (ICAO Doc 4444, 15.1.4)."""
     corrected: bool = False
     """True if it corrects itself or the call before it."""
     negative: bool = False

@@ -71,7 +71,7 @@ def is_meant(
     floor
         End of the words of the action before it.
     before_is_meant
-        Whether the action before it is meant: "do not cross or line up" denies both.
+        True if the action before it is meant: "do not cross or line up" denies both.
 
     Notes
     -----

@@ -31,6 +31,7 @@ from airhilt.phraseology.slots import (
 from airhilt.phraseology.words import MENDED, Words, words_of
 
 DISTRESS = "mayday"
+EMERGENCY_DESCENT = "emergency descent"
 URGENCY = "pan"
 NO_CALLSIGN = 0.5
 """Confidence in a call that names no callsign on the frequency, or two ambiguous ones."""
@@ -151,6 +152,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         instructions=tuple(content.instructions),
         distress=DISTRESS in present,
         urgency=URGENCY in present,
+        emergency_descent=EMERGENCY_DESCENT in text,
         corrected=corrects or "correction" in present,
         negative="negative" in first or "unable" in present,
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),

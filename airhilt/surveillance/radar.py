@@ -6,6 +6,12 @@ from the antenna.
 
 Sources
 -------
+FAA
+    "Airport Surveillance Radar (ASR-11)", page of the FAA at faa.gov/air_traffic/technology/asr-11:
+    the primary radar reaches 60 NM.
+CARDS
+    Card index of radar sets, radartutorial.eu: ASR-11 (under DASR) with 60 NM and 12 turns a
+    minute; ARSR-3 with 5 turns a minute, 310 to 365 pulses a second and 240 NM.
 STUDY
     Next Generation Airport Surveillance Radar Definition Study, FAA, 1974 (DTIC ADA072691): an
     aircraft of 1 square metre out to 40 NM, elevation angles to 30 degrees, instrumented to 60 NM.
@@ -16,12 +22,19 @@ STANDARD
     (6.4.3.1). Secondary radar: probability of detection above 97 % (6.3.2.1); errors of a monopulse
     radar below 70 m and 0.08 degrees, valid codes above 98 % and 96 % (6.3, not checked against the
     text). The limits are taken as the values.
+COVERAGE
+    CAP 670, Air Traffic Services Safety Requirements, UK CAA, requirement 458 (paragraph 13.1.2 of
+    its section on radar, in an edition before 2012): a primary radar detects a target of 1 square
+    metre, of Swerling case 1, with a probability of 80 % where it serves, and of 90 % for
+    approaches by radar.
 SKOLNIK
     M. Skolnik, "Radar", Encyclopaedia Britannica, and Introduction to Radar Systems, 3rd edition,
     table 2.2: radar cross sections; 2 square metres is the least that air traffic control asks for.
 
 The standard's 90 % is of all traffic, whatever its size. That it holds for the smallest aircraft at
-the study's range is an assumption that favours the radar.
+the study's range is an assumption that favours the radar: COVERAGE asks for 80 % in general.
+
+Figures that are called typical are those of such radars in general, and not from a specification.
 
 Not modelled: systematic errors of range and north, false plots, reflections, garbled replies,
 weather, terrain, and the reduced sensitivity at short range that hides birds.
@@ -40,7 +53,7 @@ from airhilt.surveillance.squitters import quantise
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 FALSE_ALARM_PROBABILITY = 1e-6
-"""Probability of a false alarm in one resolution cell, a usual design value (SKOLNIK)."""
+"""Probability of a false alarm in one resolution cell, a typical design value."""
 RANGE_STEP_M = NAUTICAL_MILE / 256.0
 """Resolution of a plot's range, in m (EUROCONTROL ASTERIX category 048, item I048/040)."""
 AZIMUTH_STEP_DEG = 360.0 / 65536.0
@@ -120,8 +133,8 @@ class RadarModel:
         """Return the probability that the primary radar detects a target in one turn.
 
         The radar equation gives the signal-to-noise ratio from that of the design point; the target
-        fluctuates from turn to turn (Swerling case 1; SKOLNIK, section 2.8), for which the
-        probability is that of a false alarm to the power of 1 / (1 + ratio).
+        fluctuates from turn to turn (Swerling case 1: COVERAGE; SKOLNIK, section 2.8), for which
+        the probability is that of a false alarm to the power of 1 / (1 + ratio).
         """
         false_alarm = math.log(FALSE_ALARM_PROBABILITY)
         reference = false_alarm / math.log(self.reference_probability) - 1.0
@@ -131,8 +144,8 @@ class RadarModel:
 
 
 RADARS: dict[RadarKind, RadarModel] = {
-    # Rotation and ranges: FAA, ASR-11 (12.5 turns a minute; primary 60 NM, secondary 120 NM).
-    # 0.107 m at 1200 pulses a second.
+    # Modelled on the ASR-11. Primary range: FAA. 12.5 turns a minute (CARDS: 12), the least range,
+    # the secondary range, and 1200 pulses a second at 0.107 m are typical.
     "terminal": RadarModel(
         rotation_s=4.8,
         minimum_range_m=0.5 * NAUTICAL_MILE,
@@ -142,9 +155,9 @@ RADARS: dict[RadarKind, RadarModel] = {
         reference_range_m=40.0 * NAUTICAL_MILE,
         clutter_speed_m_s=8.0,
     ),
-    # Rotation and ranges: FAA, ARSR-4 (5 turns a minute, 5 to 250 NM). 0.23 m at 340 pulses a
-    # second, as ARSR-3 (radartutorial.eu). The design point is the least target of SKOLNIK at the
-    # 200 NM that long-range radars reach at least.
+    # Modelled on the ARSR-4. Rotation, and 340 pulses a second at 0.23 m: those of the ARSR-3
+    # (CARDS). The ranges, 5 to 250 NM, are typical. The design point is the least target of
+    # SKOLNIK at 200 NM, a range that is typical too.
     "en_route": RadarModel(
         rotation_s=12.0,
         minimum_range_m=5.0 * NAUTICAL_MILE,

@@ -17,7 +17,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.assistant.reference import families
+from airhilt.assistant.reference import families, reference_worker
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
@@ -199,9 +199,11 @@ def test_a_run_decides_and_words_with_engines_of_other_packages(
         )
     assert result.summary.assistant == "nervous"
     told = messages(result, "advisory/", Advisory)
-    assert {(one.id, one.recipient, one.message) for one in told} == {
-        ("decision-heard-AAL123", "ATC", "ATC! ADVISORY! HEARD AAL123"),
-        ("decision-heard-DAL456", "ATC", "ATC! ADVISORY! HEARD DAL456"),
+    assert {one.id for one in told} <= {"decision-AAL123-DAL456", "decision-DAL456-AAL123"}
+    assert {(one.recipient, one.message) for one in told} == {
+        ("AAL123", "AAL123! CAUTION! SAME LEVEL"),
+        ("DAL456", "DAL456! CAUTION! SAME LEVEL"),
+        ("ATC", "ATC! CAUTION! SAME LEVEL"),
     }
     with (
         installed(tmp_path, monkeypatch, "airhilt.assistants", "nervous", ASSISTANT),
@@ -227,7 +229,8 @@ def test_a_worker_of_its_own_process_takes_engines_of_other_packages(
                 attach=("mine",),
             )
     told = messages(result, "advisory/", Advisory)
-    assert {one.id for one in told} == {"mine-heard-AAL123", "mine-heard-DAL456"}
+    assert len(told) == 3
+    assert {one.id for one in told} <= {"mine-AAL123-DAL456", "mine-DAL456-AAL123"}
 
 
 def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None:
@@ -248,8 +251,8 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
     ]
 
 
-def test_an_assistant_that_is_none_is_named_with_what_there_is() -> None:
-    expected = "expected reference, none, or external; did you mean 'reference'?"
+def test_an_assistant_of_another_name_is_refused_with_the_nearest() -> None:
+    expected = "expected adsb_only, or reference; did you mean 'reference'?"
     with pytest.raises(AirhiltError, match=re.escape(expected)):
         decision_engine("referense")
 
@@ -490,7 +493,7 @@ def test_a_model_file_goes_to_the_detector_that_takes_such_files(tmp_path: Path)
 def test_an_error_says_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Package, "found", lambda _: "")
     with pytest.raises(
-        VisionError, match=r"yolo:FILE \(needs pip install 'airhilt\[yolo\]'\), the"
+        VisionError, match=r"yolo:FILE \(needs pip install 'airhilt\[yolo\]'\), or the"
     ):
         DETECTORS.create("nobody")
 
@@ -501,8 +504,19 @@ def test_an_error_names_all_forms_and_the_nearest_name(monkeypatch: pytest.Monke
         DETECTORS.create("embeded")
     assert str(caught.value) == (
         "detector 'embeded': there is none of that name; expected embedded, embedded:FILE.onnx, "
-        "yolo:FILE, the address of a service, or none; did you mean 'embedded'?"
+        "yolo:FILE, or the address of a service; did you mean 'embedded'?"
     )
+
+
+def test_only_a_run_takes_a_word_in_the_place_of_an_engine(tmp_path: Path) -> None:
+    for kind in ("decision", "vision"):
+        with pytest.raises(AirhiltError, match="'none': there is none of that name") as caught:
+            reference_worker(kind, "none")
+        assert str(caught.value).count("none") == 2
+    with pytest.raises(AirhiltError, match="external; did you mean 'external'"):
+        run("s02a_headon", assistant="externl", out=tmp_path / "run")
+    with pytest.raises(VisionError, match="or none; did you mean 'none'"):
+        run("s01b_nominal", detector="non", out=tmp_path / "run")
 
 
 def test_a_name_takes_no_argument_that_it_does_not_know() -> None:

@@ -26,6 +26,8 @@ class AirTracks:
 
     def __init__(self) -> None:
         self._tracks: dict[str, Track] = {}
+        self._heard_ns: dict[str, int] = {}
+        """Time at which the last report of each in flight arrived, however old it was."""
         self._grounded: set[str] = set()
         self._updated: dict[str, None] = {}
         self._carried: dict[str, Track] = {}
@@ -36,12 +38,13 @@ class AirTracks:
     def __getitem__(self, icao24: str) -> Track:
         return self._tracks[icao24]
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Update the track of an aircraft, or note that it is on the ground."""
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Update the track of an aircraft at a time, or note that it is on the ground."""
         if report.altitude_ft is None:
             self._grounded.add(report.icao24)
             return
         self._grounded.discard(report.icao24)
+        self._heard_ns[report.icao24] = t_ns
         self._updated[report.icao24] = None
         track = self._tracks.get(report.icao24)
         if track is None:
@@ -58,9 +61,9 @@ class AirTracks:
         return track.icao24 in self._grounded
 
     def begin_step(self, oldest_ns: int, kept: Collection[Pair]) -> None:
-        """Drop the tracks without news since a time, except those in pairs that are kept."""
+        """Drop the tracks of which nothing arrived since a time, but for pairs that are kept."""
         self._carried.clear()
-        stale = [icao24 for icao24, track in self._tracks.items() if track.t_ns < oldest_ns]
+        stale = [icao24 for icao24 in self._tracks if self._heard_ns[icao24] < oldest_ns]
         coasting = {icao24 for pair in kept for icao24 in pair} if stale else set()
         for icao24 in stale:
             if icao24 not in coasting:
@@ -84,11 +87,12 @@ class AirTracks:
         look-ahead; they are left out here, where it is cheap.
         """
         seen = set()
+        rates = {name: abs(track.profile().rate_m_s) for name, track in self._tracks.items()}
         for icao24 in self._updated:
             own = self._tracks.get(icao24)
             if own is None:
                 continue
-            level_m = reach.vertical_m + abs(own.vertical_rate_m_s) * reach.time_s
+            level_m = reach.vertical_m + rates[icao24] * reach.time_s
             north_m = reach.horizontal_m + abs(own.velocity_north_m_s) * reach.time_s
             for name, other in self._tracks.items():
                 pair = (icao24, name) if icao24 < name else (name, icao24)
@@ -97,7 +101,7 @@ class AirTracks:
                 gap_m = abs(own.altitude_m - other.altitude_m)
                 apart_m = abs(own.latitude_rad - other.latitude_rad) * LEAST_CURVATURE_RADIUS_M
                 if pair in wanted or (
-                    gap_m <= level_m + abs(other.vertical_rate_m_s) * reach.time_s
+                    gap_m <= level_m + rates[name] * reach.time_s
                     and apart_m <= north_m + abs(other.velocity_north_m_s) * reach.time_s
                 ):
                     seen.add(pair)
@@ -105,4 +109,4 @@ class AirTracks:
 
     def silent_ns(self, pair: Pair, t_ns: int) -> int:
         """Return how long nothing has been heard of either of a pair."""
-        return t_ns - max(self._tracks[icao24].t_ns for icao24 in pair)
+        return t_ns - max(self._heard_ns[icao24] for icao24 in pair)

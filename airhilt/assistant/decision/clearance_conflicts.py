@@ -1,4 +1,4 @@
-"""Steps (a) and (c) of the ladder: what was said does not agree, and the runway is in use."""
+"""Steps (a) and (c) of the ladder: what was said does not agree, or was not said."""
 
 from __future__ import annotations
 
@@ -6,22 +6,26 @@ import itertools
 from collections.abc import Iterator
 
 from airhilt.assistant.decision.aerodrome import Strip
-from airhilt.assistant.decision.clearances import Discrepancy
-from airhilt.assistant.decision.findings import OpposedClearances, RunwayMisread
+from airhilt.assistant.decision.clearances import Discrepancy, Unanswered
+from airhilt.assistant.decision.findings import NotReadBack, OpposedClearances, RunwayMisread
 from airhilt.assistant.decision.threats import Outlook, Threat
 from airhilt.messages import Severity
+from airhilt.phraseology import Instruction
 
 
 def clearance_conflicts(outlook: Outlook) -> Iterator[Threat]:
     """Yield wrong readbacks, and clearances that oppose each other."""
     for discrepancy in outlook.situation.clearances.discrepancies(outlook.t_ns):
         yield from _misread(outlook, discrepancy)
+    for unanswered in outlook.situation.clearances.unanswered(outlook.t_ns):
+        yield from _not_read_back(outlook, unanswered)
     yield from _opposed(outlook)
 
 
 def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
     """Yield the threat of a readback that is wrong, or somebody else's, for an active runway."""
-    strip, activity = _activity(outlook, discrepancy)
+    said = (discrepancy.read, discrepancy.given)
+    strip, activity = _activity(outlook, discrepancy.callsign, said)
     if strip is None or not activity:
         return
     parties = tuple(dict.fromkeys((discrepancy.callsign, discrepancy.addressed)))
@@ -44,13 +48,34 @@ def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
     )
 
 
-def _activity(outlook: Outlook, discrepancy: Discrepancy) -> tuple[Strip | None, list[str]]:
-    """Return the runway that a wrong readback is about, and who else uses it."""
+def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]:
+    """Yield the threat that somebody does not know to keep off an active runway."""
+    callsign, given = unanswered.callsign, unanswered.given
+    strip, activity = _activity(outlook, callsign, (given,))
+    if strip is None or not activity:
+        return
+    yield Threat(
+        ("silence", callsign, str(unanswered.t_end_ns)),
+        Severity.CAUTION,
+        strip,
+        given.runway or strip.directions[0].ident,
+        (callsign,),
+        (callsign, activity[0]),
+        NotReadBack(callsign, given, activity[0]),
+        sources=("radio", "adsb"),
+        kind="readback_mismatch",
+    )
+
+
+def _activity(
+    outlook: Outlook, callsign: str, said: tuple[Instruction | None, ...]
+) -> tuple[Strip | None, list[str]]:
+    """Return the runway that an instruction is about, and who else uses it."""
     aerodrome = outlook.situation.aerodrome
-    named = [each.runway for each in (discrepancy.read, discrepancy.given) if each]
+    named = [each.runway for each in said if each]
     strips = [strip for ident in named if (strip := aerodrome.strip_of(ident)) is not None]
     for strip in dict.fromkeys(strips) or aerodrome.strips:
-        activity = [name for name in _active(outlook, strip) if name != discrepancy.callsign]
+        activity = [name for name in _active(outlook, strip) if name != callsign]
         if activity:
             return strip, list(dict.fromkeys(activity))
     return None, []

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from airhilt.messages import Transcript
+from airhilt.assistant.decision.readback_silence import ReadbackSilence
+from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.phraseology import Action, Call, Instruction
 from airhilt.units import SECOND_NS
 
@@ -21,6 +22,10 @@ READBACK_WINDOW_NS = 30 * SECOND_NS
 """A readback later than this after its instruction, in ns, belongs to something else."""
 DISCREPANCY_NS = 120 * SECOND_NS
 """Time for which an uncorrected wrong readback matters, in ns."""
+RESTRICTING: frozenset[Action] = frozenset(
+    {"cancel_takeoff", "go_around", "hold_short", "hold_position"}
+)
+"""Instructions that keep somebody off a runway: who has not received one goes on."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 
 
@@ -47,13 +52,26 @@ class Discrepancy:
     t_end_ns: int
 
 
+@dataclass(frozen=True, slots=True)
+class Unanswered:
+    """An instruction to keep off a runway that nobody has read back in time."""
+
+    callsign: str
+    given: Instruction
+    t_end_ns: int
+
+
 @dataclass(slots=True)
 class _Addressed:
     """The last call to somebody."""
 
     instructions: tuple[Instruction, ...]
-    t_end_ns: int
+    call: Transcript
     answered: bool = False
+
+    @property
+    def t_end_ns(self) -> int:
+        return self.call.t_end_ns
 
 
 class Clearances:
@@ -64,18 +82,26 @@ class Clearances:
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
+        self._silence = ReadbackSilence()
+
+    def take_opening(self, opened: TransmissionOpened) -> None:
+        """Note that somebody has begun to transmit."""
+        self._silence.take_opening(opened)
 
     def take(self, call: Call, transcript: Transcript) -> None:
         """Update clearances and discrepancies with a call."""
+        self._silence.take_transcript(transcript)
         said = tuple(each for each in call.instructions if each.action not in REPORTS)
         if call.callsign is None:
             return
         if call.addressed_first:
-            self._addressed[call.callsign] = _Addressed(said, transcript.t_end_ns)
+            self._addressed[call.callsign] = _Addressed(said, transcript)
             if said:
                 self._settle(call.callsign)
         elif said:
             said = self._compare(call.callsign, said, transcript)
+        elif (given := self._recent(call.callsign, transcript.t_tx_ns)) is not None:
+            given.answered = True
         if said:
             self._act_on(call.callsign, said, transcript.t_end_ns)
 
@@ -95,6 +121,15 @@ class Clearances:
         for discrepancy in self._discrepancies.values():
             if t_ns - discrepancy.t_end_ns <= DISCREPANCY_NS:
                 yield discrepancy
+
+    def unanswered(self, t_ns: int) -> Iterator[Unanswered]:
+        """Yield the instructions to keep off a runway whose readback is late."""
+        for callsign, addressed in self._addressed.items():
+            if addressed.answered or t_ns - addressed.t_end_ns > DISCREPANCY_NS:
+                continue
+            given = [each for each in addressed.instructions if each.action in RESTRICTING]
+            if given and self._silence.is_late(addressed.call, t_ns):
+                yield Unanswered(callsign, given[0], addressed.t_end_ns)
 
     def finish(self, callsign: str, *actions: Action) -> None:
         """End clearances that somebody has used."""

@@ -19,7 +19,7 @@ class Received(NamedTuple):
     Attributes
     ----------
     t_in_ns
-        When it arrived at the assistant.
+        Time of arrival at the assistant.
     t_ns
         Time now: later than that if the worker was busy.
     payload
@@ -38,7 +38,7 @@ class Decision(NamedTuple):
     Attributes
     ----------
     again_ns
-        When to ask it again even if nothing more arrives; None: not before something does.
+        Time to ask it again even if nothing more arrives; None: not before something does.
     """
 
     alerts: Sequence[Alert] = ()

@@ -109,9 +109,9 @@ class RunwayMisread:
     Attributes
     ----------
     callsign
-        Who read back.
+        Speaker of the readback.
     addressed
-        Who was meant.
+        Callsign that was meant.
     given
         The instruction; None if there was none of the kind.
     traffic
@@ -131,6 +131,27 @@ class RunwayMisread:
             return f"{read} for {self.addressed} was read back by {self.callsign}, {traffic}"
         given = _instruction(self.given) if self.given else "nothing of the kind"
         return f"{self.callsign} read back {read}, was told {given}, {traffic}"
+
+
+@dataclass(frozen=True, slots=True)
+class NotReadBack:
+    """Somebody has not read back an instruction to keep off a runway that is in use.
+
+    Attributes
+    ----------
+    traffic
+        Callsign of somebody else who uses the runway.
+    """
+
+    callsign: str
+    given: Instruction
+    traffic: str
+
+    def statement(self) -> str:
+        """Return the finding in a few words."""
+        return (
+            f"{self.callsign} has not read back {_instruction(self.given)}, traffic {self.traffic}"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +213,7 @@ class Intruder:
     carrier
         Callsign of the aircraft with the camera.
     is_birds
-        Whether it is birds, and not an aircraft.
+        True if it is birds, and not an aircraft.
     callsign
         Callsign that it has on ADS-B; None if it has no transponder.
     contact_s
@@ -214,7 +235,13 @@ class Intruder:
 
 
 Finding = (
-    LossOfSeparation | LevelMisread | RunwayMisread | Obstruction | OpposedClearances | Intruder
+    LossOfSeparation
+    | LevelMisread
+    | RunwayMisread
+    | NotReadBack
+    | Obstruction
+    | OpposedClearances
+    | Intruder
 )
 
 

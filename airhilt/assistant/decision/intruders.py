@@ -17,6 +17,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Intruder, Where
 from airhilt.assistant.decision.line_of_sight import Ray
 from airhilt.assistant.decision.resolution import STRONG_VERTICAL_RATE_FPM, TURN_DEG
+from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
 from airhilt.assistant.decision.visual_tracks import (
     BLIND_NS,
     VisualTrack,
@@ -280,15 +281,14 @@ class IntruderWatch:
         since_s = (t_ns - track.last.t_ns) / SECOND_NS
         left_s = min(max(encounter.approach.time_s - since_s, 0.0), UNRELIABLE_S)
         advice = ongoing.recommendation if active else None
+        unnamed = WILDLIFE if track.label == "bird" else UNIDENTIFIED
         told = Alert(
             id=ongoing.id,
             revision=ongoing.revision,
             kind="loss_of_separation",
             severity=severity if active else Severity.INFO,
             recipients=(ongoing.carrier, CONTROLLER) if to_crew else (CONTROLLER,),
-            traffic=(ongoing.carrier, track.explained_by)
-            if track.explained_by
-            else (ongoing.carrier,),
+            traffic=(ongoing.carrier, track.explained_by or unnamed),
             evidence=Evidence(
                 sources=("vision", "adsb") if track.explained_by else ("vision",),
                 time_to_closest_approach_s=left_s,

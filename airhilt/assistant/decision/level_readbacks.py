@@ -38,9 +38,11 @@ class LevelReadbacks:
         """Update levels with a call, and return a wrong readback with traffic at that level."""
         call = parse_call(transcript.text, [track.callsign for track in self._tracks])
         track = self._tracks.by_callsign(call.callsign) if call.callsign else None
-        if track is not None and call.distress:
+        if track is not None and (call.distress or call.emergency_descent):
             track.in_distress = True
             track.cleared_m = None
+            if call.emergency_descent and not call.addressed_first:
+                track.descent_ns = t_ns
             return None
         if track is None or call.altitude_ft is None:
             return None
@@ -48,7 +50,7 @@ class LevelReadbacks:
             self._clearances[track.callsign] = _Clearance(call.altitude_ft, transcript.t_end_ns)
             return None
         given = self._clearances.get(track.callsign)
-        track.cleared_m = call.altitude_ft * FOOT
+        track.clear(call.altitude_ft * FOOT, t_ns)
         if (
             given is None
             or call.altitude_ft == given.altitude_ft
@@ -58,7 +60,6 @@ class LevelReadbacks:
         threatened = self._threatened(t_ns, track, call, config)
         if threatened is None:
             return None
-        track.cleared_m = given.altitude_ft * FOOT
         return LevelMisread(
             callsign=track.callsign,
             read_ft=call.altitude_ft,

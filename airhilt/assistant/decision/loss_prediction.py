@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.tracks import Track
-from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.geodesy.relative_motion import (
+    Minima,
+    Relative,
+    VerticalProfile,
+    relative,
+    time_to_loss_s,
+)
 from airhilt.messages import Evidence, Severity
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 
@@ -22,7 +29,7 @@ class SeparationConfig:
 
     horizontal_m: float = 5.0 * NAUTICAL_MILE
     vertical_m: float = 1000.0 * FOOT
-    vertical_tolerance_m: float = 150.0 * FOOT
+    vertical_tolerance_m: float = 75.0 * FOOT
     """Allowance for level keeping, the 25 ft steps of ADS-B and the spread of its rate, in m."""
     advisory_s: float = 180.0
     caution_s: float = 120.0
@@ -32,7 +39,7 @@ class SeparationConfig:
     release_s: float = 8.0
     """Time for which a conflict must be over before that is told, in s."""
     stale_s: float = 15.0
-    """Age at which a track is dropped, in s."""
+    """Silence after which a track is dropped, in s: late reports are carried on to the present."""
     readback_window_s: float = 30.0
     """A readback later than this after its clearance, in s, belongs to something else."""
 
@@ -62,8 +69,9 @@ class Prediction(NamedTuple):
     ----------
     horizontal_m, vertical_m
         Distances at the closest approach.
-    is_past
-        Whether the two will not come within the horizontal minimum again.
+    is_over
+        True if the two are past each other, or draw apart on paths that stay clear, or move so
+        slowly against each other that no turn brings them together within the look-ahead.
     """
 
     first: Track
@@ -72,7 +80,7 @@ class Prediction(NamedTuple):
     time_to_closest_approach_s: float
     horizontal_m: float
     vertical_m: float
-    is_past: bool
+    is_over: bool
 
     @property
     def callsigns(self) -> tuple[str, str]:
@@ -102,17 +110,18 @@ def predict(
     Parameters
     ----------
     zone
-        Where a tower keeps aircraft apart by sight.
+        Airspace in which a tower keeps aircraft apart by sight.
     is_on_ground
-        Whether either is on the ground by its last report.
+        True if either is on the ground by its last report.
     """
     motion = relative(first, second)
     profiles = (first.profile(), second.profile())
     interval = motion.interval_within(config.horizontal_m)
-    is_past = interval is None or interval[1] <= 0.0 or interval[0] > config.advisory_s
-    loss_s = None if is_past else time_to_loss_s(motion, *profiles, config.infringed)
+    is_near = interval is not None and interval[1] > 0.0 and interval[0] <= config.advisory_s
+    loss_s = time_to_loss_s(motion, *profiles, config.infringed) if is_near else None
+    is_over = _is_over(motion, config)
     if is_on_ground or _is_towers(first, second, loss_s, zone):
-        is_past, loss_s = True, None
+        is_over, loss_s = True, None
     approach_s = max(motion.time_to_closest_approach_s(), 0.0)
     return Prediction(
         first,
@@ -121,8 +130,19 @@ def predict(
         approach_s,
         motion.at(approach_s).distance_m,
         _gap_m(profiles, approach_s),
-        is_past,
+        is_over,
     )
+
+
+def _is_over(motion: Relative, config: SeparationConfig) -> bool:
+    """Return whether two will not come within the horizontal minimum, even if one turns again."""
+    interval = motion.interval_within(config.horizontal_m)
+    if interval is not None:
+        return interval[1] <= 0.0
+    if motion.time_to_closest_approach_s() <= 0.0:
+        return True
+    speed_m_s = math.hypot(motion.velocity_north_m_s, motion.velocity_east_m_s)
+    return motion.distance_m - speed_m_s * config.advisory_s > config.horizontal_m
 
 
 def _is_towers(first: Track, second: Track, loss_s: float | None, zone: TrafficZone | None) -> bool:

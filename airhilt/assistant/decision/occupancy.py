@@ -81,7 +81,7 @@ def seen_on_ground(
     Parameters
     ----------
     aloft
-        What flies, which is left out.
+        Bodies that fly, which are left out.
     animals
         Labels of animals.
     """

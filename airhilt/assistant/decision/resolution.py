@@ -17,6 +17,8 @@ VERTICAL_RATE_FPM = 1500.0
 STRONG_VERTICAL_RATE_FPM = 2500.0
 """Recommended rate in a WARNING, in ft/min: that of TCAS II's strengthened advisories."""
 TURN_DEG = 30.0
+WIDE_TURNS_DEG = (-30.0, 60.0, -60.0, 90.0, -90.0)
+"""Turns, to the right if positive, where all else loses separation."""
 RESPONSE_S = 10.0
 """Time allowed for speech and for the reactions of crew and aircraft, in s."""
 BUFFER_FT = 200.0
@@ -123,6 +125,10 @@ def _candidates(
         up_half._replace(turn_rad=TURN_DEG * DEGREE),
         down_half._replace(turn_rad=TURN_DEG * DEGREE),
     )
+    for degrees in WIDE_TURNS_DEG:
+        wide = Manoeuvre(turn_rad=degrees * DEGREE)
+        yield NONE, wide
+        yield wide, NONE
 
 
 def _vertical(track: Track) -> float:

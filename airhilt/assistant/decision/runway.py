@@ -8,6 +8,7 @@ from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.assessment import worst_threats
 from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
 from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
@@ -23,6 +24,7 @@ from airhilt.messages import (
     Recommendation,
     Severity,
     Transcript,
+    TransmissionOpened,
 )
 
 FIRM_BRAKING_M_S2 = 2.5
@@ -66,10 +68,15 @@ class RunwayWatch:
         if briefing.airport is not None and briefing.airport.runways:
             self._situation = Situation(briefing.airport, briefing)
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Update the position of an aircraft or a vehicle."""
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Update the position of an aircraft or a vehicle at a time."""
         if self._situation is not None:
-            self._situation.take_report(report)
+            self._situation.take_report(report, t_ns)
+
+    def take_opening(self, opened: TransmissionOpened) -> None:
+        """Note that somebody has begun to transmit."""
+        if self._situation is not None:
+            self._situation.take_opening(opened)
 
     def take_transcript(self, transcript: Transcript) -> None:
         """Update clearances with a call."""
@@ -132,12 +139,12 @@ class RunwayWatch:
         """Return what a mobile should do to stay clear.
 
         On final and while rolling, something is recommended for a WARNING only; on final also if a
-        readback was wrong and time is short.
+        readback was wrong and time is short, and to whoever was told so and has not answered.
         """
         use = situation.use(mobile)
         if use is None:
             return _stop(mobile, threat.strip, threat.runway)
-        is_urgent = severity is Severity.WARNING
+        is_urgent = severity is Severity.WARNING or isinstance(threat.finding, NotReadBack)
         if use.kind == "arrival":
             time_to_go_s = use.time_to_threshold_s(mobile.t_ns)
             misread = threat.kind == "readback_mismatch" and time_to_go_s <= self.config.caution_s

@@ -20,7 +20,6 @@ from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
     Briefing,
-    Climb,
     Evidence,
     MaintainLevel,
     Recommendation,
@@ -76,9 +75,9 @@ class SeparationWatch:
         )
         self._zone = TrafficZone.of(briefing.airport) if briefing.airport else None
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Update the track of an aircraft."""
-        self._tracks.take_report(report)
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Update the track of an aircraft at a time."""
+        self._tracks.take_report(report, t_ns)
 
     def take_transcript(self, t_ns: int, t_in_ns: int, transcript: Transcript) -> None:
         """Update cleared levels with a call; a wrong readback is told when judged next."""
@@ -143,15 +142,16 @@ class SeparationWatch:
     def _calm(self, t_ns: int, conflict: _Conflict, prediction: Prediction) -> list[Alert]:
         """End a conflict once it is over for good.
 
-        While a recommendation is being followed the prediction is clear, but going back to the
-        old level would bring the conflict back: it stays until the two are past each other.
+        While a recommendation is followed, or one of the two turns, the prediction is clear, but
+        going back would bring the conflict back: it stays until the two are past each other. If
+        it does come back, it is told again.
         """
         severity = conflict.escalation.severity
         if severity is None:
             del self._conflicts[conflict.pair]
             return []
-        if not prediction.is_past and severity.rank >= Severity.CAUTION.rank:
-            conflict.escalation.stays()
+        if not prediction.is_over and severity.rank >= Severity.CAUTION.rank:
+            conflict.escalation.stays_open(t_ns, self.config.release_s)
             return []
         if not conflict.escalation.is_over(t_ns, self.config.release_s):
             return []
@@ -159,7 +159,7 @@ class SeparationWatch:
         return [self._alert(conflict, prediction, active=False)]
 
     def _recommend(self, conflict: _Conflict, prediction: Prediction) -> None:
-        """Choose what both do, and take it for what they are cleared to."""
+        """Choose what both are told to do; what they do is seen on their tracks."""
         others = [
             track.at(prediction.first.t_ns)
             for track in self._tracks
@@ -174,9 +174,6 @@ class SeparationWatch:
             strong=conflict.escalation.severity is Severity.WARNING and conflict.revision > 0,
         )
         conflict.recommendations = (resolution.first, resolution.second)
-        for icao24, recommended in zip(conflict.pair, conflict.recommendations, strict=True):
-            if isinstance(recommended, Climb | MaintainLevel):
-                self._tracks[icao24].cleared_m = recommended.altitude_ft * FOOT
 
     def _alert(self, conflict: _Conflict, prediction: Prediction, active: bool) -> Alert:
         """Return the alert about a conflict; crews are told from CAUTION on."""

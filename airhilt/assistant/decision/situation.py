@@ -17,12 +17,12 @@ from airhilt.assistant.decision.occupancy import (
     velocity_of,
 )
 from airhilt.assistant.decision.visual_tracks import VisualTracks
-from airhilt.messages import AdsbReport, AirportBriefing, Briefing, Transcript
+from airhilt.messages import AdsbReport, AirportBriefing, Briefing, Transcript, TransmissionOpened
 from airhilt.phraseology import Call, parse_call
 from airhilt.units import SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
-"""Age at which a mobile is forgotten, in ns."""
+"""Silence after which a mobile is forgotten, in ns."""
 STALE_STANDING_NS = 30 * SECOND_NS
 """Likewise for a standing mobile, which squitters every five seconds."""
 WILDLIFE_NS = 120 * SECOND_NS
@@ -56,7 +56,7 @@ class SeenObstacle(NamedTuple):
     weight
         Probability that it is there and in the area.
     is_certain
-        Whether both count as certain.
+        True if both count as certain.
     """
 
     thing: SeenOnGround
@@ -83,6 +83,8 @@ class Situation:
         """Mark of each callsign that is a vehicle."""
         self._animals = frozenset(briefing.animals)
         self._mobiles: dict[str, Mobile] = {}
+        self._heard_ns: dict[str, int] = {}
+        """Time at which the last report of each arrived, however old it was."""
         self._obstacles: dict[str, dict[str, Obstacle]] = {
             strip.name: {} for strip in self.aerodrome.strips
         }
@@ -149,8 +151,9 @@ class Situation:
         reported_ns = self._wildlife_ns.get(strip.name)
         return reported_ns is not None and t_ns - reported_ns <= WILDLIFE_NS
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Update the position of an aircraft or a vehicle."""
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Update the position of an aircraft or a vehicle at a time."""
+        self._heard_ns[report.icao24] = t_ns
         point = self.aerodrome.locate(report.latitude_deg, report.longitude_deg)
         mobile = self._mobiles.get(report.icao24)
         if mobile is None:
@@ -183,14 +186,19 @@ class Situation:
             self.uses[mobile.icao24] = use
 
     def forget(self, t_ns: int) -> None:
-        """Forget the mobiles without recent reports."""
+        """Forget the mobiles of which nothing arrived for a while."""
         for icao24, mobile in list(self._mobiles.items()):
             standing = mobile.on_ground and mobile.speed_m_s < STANDING_M_S
-            if t_ns - mobile.t_ns > (STALE_STANDING_NS if standing else STALE_NS):
+            silent_ns = t_ns - self._heard_ns[icao24]
+            if silent_ns > (STALE_STANDING_NS if standing else STALE_NS):
                 del self._mobiles[icao24]
                 self.uses.pop(icao24, None)
                 for obstacles in self._obstacles.values():
                     obstacles.pop(icao24, None)
+
+    def take_opening(self, opened: TransmissionOpened) -> None:
+        """Note that somebody has begun to transmit."""
+        self.clearances.take_opening(opened)
 
     def take_transcript(self, transcript: Transcript) -> None:
         """Update clearances and reports of wildlife with a call."""

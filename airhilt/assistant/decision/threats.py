@@ -10,6 +10,7 @@ from typing import Literal
 from airhilt.assistant.decision.aerodrome import Strip, Vector
 from airhilt.assistant.decision.clearances import Clearance
 from airhilt.assistant.decision.findings import (
+    NotReadBack,
     Obstruction,
     Obstructs,
     OpposedClearances,
@@ -81,7 +82,7 @@ class Threat:
     runway: str
     parties: tuple[str, ...]
     traffic: tuple[str, ...]
-    finding: Obstruction | RunwayMisread | OpposedClearances
+    finding: Obstruction | RunwayMisread | NotReadBack | OpposedClearances
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"

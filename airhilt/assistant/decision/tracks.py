@@ -17,6 +17,13 @@ LEVEL_WITHIN_M = 200 * FOOT
 
 The filtered rate may still say otherwise. It is the tolerance of ICAO Doc 4444, 8.5.5.2.1, in RVSM
 airspace."""
+UNFOLLOWED_NS = 30 * SECOND_NS
+"""Time after a readback, in ns, from which its level is no longer expected of an aircraft that
+moves away from it: twice the time in which crews begin what they read back."""
+EMERGENCY_DESCENT_M_S = 5000 * FOOT_PER_MINUTE
+"""Rate of an emergency descent, in m/s, until it is seen: airliners do 4,000 to 7,500 ft/min."""
+EMERGENCY_LEVEL_M = 10_000 * FOOT
+"""Level to which cabins without pressure descend, in m (14 CFR 121.329: oxygen above it)."""
 VELOCITY_MEMORY = 0.6
 """Weight of the earlier velocity in the exponential mean; about 1 s at two reports a second."""
 
@@ -35,9 +42,13 @@ class Track:
     velocity_east_m_s: float
     vertical_rate_m_s: float
     cleared_m: float | None = None
-    """Level that was last read back, or recommended, in m."""
+    """Level that was last read back, in m."""
+    cleared_ns: int = 0
+    """Time of that readback."""
     in_distress: bool = False
     """True if it is in distress, and goes where it can."""
+    descent_ns: int | None = None
+    """Time at which its crew announced an emergency descent; None if they did not."""
 
     @classmethod
     def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
@@ -70,6 +81,24 @@ class Track:
         self.velocity_east_m_s = keep * self.velocity_east_m_s + (1.0 - keep) * east
         rate = report.vertical_rate_fpm * FOOT_PER_MINUTE
         self.vertical_rate_m_s = keep * self.vertical_rate_m_s + (1.0 - keep) * rate
+        if not self._is_followed():
+            self.cleared_m = None
+
+    def clear(self, level_m: float, t_ns: int) -> None:
+        """Expect it at a level that its crew has read back."""
+        self.cleared_m, self.cleared_ns = level_m, t_ns
+
+    def _is_followed(self) -> bool:
+        """Return whether it is at its cleared level, moves to it, or still may begin to.
+
+        Who stays level longer than usual may have been told to, and will end at that level.
+        """
+        if self.cleared_m is None or self.t_ns - self.cleared_ns < UNFOLLOWED_NS:
+            return True
+        to_go_m = self.cleared_m - self.altitude_m
+        is_level = abs(self.vertical_rate_m_s) < LEVEL_BELOW_M_S
+        is_there = abs(to_go_m) <= LEVEL_WITHIN_M
+        return is_level or is_there or to_go_m * self.vertical_rate_m_s > 0.0
 
     def at(self, t_ns: int) -> Track:
         """Return the track extrapolated to a time."""
@@ -91,12 +120,20 @@ class Track:
             self.velocity_east_m_s,
             self.vertical_rate_m_s,
             self.cleared_m,
+            self.cleared_ns,
             self.in_distress,
+            self.descent_ns,
         )
 
     def profile(self) -> VerticalProfile:
-        """Return the expected climb or descent: to the cleared level, if it moves towards it."""
+        """Return the expected climb or descent: to the cleared level, if it moves towards it.
+
+        An emergency descent is expected from the words on, before it can be seen.
+        """
         rate = self.vertical_rate_m_s
+        if self.descent_ns is not None and self.t_ns - self.descent_ns < UNFOLLOWED_NS:
+            steepest = min(rate, -EMERGENCY_DESCENT_M_S)
+            return VerticalProfile(self.altitude_m, steepest, EMERGENCY_LEVEL_M)
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)
         if self.cleared_m is None:

@@ -13,7 +13,7 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
 STALE_ON_GROUND_NS = 30 * SECOND_NS
-"""Ages at which reports are forgotten, in ns; who stands squitters every five seconds."""
+"""Silence after which reports are forgotten, in ns; who stands squitters every five seconds."""
 HALF_SIZE_M: dict[EmitterCategory | None, float] = {
     "A1": 8.0, "A2": 14.0, "A3": 21.0, "A5": 38.0, "C1": 7.0, "C2": 7.0,
 }  # fmt: skip
@@ -44,16 +44,18 @@ class Traffic:
     def __init__(self) -> None:
         self.ground_m: float | None = None
         self._reports: dict[str, AdsbReport] = {}
+        self._heard_ns: dict[str, int] = {}
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Keep the last report of an aircraft or a vehicle."""
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Keep the last report of an aircraft or a vehicle, which arrived at a time."""
+        self._heard_ns[report.icao24] = t_ns
         self._reports[report.icao24] = report
 
     def forget(self, t_ns: int) -> None:
-        """Forget old reports."""
+        """Forget those of whom nothing arrived for a while."""
         for icao24, report in list(self._reports.items()):
             stale_ns = STALE_ON_GROUND_NS if report.on_ground else STALE_NS
-            if t_ns - report.t_adsb_in_ns > stale_ns:
+            if t_ns - self._heard_ns[icao24] > stale_ns:
                 del self._reports[icao24]
 
     def carrier(self, view: CameraView) -> AdsbReport | None:

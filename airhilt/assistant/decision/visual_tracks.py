@@ -47,7 +47,7 @@ class Observation(NamedTuple):
     size_rad
         Width and height.
     is_whole
-        Whether all of it is in the picture.
+        True if all of it is in the picture.
     """
 
     t_ns: int
@@ -95,7 +95,9 @@ class VisualTrack:
     explained_by
         Callsign that it has by ADS-B; None if it is unknown.
     has_moved
-        Whether it has moved, or its camera moves.
+        True if it has moved, or its camera moves.
+    heard_ns
+        Time at which the last picture that shows it arrived, however old that was.
     """
 
     camera: str
@@ -103,6 +105,7 @@ class VisualTrack:
     observations: deque[Observation] = field(default_factory=deque)
     explained_by: str | None = None
     has_moved: bool = False
+    heard_ns: int = 0
     _first_box: Box | None = None
     _explained_ns: int = 0
     _looks: deque[_Look] = field(default_factory=lambda: deque(maxlen=LOOKS + 1))
@@ -203,12 +206,15 @@ class VisualTracks:
         if briefing.airport is not None:
             self.traffic.ground_m = briefing.airport.elevation_ft * FOOT
 
-    def take_report(self, report: AdsbReport) -> None:
-        """Update the position of an aircraft or a vehicle."""
-        self.traffic.take_report(report)
+    def take_report(self, report: AdsbReport, t_ns: int) -> None:
+        """Update the position of an aircraft or a vehicle at a time."""
+        self.traffic.take_report(report, t_ns)
 
-    def take_detections(self, detections: Detections) -> None:
-        """Update the tracks of a camera with one picture; a missed picture changes nothing."""
+    def take_detections(self, detections: Detections, now_ns: int) -> None:
+        """Update the tracks of a camera with one picture, which arrived at a time.
+
+        A missed picture changes nothing.
+        """
         if detections.missed:
             return
         t_ns, geometry = detections.t_frame_ns, PictureGeometry(detections.view)
@@ -221,6 +227,7 @@ class VisualTracks:
             explained_by = self.traffic.explaining(geometry, detection.box, t_ns)
             observation = Observation.of(t_ns, geometry, detection.box, detection.confidence)
             track.take(observation, detection.label, explained_by)
+            track.heard_ns = now_ns
             found[number] = track
         for number, track in followed.items():
             if number not in found:
@@ -250,7 +257,7 @@ class VisualTracks:
         self.traffic.forget(t_ns)
         for followed in self._tracks.values():
             for number, track in list(followed.items()):
-                if t_ns - track.last.t_ns > BLIND_NS:
+                if t_ns - track.heard_ns > BLIND_NS:
                     del followed[number]
 
 

@@ -54,7 +54,7 @@ class DecisionWorker:
     Parameters
     ----------
     is_gated
-        Whether to tell nothing while a transcript is to come: the topology ``gated_fusion``.
+        True to tell nothing while a transcript is to come: the topology ``gated_fusion``.
 
     Raises
     ------
@@ -93,6 +93,7 @@ class DecisionWorker:
             modality="decision",
             inputs=tuple(InputSpec(key=key, policy="batch") for key in self._models),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
+            engine=engine.name,
         )
         for wanted in self.description.inputs:
             require_no_truth(name, wanted.key)

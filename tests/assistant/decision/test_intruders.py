@@ -75,7 +75,7 @@ def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(
     warning = encounter.to("AAL123")[-2]
     assert warning.recipients == ("AAL123", "ATC")
     assert warning.kind == "loss_of_separation"
-    assert warning.traffic == ("AAL123",)
+    assert warning.traffic == ("AAL123", "unidentified")
     assert warning.evidence.sources == ("vision",)
     assert isinstance(warning.recommendation, Climb)
     assert warning.message.startswith("AAL123 traffic ahead, no transponder, closing, ")
@@ -220,7 +220,9 @@ def test_time_goes_on_after_the_last_picture() -> None:
     watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None)
     camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
     for step in range(41):
-        visual_tracks.take_detections(camera.detections(step * SECOND_NS // 8))
+        visual_tracks.take_detections(
+            camera.detections(step * SECOND_NS // 8), step * SECOND_NS // 8
+        )
     told = [
         [(alert.severity, len(alert.recipients)) for alert in watch.judge(t_ns)]
         for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))

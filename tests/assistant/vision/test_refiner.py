@@ -161,7 +161,7 @@ def test_only_likely_places_are_looked_at_and_only_so_many() -> None:
 
 
 def test_the_refiner_has_the_last_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of class, of confidence and of place; what leaves the picture is cut, and twins are one."""
+    """It decides class, confidence and place. A box is cut at the picture's edge; twins are one."""
     proposed = [place(20.0, 20.0, 0.9), place(60.0, 20.0, 0.8), place(100.0, 20.0, 0.7)]
     judged = [
         Found("deer", 0.6, (-5.0, 10.0, 25.0, 30.0)),

@@ -167,7 +167,7 @@ def test_what_was_gone_for_long_is_something_new() -> None:
 
 
 def test_a_flicker_is_forgotten_soon() -> None:
-    """Of what comes once a second at one place, nothing is ever confirmed."""
+    """A bird that is seen once a second at one place is never confirmed."""
     told = follow(
         Tracker(), lambda t: [a("bird", 320, 200, 8)] if t % 1.0 == 0.0 else [], range(320)
     )

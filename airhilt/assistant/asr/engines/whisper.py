@@ -117,8 +117,8 @@ class Whisper:
     def _speech_s(self, audio: Audio) -> float:
         if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
             return 0.0
-        spells = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
-        return float(sum(spell["end"] - spell["start"] for spell in spells)) / SAMPLE_RATE_HZ
+        intervals = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
+        return float(sum(each["end"] - each["start"] for each in intervals)) / SAMPLE_RATE_HZ
 
 
 def _as_written(callsign: str) -> str:

@@ -6,6 +6,8 @@ names its `airhilt.engines.Engine`, such as ``mine = "my_package.assistant:ENGIN
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from airhilt.assistant.decision.engine import DecisionEngine
 from airhilt.engines import EngineFamily
 
@@ -15,16 +17,20 @@ FAMILY = EngineFamily[DecisionEngine](
     __name__,
     "ENGINE",
     product=DecisionEngine,
-    also=("none", "external"),
 )
 
 
-def decision_engine(name: str) -> DecisionEngine:
+def decision_engine(name: str, also: Sequence[str] = ()) -> DecisionEngine:
     """Return the decision engine of a name such as ``reference``.
+
+    Parameters
+    ----------
+    also
+        Words that the caller takes in the place of a name, such as ``none``, for error messages.
 
     Raises
     ------
     AirhiltError
         There is none of that name, or it cannot be loaded.
     """
-    return FAMILY.create(name)
+    return FAMILY.create(name, also)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
@@ -13,7 +15,15 @@ from airhilt.assistant.decision.separation import COASTING_NS, SeparationWatch
 from airhilt.assistant.decision.threats import RunwayConfig
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.engines import Engine
-from airhilt.messages import AdsbReport, Briefing, Detections, Message, Transcript
+from airhilt.messages import (
+    AdsbReport,
+    Briefing,
+    Detections,
+    Message,
+    Transcript,
+    TransmissionAudio,
+    TransmissionOpened,
+)
 
 
 @dataclass(frozen=True)
@@ -34,6 +44,7 @@ class ReferenceEngine:
 
     name = "reference"
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
+    inputs: Mapping[str, object] = MappingProxyType({"radio/*/audio": TransmissionAudio})
 
     def __init__(self, config: ReferenceConfig | None = None) -> None:
         config = config or ReferenceConfig()
@@ -48,11 +59,12 @@ class ReferenceEngine:
         """Update tracks, clearances and belief with one message."""
         match received.message:
             case AdsbReport() as report:
-                self.separation.take_report(report)
-                self.runways.take_report(report)
-                self.visual_tracks.take_report(report)
+                for part in (self.separation, self.runways, self.visual_tracks):
+                    part.take_report(report, received.t_ns)
             case Detections() as detections:
-                self.visual_tracks.take_detections(detections)
+                self.visual_tracks.take_detections(detections, received.t_ns)
+            case TransmissionOpened() as opened:
+                self.runways.take_opening(opened)
             case Transcript() as transcript:
                 self.runways.take_transcript(transcript)
                 self.separation.take_transcript(received.t_ns, received.t_in_ns, transcript)

@@ -6,6 +6,8 @@ names its `airhilt.engines.Engine`, such as ``mine = "my_package.detector:ENGINE
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from airhilt.assistant.vision.detector import Detector
 from airhilt.engines import EngineFamily
 from airhilt.errors import VisionError
@@ -17,16 +19,20 @@ FAMILY = EngineFamily[Detector](
     "ENGINE",
     error=VisionError,
     product=Detector,
-    also=("none",),
 )
 
 
-def vision_engine(name: str) -> Detector:
+def vision_engine(name: str, also: Sequence[str] = ()) -> Detector:
     """Return the detector of a name such as ``embedded`` or ``yolo:models/yolov10n.pt``.
+
+    Parameters
+    ----------
+    also
+        Words that the caller takes in the place of a name, such as ``none``, for error messages.
 
     Raises
     ------
     VisionError
         There is none of that name, or it cannot be loaded.
     """
-    return FAMILY.create(name)
+    return FAMILY.create(name, also)

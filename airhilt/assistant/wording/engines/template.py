@@ -7,6 +7,7 @@ from airhilt.assistant.decision.findings import (
     Intruder,
     LevelMisread,
     LossOfSeparation,
+    NotReadBack,
     Obstruction,
     RunwayMisread,
 )
@@ -78,7 +79,7 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
     when = "" if left_s is None else f", {left_s:.0f} s to go"
     if recipient == CONTROLLER:
         actions = [f"{name} {_action(each)}" for name, each in alert.recommendations.items()]
-        is_misread = isinstance(alert.finding, RunwayMisread)
+        is_misread = isinstance(alert.finding, RunwayMisread | NotReadBack)
         user = "" if is_misread or not alert.traffic else f"{alert.traffic[0]}, "
         return "; ".join([f"{user}{statement}{when}", *actions])
     recommended = alert.recommendations.get(recipient)

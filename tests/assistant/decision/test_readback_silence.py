@@ -1,0 +1,66 @@
+"""An instruction to keep off a runway that nobody reads back is told, once its readback is late."""
+
+from __future__ import annotations
+
+import pytest
+
+from airfield import NORTH, Airfield, Mover, lands, stands
+
+CANCEL = "Delta four five six, cancel takeoff clearance, hold position."
+READ_BACK = "Cancel takeoff, hold position, Delta four five six."
+BETWEEN_OTHERS = "American one two three, wind calm."
+
+
+def field(*calls: tuple[float, str], traffic: bool = True, openings: bool = True) -> Airfield:
+    """One stands on the runway, told at 30 s that it is not to go; another is on final for it."""
+    movers = [Mover("DAL456", NORTH, stands(50.0))]
+    if traffic:
+        movers.append(Mover("AAL123", NORTH, lands(110)))
+    return Airfield(movers, [(30.0, CANCEL), *calls], openings_are_heard=openings)
+
+
+def silences(airfield: Airfield) -> list[tuple[float, str]]:
+    return [
+        (t_s, advisory.recipient)
+        for t_s, advisory in airfield.told
+        if advisory.active and "has not read back" in advisory.message
+    ]
+
+
+def test_silence_after_an_instruction_is_told_to_the_crew_and_the_controller() -> None:
+    airfield = field().run(60.0)
+    assert silences(airfield) == [(35.0, "DAL456"), (35.0, "ATC")]
+    told = airfield.to("DAL456")[0]
+    assert (told.kind, told.severity) == ("readback_mismatch", "CAUTION")
+    assert "cancel takeoff" in told.message
+    assert told.evidence.sources == ("radio", "adsb")
+    assert airfield.advice("DAL456")[0] == ("cancel_takeoff", "01")
+
+
+@pytest.mark.parametrize("answer", [READ_BACK, "Delta four five six, say again."])
+def test_whoever_answers_has_received_it(answer: str) -> None:
+    assert silences(field((36.0, answer)).run(60.0)) == []
+
+
+def test_words_that_are_not_recognised_yet_may_be_the_readback() -> None:
+    airfield = field((35.0, READ_BACK))
+    airfield.recognition_s = 12.0
+    assert silences(airfield.run(60.0)) == []
+
+
+def test_a_call_between_others_puts_it_off() -> None:
+    airfield = field((37.0, BETWEEN_OTHERS)).run(60.0)
+    assert [t_s for t_s, _ in silences(airfield)] == [42.0, 42.0]
+
+
+def test_it_is_over_once_it_is_read_back() -> None:
+    airfield = field((45.0, READ_BACK)).run(60.0)
+    assert [advisory.active for advisory in airfield.to("DAL456")][:2] == [True, False]
+
+
+def test_without_anybody_else_at_the_runway_silence_is_nothing() -> None:
+    assert silences(field(traffic=False).run(60.0)) == []
+
+
+def test_where_transmissions_are_not_heard_to_begin_nothing_is_known_of_silence() -> None:
+    assert silences(field(openings=False).run(60.0)) == []

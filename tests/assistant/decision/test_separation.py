@@ -1,0 +1,143 @@
+"""The watch over separation believes what aircraft do, not what they were told to do."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from airhilt.assistant.decision.air_tracks import AirTracks
+from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.tracks import Track
+from airhilt.messages import AdsbReport, Advisory, Severity
+from airhilt.units import FOOT, KNOT, SECOND_NS
+from encounters import Encounter, Flight, State, head_on
+from judge_encounters import judged
+from pairs.flying import fly
+from pairs.geometry import draw
+
+CREWS = ("AAL123", "DAL456")
+
+
+def test_random_losses_are_warned_of_in_time_though_nobody_reacts() -> None:
+    outcomes = [
+        fly(draw(np.random.default_rng((11, number))), decision_engine("reference"), number)
+        for number in range(40)
+    ]
+    numbers = judged(outcomes)
+    assert numbers["losses"] >= 5
+    assert numbers["losses_missed"] == []
+    assert numbers["warning_late"] == []
+    assert numbers["warning_late_for_the_manoeuvre"] == []
+
+
+def climbs_through(target_ft: float, seed: int) -> Encounter:
+    """One climbs through the level of another, which it meets on the way."""
+    encounter = head_on(300.0, seed)
+    encounter.flights[0].altitude_ft = 29_000.0
+    encounter.flights[0].climb(target_ft, 1600.0)
+    return encounter
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_level_that_was_recommended_is_not_taken_for_one_that_is_flown_to(seed: int) -> None:
+    encounter = climbs_through(39_000.0, seed).fly()
+    warned = [t_s for t_s, advisory in encounter.told if advisory.severity is Severity.WARNING]
+    told = [t_s for t_s, advisory in encounter.told if advisory.severity is Severity.CAUTION]
+    assert told[0] < warned[0]
+    assert warned[0] <= 185.0 - 30.0
+
+
+class Turning(Flight):
+    """Turns away, and back to where it flew after a while."""
+
+    away_s = (100.0, 150.0)
+
+    def state(self, time_s: float) -> State:
+        state = super().state(time_s)
+        if not self.away_s[0] <= time_s < self.away_s[1]:
+            return state
+        return replace(state, velocity_north_m_s=-0.7 * self.speed_kt * KNOT)
+
+
+def test_a_conflict_is_not_over_because_a_turn_opens_the_miss_distance_for_a_while() -> None:
+    encounter = head_on(300.0)
+    turning = Turning("DAL456", "a4d5e6", 270.0, 30.7, 35_000.0)
+    encounter.flights[1] = turning
+    encounter.fly()
+    over = [t_s for t_s, advisory in encounter.told if not advisory.active]
+    assert min(over) > 230.0
+    again = [
+        advisory.severity
+        for t_s, advisory in encounter.told
+        if advisory.recipient == "ATC" and t_s > turning.away_s[1]
+    ]
+    assert again[:2] == [Severity.CAUTION, Severity.WARNING]
+
+
+@pytest.mark.parametrize("late_s", [5.0, 20.0])
+def test_reports_that_are_late_warn_as_well_as_fresh_ones(late_s: float) -> None:
+    fresh, late = head_on(240.0).fly(), head_on(240.0)
+    late.late_s = late_s
+    late.fly()
+
+    def cautions(encounter: Encounter) -> list[float]:
+        return [t_s for t_s, told in encounter.told if _is_first(told, Severity.CAUTION)]
+
+    assert cautions(late)[0] == pytest.approx(cautions(fresh)[0], abs=6.0)
+
+
+def _is_first(advisory: Advisory, severity: Severity) -> bool:
+    return advisory.active and advisory.severity is severity
+
+
+def report(t_s: float, altitude_ft: float, rate_fpm: float) -> AdsbReport:
+    t_ns = round(t_s * SECOND_NS)
+    return AdsbReport(
+        t_ns=t_ns, icao24="a1b2c3", callsign="AAL123", latitude_deg=38.9, longitude_deg=-77.0,
+        altitude_ft=altitude_ft, ground_speed_kt=480.0, track_deg=90.0, vertical_rate_fpm=rate_fpm,
+        nacp=9, nacv=2, receiver="all", t_adsb_in_ns=t_ns, t_adsb_out_ns=t_ns,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rate_fpm", "is_expected"), [(1500.0, False), (-1500.0, True), (0.0, True)]
+)
+def test_a_level_that_was_read_back_lapses_once_the_aircraft_moves_away_from_it(
+    rate_fpm: float, is_expected: bool
+) -> None:
+    track = Track.of(report(0.0, 31_000.0, rate_fpm), 31_000.0)
+    track.clear(29_000.0 * FOOT, 0)
+    for t_s in range(1, 41):
+        altitude_ft = 31_000.0 + rate_fpm / 60.0 * t_s
+        track.update(report(float(t_s), altitude_ft, rate_fpm), altitude_ft)
+        if t_s < 30:
+            assert track.cleared_m is not None
+    assert (track.cleared_m is not None) == is_expected
+
+
+@pytest.mark.parametrize(
+    ("words", "warned_s"), [("emergency descent", [24.0]), ("engine failure", [])]
+)
+def test_an_emergency_descent_is_expected_from_its_words_on(
+    words: str, warned_s: list[float]
+) -> None:
+    """The other crosses 4,000 ft below, and the descent is not to be seen yet."""
+    encounter = head_on(50.0, distance_nm=9.0, track_deg=180.0, altitude_ft=31_000.0)
+    encounter.flights[0].distance_nm = 9.0
+    encounter.calls = [(20.0, 23.0, f"Mayday mayday mayday, American one two three, {words}.")]
+    told = [t_s for t_s, each in encounter.fly().told if _is_first(each, Severity.WARNING)]
+    assert told[:1] == warned_s
+
+
+def test_the_track_of_an_aircraft_that_has_landed_is_dropped_though_it_still_reports() -> None:
+    tracks = AirTracks()
+    tracks.take_report(report(0.0, 2_000.0, -700.0), 0)
+    for t_s in range(1, 30):
+        landed = report(float(t_s), 0.0, 0.0).model_copy(
+            update={"altitude_ft": None, "on_ground": True}
+        )
+        tracks.take_report(landed, t_s * SECOND_NS)
+    tracks.begin_step(14 * SECOND_NS, ())
+    assert list(tracks) == []

@@ -1,0 +1,1 @@
+"""Random encounters of two aircraft for assistants that watch the air."""
