@@ -42,9 +42,11 @@ class ConflictWindow:
             return
         if self._phase == "before" and self._opens(now_ns):
             self._phase = "open"
+            self._monitor.open_window(self._pair, now_ns)
             self._told("opened", self._pair)
         elif self._phase == "open" and self._has_passed(self._pair):
             self._phase = "after"
+            self._monitor.close_window(self._pair)
             self._told("closed", self._pair)
 
     def _has_passed(self, pair: Pair) -> bool:

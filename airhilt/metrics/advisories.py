@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from airhilt.messages import CONTROLLER, SPEAK_MIN_LEVEL, Advisory, AdvisoryAudio, Severity
@@ -12,6 +12,8 @@ from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 
 JUSTIFIED_WITHIN_S = 300.0
 """An alert is no nuisance if its traffic will really lose separation within this time, in s."""
+SEEN_WITHIN_NS = 10 * SECOND_NS
+"""Time before an advisory, in ns, in which a camera must have shown what it is about."""
 
 
 @dataclass
@@ -24,12 +26,15 @@ class AdvisoryRecord:
         The advisory as it was published first.
     loses_separation
         True if its traffic was then going to lose separation.
+    concerns_conflict
+        True if a revision of it was about the annotated pair.
     spoken_ns
         Time at which its voice was first heard, None if it never was.
     """
 
     first: Advisory
     loses_separation: bool
+    concerns_conflict: bool = False
     severities: list[Severity] = field(default_factory=list)
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
@@ -44,14 +49,21 @@ class AdvisoryRecords:
         Callsigns of the actors by all their names, as `callsigns_of` returns them.
     pair
         The annotated pair, None if the scenario has no conflict.
+    was_seen
+        Returns true if a camera's detection really showed an actor since a time.
     """
 
     def __init__(
-        self, callsigns: Mapping[str, str], pair: Pair | None, monitor: ConflictMonitor
+        self,
+        callsigns: Mapping[str, str],
+        pair: Pair | None,
+        monitor: ConflictMonitor,
+        was_seen: Callable[[str, int], bool],
     ) -> None:
         self._callsigns = callsigns
         self._pair = pair
         self._monitor = monitor
+        self._was_seen = was_seen
         self._records: dict[str, AdvisoryRecord] = {}
 
     def add(self, advisory: Advisory) -> bool:
@@ -64,6 +76,7 @@ class AdvisoryRecords:
             return False
         record.revisions.add(advisory.revision)
         record.severities.append(advisory.severity)
+        record.concerns_conflict |= self._concerns_conflict(advisory)
         return True
 
     def add_audio(self, audio: AdvisoryAudio) -> None:
@@ -109,14 +122,23 @@ class AdvisoryRecords:
         ]
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
-        """Return true if an advisory's traffic is the annotated pair's.
+        """Return true if an advisory is about the annotated pair.
 
-        On a runway an assistant may name what it has no callsign for, such as a deer.
+        It names both, or one of them and something without a callsign, such as a deer. What rests
+        on cameras must then have shown the other one, whatever it was taken for.
         """
-        named = set(self._traffic(advisory))
-        if advisory.kind == "runway_conflict":
-            named &= set(self._callsigns)
-        return self._pair is not None and bool(named) and named <= set(self._pair)
+        traffic = self._traffic(advisory)
+        named = {name for name in traffic if name in self._callsigns}
+        if self._pair is None or not named or not named <= set(self._pair):
+            return False
+        others = set(self._pair) - named
+        if not others or advisory.kind == "readback_mismatch":
+            return True
+        sources = advisory.evidence.sources
+        if "vision" in sources:
+            since_ns = advisory.t_ns - SEEN_WITHIN_NS
+            return any(self._was_seen(other, since_ns) for other in others)
+        return "radio" in sources or len(traffic) == 1
 
     def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
         """Return an advisory's traffic by callsign; a name that no actor has stays as it is."""
@@ -136,7 +158,7 @@ class AdvisoryRecords:
 
         In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
         """
-        if self._concerns_conflict(record.first):
+        if record.concerns_conflict:
             return False
         if record.first.kind == "loss_of_separation":
             return self._pair is None or not record.loses_separation

@@ -85,10 +85,12 @@ class Collector:
         pair = pair_of(scenario)
         self._outcome = Outcome(monitor, runways, pair)
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
-        self._advisories = AdvisoryRecords(callsigns_of(scenario), pair, monitor)
         self._latencies = StageLatencies()
         self._calls = CallRecords()
         self._detections = DetectionScores()
+        self._advisories = AdvisoryRecords(
+            callsigns_of(scenario), pair, monitor, self._detections.was_seen
+        )
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Receive a published message."""
@@ -134,6 +136,7 @@ class Collector:
             duration_s=now_ns / SECOND_NS,
             **self._warning_fields(now_ns),
             **self._outcome_fields(),
+            unassisted_as_declared=self._as_declared(run["assistant"]),
             nuisance_alerts=self._advisories.nuisance_alerts(incursions),
             advisories=self._advisories.summaries(incursions),
             radio=self._calls.statistics(
@@ -151,6 +154,7 @@ class Collector:
         """Return the fields about the conflict window and the first warning."""
         conflict_s = _seconds(self.window.opened_ns)
         warning_s = _seconds(self._first_warning.t_ns)
+        is_in_time = self._is_warned_in_time()
         truth = self._outcome.pair_truth
         closest = self._outcome.closest_approach
         return {
@@ -159,11 +163,26 @@ class Collector:
             "t_first_warning_s": warning_s,
             "time_to_first_warning_s": _difference(warning_s, conflict_s),
             "lead_before_closest_approach_s": _difference(
-                closest.t_s if closest else None, warning_s
+                closest.t_s if closest else None, warning_s if is_in_time else None
             ),
             "margin_over_tcas_ta_s": self._first_warning.margin_s("tcas_ta", truth),
             "margin_over_tcas_ra_s": self._first_warning.margin_s("tcas_ra", truth),
         }
+
+    def _is_warned_in_time(self) -> bool:
+        """Return true if somebody was warned before the conflict window closed."""
+        warning_ns, closed_ns = self._first_warning.t_ns, self.window.closed_ns
+        return warning_ns is not None and (closed_ns is None or warning_ns <= closed_ns)
+
+    def _as_declared(self, assistant: str) -> bool | None:
+        """Return true if what the scenario declares came about without an assistant.
+
+        None if there was one, or the scenario declares no conflict.
+        """
+        conflict = self._scenario.conflict
+        if conflict is None or assistant != "none":
+            return None
+        return self.window.opened_ns is not None and self._outcome.came_about(conflict.unassisted)
 
     def _outcome_fields(self) -> dict[str, Any]:
         """Return the fields about separation, collisions and runway incursions."""
@@ -177,7 +196,7 @@ class Collector:
             "collision": outcome.happened("collision"),
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
-            "avoided": outcome.avoided(was_warned=self._first_warning.t_ns is not None),
+            "avoided": outcome.avoided(was_warned=self._is_warned_in_time()),
         }
 
 

@@ -209,6 +209,8 @@ class DetectionScores:
     def __init__(self) -> None:
         self._cameras: dict[str, _Camera] = {}
         self._first: dict[str, FirstDetection] = {}
+        self._last_ns: dict[str, int] = {}
+        """Time of the last detection of each actor."""
         self._state: ModalityState = "off"
         self._cause = ""
         self._why_missed = ""
@@ -231,6 +233,11 @@ class DetectionScores:
         self._why_missed = self._why_missed or seen.missed
         for first in self._cameras[seen.camera].look(seen):
             self._first.setdefault(first.actor, first)
+            self._last_ns[first.actor] = seen.t_ns
+
+    def was_seen(self, actor: str, since_ns: int) -> bool:
+        """Return true if a detection since a time really showed an actor."""
+        return self._last_ns.get(actor, since_ns - 1) >= since_ns
 
     # --- statistics -------------------------------------------------------------------------
 

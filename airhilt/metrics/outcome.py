@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from airhilt.metrics.summary import ClosestApproach, RunwayIncursion
+from airhilt.scenario.models import UnassistedOutcome
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
 from airhilt.world.truth.runways import IncursionCategory, RunwayMonitor
@@ -44,8 +45,14 @@ class Outcome:
 
     @property
     def closest_approach(self) -> ClosestApproach | None:
-        """Closest approach of that pair."""
-        closest = self.pair_truth.closest if self.pair_truth else None
+        """Closest approach of the annotated pair in the conflict window.
+
+        In a scenario without a conflict it is that of the pair that came nearest.
+        """
+        truth = self.pair_truth
+        if truth is None:
+            return None
+        closest = truth.closest if self._pair is None else truth.closest_in_window
         if closest is None:
             return None
         return ClosestApproach(
@@ -78,6 +85,18 @@ class Outcome:
         """Return the most severe category of the incursions, None if there were none."""
         categories = [incursion.category for incursion in self.incursions()]
         return min(categories, key=SEVEREST_FIRST.index, default=None)
+
+    def came_about(self, declared: UnassistedOutcome) -> bool:
+        """Return true if the outcome that a scenario declares, or a more severe one, came about."""
+        match declared:
+            case "runway_incursion":
+                return self.worst_category() in SERIOUS
+            case "collision":
+                return self.happened("collision")
+            case "nmac":
+                return self.happened("nmac") or self.happened("collision")
+            case "loss_of_separation":
+                return self.happened("loss_of_separation")
 
     def avoided(self, was_warned: bool) -> bool | None:
         """Return true if the conflict was avoided after a warning, None if nothing happened."""

@@ -206,7 +206,10 @@ class Summary(BaseModel):
     time_to_first_warning_s: float | None = Field(
         description="t_first_warning - t_conflict; negative: before the window opened"
     )
-    lead_before_closest_approach_s: float | None
+    lead_before_closest_approach_s: float | None = Field(
+        description="from the first warning to the closest approach in the conflict window; null "
+        "if nobody was warned before the window closed"
+    )
     margin_over_tcas_ta_s: float | None = Field(
         description="how long before TCAS II would have given its traffic advisory, had nobody "
         "reacted, the first warning came"
@@ -218,9 +221,15 @@ class Summary(BaseModel):
     min_vertical_separation_m: float | None = Field(
         description="least while horizontal separation was infringed; null if it never was"
     )
-    closest_approach: ClosestApproach | None
+    closest_approach: ClosestApproach | None = Field(
+        description="of the pair within the conflict window, from t_conflict to t_conflict_end; "
+        "without an annotated conflict, of the pair that came nearest"
+    )
     loss_of_separation: bool
-    nmac: bool
+    nmac: bool = Field(
+        description="near mid-air collision: two aircraft in flight came closer than 500 ft "
+        "horizontally and 100 ft vertically; never counted if either is on the ground"
+    )
     collision: bool
     runway_incursions: list[RunwayIncursion]
     runway_incursion_category: IncursionCategory | None = Field(
@@ -230,6 +239,12 @@ class Summary(BaseModel):
         description="somebody was warned of the annotated conflict, and the pair neither lost "
         "separation, nor came to an NMAC or an incursion of category A or B, nor collided; null "
         "if nobody was warned and nothing of that happened"
+    )
+    unassisted_as_declared: bool | None = Field(
+        default=None,
+        description="without an assistant, the conflict window opened and the outcome that the "
+        "scenario declares as unassisted, or a more severe one, came about; null with an assistant "
+        "or without a conflict",
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

@@ -34,28 +34,14 @@ def assisted(name: str, out: Path, speech: bool = False) -> Summary:
     return run(load(name), out=out, latency="fixed", cameras=False, speech=speech).summary
 
 
-def happened(summary: Summary, outcome: str) -> bool:
-    match outcome:
-        case "runway_incursion":
-            return summary.runway_incursion_category in ("A", "B", "accident")
-        case "collision":
-            return summary.collision
-        case "nmac":
-            return summary.nmac or summary.collision
-        case _:
-            return summary.loss_of_separation
-
-
 @WITH_AND_WITHOUT_SOUND
 @pytest.mark.parametrize("name", CONFLICTS)
 def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
     name: str, speech: bool, tmp_path: Path
 ) -> None:
-    conflict = load(name).conflict
-    assert conflict is not None
     summary = alone(name, tmp_path / "run", speech=speech)
     assert summary.t_conflict_s is not None
-    assert happened(summary, conflict.unassisted)
+    assert summary.unassisted_as_declared
     assert summary.avoided is False
     assert summary.t_first_warning_s is None
 
@@ -64,6 +50,16 @@ def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
 @pytest.mark.parametrize("seed", [4, 10, 13])
 def test_the_flock_is_met_whatever_the_birds_do_on_their_way(seed: int, tmp_path: Path) -> None:
     assert alone("s01c_flock_on_final", tmp_path / "run", seed).collision
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [*(3, 19), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(20))],
+)
+def test_the_departure_strikes_the_birds_in_every_seed(seed: int, tmp_path: Path) -> None:
+    summary = alone("s02b_bird_strike", tmp_path / "run", seed)
+    assert summary.t_conflict_s is not None
+    assert summary.loss_of_separation
 
 
 UNSEEN = ("s01b_dropped_hold",)

@@ -23,6 +23,7 @@ from airhilt.messages import (
     Transcript,
     Transmission,
 )
+from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import LatencyStatistics, Summary, severest
@@ -103,6 +104,16 @@ class FollowedRun:
         self.collector.take("", message, b"")
         return self
 
+    def open_window(self) -> FollowedRun:
+        self.watch.monitor.open_window((FIRST, SECOND), self.watch.now_ns)
+        self.collector.window.opened_ns = self.watch.now_ns
+        return self
+
+    def close_window(self) -> FollowedRun:
+        self.watch.monitor.close_window((FIRST, SECOND))
+        self.collector.window.closed_ns = self.watch.now_ns
+        return self
+
     def summary(self, now_s: float = 70.0) -> Summary:
         return self.collector.summary(RUN, round(now_s * SECOND_NS))
 
@@ -155,7 +166,7 @@ def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warni
 def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept() -> None:
     followed = FollowedRun()
     assert followed.summary().avoided is None
-    followed.collector.window.opened_ns = 0
+    followed.open_window()
     assert followed.summary().avoided is None
     followed.take(advisory(9.0))
     assert followed.summary().avoided is True
@@ -165,6 +176,63 @@ def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept() 
     assert (summary.loss_of_separation, summary.nmac, summary.collision) == (True, True, True)
     assert summary.closest_approach.t_s == pytest.approx(60.0, abs=0.1)
     assert summary.closest_approach.horizontal_m < 1.0
+
+
+def test_the_closest_approach_is_the_closest_in_the_conflict_window() -> None:
+    """The two meet at 60 s, and fly apart with 500 m/s; the window opens at 65 s."""
+    followed = FollowedRun().take(advisory(1.0))
+    followed.watch.fly(65.0)
+    assert followed.summary().closest_approach is None
+    assert followed.summary().lead_before_closest_approach_s is None
+    followed.open_window().watch.fly(5.0)
+    summary = followed.summary()
+    assert summary.closest_approach.t_s == pytest.approx(65.0)
+    assert summary.closest_approach.horizontal_m == pytest.approx(2_500.0, rel=0.01)
+    assert summary.lead_before_closest_approach_s == pytest.approx(64.0)
+
+
+def test_what_follows_the_conflict_window_is_no_closest_approach_of_it() -> None:
+    followed = FollowedRun()
+    followed.open_window().watch.fly(50.0)
+    followed.close_window().watch.fly(20.0)
+    assert followed.summary().closest_approach.t_s == pytest.approx(50.0)
+
+
+def test_who_is_warned_after_the_conflict_window_has_not_avoided_the_conflict() -> None:
+    followed = FollowedRun()
+    followed.open_window().watch.fly(2.0)
+    followed.close_window().take(advisory(3.0))
+    summary = followed.summary()
+    assert summary.t_first_warning_s == 3.0
+    assert summary.lead_before_closest_approach_s is None
+    assert summary.avoided is None
+
+
+def unassisted(followed: FollowedRun, assistant: str = "none") -> bool | None:
+    run = RUN | {"assistant": assistant}
+    return followed.collector.summary(run, 70 * SECOND_NS).unassisted_as_declared
+
+
+def test_a_run_without_an_assistant_tells_whether_the_declared_outcome_came_about() -> None:
+    assert unassisted(FollowedRun()) is False
+    followed = FollowedRun().open_window()
+    assert unassisted(followed) is False
+    followed.watch.fly(70.0)
+    assert unassisted(followed) is True
+
+
+def test_the_declared_outcome_is_not_asked_for_with_an_assistant_or_without_a_conflict() -> None:
+    assert unassisted(FollowedRun().open_window(), "reference") is None
+    assert unassisted(FollowedRun(SCENARIO.model_copy(update={"conflict": None}))) is None
+
+
+def test_the_terminal_says_that_a_declared_outcome_did_not_come_about(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    run = RUN | {"assistant": "none"}
+    print_summary(FollowedRun().collector.summary(run, 70 * SECOND_NS), tmp_path)
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "the declared outcome did not come about" in shown
 
 
 def test_latencies_are_given_by_stage() -> None:
@@ -304,16 +372,38 @@ def runway_advisory(*traffic: str) -> Advisory:
 
 @pytest.mark.parametrize(
     ("traffic", "nuisance"),
-    [((FIRST, SECOND), False), ((FIRST,), False), ((FIRST, "deer-1"), False),
-     ((FIRST, "UAL7"), False), (("UAL7", "OPS9"), True), (("UAL7",), True)],
+    [((FIRST, SECOND), False), ((FIRST,), False), ((FIRST, "UAL7"), True),
+     (("UAL7", "OPS9"), True), (("UAL7",), True)],
 )  # fmt: skip
 def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(
     traffic: tuple[Any, ...], nuisance: bool
 ) -> None:
-    """It may name what it sees without a callsign; what it knows nothing of is none of the pair."""
+    """Traffic by ADS-B has an address: an alert about somebody else is of another conflict."""
     summary = Airport().take(runway_advisory(*traffic)).summary()
     assert summary.nuisance_alerts == int(nuisance)
     assert (summary.t_first_warning_s == 9.0) is not nuisance
+
+
+@pytest.mark.parametrize(
+    ("sources", "seen_s", "concerns"),
+    [(("radio", "adsb"), None, True), (("vision", "adsb"), None, False),
+     (("vision",), 9.0, True), (("vision",), 1.0, False), (("adsb",), 9.0, False)],
+)  # fmt: skip
+def test_an_alert_about_what_has_no_callsign_concerns_the_pair_if_the_other_one_was_really_there(
+    sources: tuple[str, ...], seen_s: float | None, concerns: bool
+) -> None:
+    def was_seen(actor: str, since_ns: int) -> bool:
+        return actor == SECOND and seen_s is not None and seen_s * SECOND_NS >= since_ns
+
+    records = AdvisoryRecords(
+        {FIRST: FIRST, SECOND: SECOND}, (FIRST, SECOND), FollowedRun().watch.monitor, was_seen
+    )
+    told = advisory(15.0, traffic=(FIRST, "unidentified")).model_copy(
+        update={"evidence": Evidence(sources=sources)}
+    )
+    records.add(told)
+    assert records.warns_of_conflict(told) is concerns
+    assert records.nuisance_alerts([]) == int(not concerns)
 
 
 def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true() -> None:

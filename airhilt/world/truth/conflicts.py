@@ -63,10 +63,14 @@ class Approach(NamedTuple):
 
 @dataclass(slots=True)
 class PairTruth:
-    """Conflict phases of one pair with their times, and its closest approach."""
+    """Conflict phases of one pair with their times, and its closest approaches."""
 
     first_ns: dict[ConflictPhase, int] = field(default_factory=dict)
     closest: Approach | None = None
+    opened_ns: int | None = None
+    """Time since which the conflict window of the pair is open, None while it is not."""
+    closest_in_window: Approach | None = None
+    """Closest approach while the conflict window was open."""
     least_horizontal_m: float | None = None
     """Least horizontal distance while the vertical minimum was infringed, in m."""
     least_vertical_m: float | None = None
@@ -181,6 +185,14 @@ class ConflictMonitor:
         truth = self.pairs.get(pair) or self.pairs.get((pair[1], pair[0]))
         return truth is not None and "collision" in truth.first_ns
 
+    def open_window(self, pair: Pair, now_ns: int) -> None:
+        """Record the closest approach of a pair in its conflict window from now on."""
+        self.pairs.setdefault(pair, PairTruth()).opened_ns = now_ns
+
+    def close_window(self, pair: Pair) -> None:
+        """Record no more of the conflict window of a pair."""
+        self.pairs[pair].opened_ns = None
+
     def is_seen_by_tcas(self, pair: Pair) -> bool:
         """Return whether both of a pair carry a transponder."""
         return self._transponders.issuperset(pair)
@@ -237,19 +249,26 @@ class ConflictMonitor:
         first, second = (self._bodies[name] for name in pair)
         if first.ended is not None or second.ended is not None:
             return
-        truth = self.pairs.get(pair)
-        if truth is None:
-            truth = self.pairs[pair] = PairTruth()
-        own, other = first.state, second.state
-        motion = relative(own, other)
+        truth = self.pairs.setdefault(pair, PairTruth())
+        motion = relative(first.state, second.state)
         back_s = min(max(motion.time_to_closest_approach_s(), -elapsed_s), 0.0)
-        horizontal = motion.at(back_s).distance_m
+        near = self._approach(now_ns, pair, motion, back_s)
+        truth.closest = _nearer(truth.closest, near)
+        if truth.opened_ns is not None:
+            since_s = (truth.opened_ns - now_ns) / SECOND_NS
+            inside = self._approach(now_ns, pair, motion, max(back_s, since_s))
+            truth.closest_in_window = _nearer(truth.closest_in_window, inside)
+        self._classify(now_ns, pair, truth, near, back_s)
+
+    def _approach(self, now_ns: int, pair: Pair, motion: Relative, back_s: float) -> Approach:
+        """Return the distances of a pair ``back_s`` (0 or less) from now."""
+        own, other = (self._bodies[name].state for name in pair)
         gap_rate = own.velocity_down_m_s - other.velocity_down_m_s
-        vertical = abs(other.altitude_m - own.altitude_m + gap_rate * back_s)
-        least = truth.closest
-        if least is None or horizontal**2 + vertical**2 < least[1] ** 2 + least[2] ** 2:
-            truth.closest = Approach(now_ns + seconds_to_ns(back_s), horizontal, vertical)
-        self._classify(now_ns, pair, truth, Approach(now_ns, horizontal, vertical), back_s)
+        return Approach(
+            now_ns + seconds_to_ns(back_s),
+            motion.at(back_s).distance_m,
+            abs(other.altitude_m - own.altitude_m + gap_rate * back_s),
+        )
 
     def _classify(
         self, now_ns: int, pair: Pair, truth: PairTruth, near: Approach, back_s: float
@@ -290,6 +309,10 @@ class ConflictMonitor:
         if phase not in truth.first_ns:
             truth.first_ns[phase] = now_ns
             self._became_true(phase, pair, horizontal, vertical)
+
+
+def _nearer(known: Approach | None, other: Approach) -> Approach:
+    return other if known is None or other.slant_m < known.slant_m else known
 
 
 def _lesser(known: float | None, value: float) -> float:

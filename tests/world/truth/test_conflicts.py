@@ -36,6 +36,13 @@ def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision() -> 
     assert watch.told["collision"] == pytest.approx(60.0, abs=0.15)
 
 
+@pytest.mark.parametrize("grounded", [(True, True), (True, False)])
+def test_near_mid_air_collisions_are_of_two_aircraft_in_flight(grounded: tuple[bool, bool]) -> None:
+    first, second = head_on(10.0)
+    first.on_ground, second.on_ground = grounded
+    assert "nmac" not in Watch(first, second).fly(20.0).told
+
+
 def test_tcas_speaks_at_its_thresholds() -> None:
     watch = Watch(*head_on(80.0)).fly(50.0)
     assert watch.told["tcas_ta"] == pytest.approx(80.0 - 48.0, abs=1.5)
