@@ -4,7 +4,7 @@ This package knows nothing of aviation. The two names that matter are `Director`
 discrete-event loop, and `Server`, one worker in virtual time.
 """
 
-from airhilt.sim.director import Director, Priority
+from airhilt.sim.director import Director, Priority, Scheduler
 from airhilt.sim.interruption import interruptible
 from airhilt.sim.latency import LatencySpec, parse_latency
 from airhilt.sim.pace import Pace, RealTime, Virtual, parse_pace
@@ -23,6 +23,7 @@ __all__ = [
     "Priority",
     "RealTime",
     "Reply",
+    "Scheduler",
     "Server",
     "StepRecord",
     "Virtual",

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from enum import IntEnum
 from threading import Event
+from typing import Protocol
 
 from airhilt.sim.pace import Pace
 
@@ -24,6 +25,23 @@ class Priority(IntEnum):
     """Workers whose inputs are due are called, all of an instant before any is waited for."""
     SETTLE = 5
     OBSERVE = 6
+
+
+class Scheduler(Protocol):
+    """The part of a director that measurements are scheduled with."""
+
+    @property
+    def now_ns(self) -> int:
+        """Simulation time."""
+
+    def at(self, t_ns: int, action: Action, priority: Priority) -> None:
+        """Schedule an action at a time that is not past."""
+
+    def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
+        """Schedule an action at a first time and then once every period."""
+
+    def post(self, action: Action) -> None:
+        """Run an action as soon as possible, at whatever time it then is (any thread)."""
 
 
 class Director:
@@ -48,9 +66,13 @@ class Director:
 
         Raises
         ------
+        TypeError
+            ``t_ns`` is no int.
         ValueError
             ``t_ns`` lies in the past.
         """
+        if not isinstance(t_ns, int):
+            raise TypeError(f"event at {t_ns!r} ns; expected an int")
         if t_ns < self.now_ns:
             raise ValueError(f"event at {t_ns} ns, but it is already {self.now_ns} ns")
         heapq.heappush(self._heap, (t_ns, priority, self._sequence, action))
@@ -61,9 +83,13 @@ class Director:
 
         Raises
         ------
+        TypeError
+            ``period_ns`` or ``first_ns`` is no int.
         ValueError
             ``period_ns`` is not positive.
         """
+        if not isinstance(period_ns, int):
+            raise TypeError(f"period of {period_ns!r} ns; expected an int")
         if period_ns <= 0:
             raise ValueError(f"period of {period_ns} ns; it must be positive")
 

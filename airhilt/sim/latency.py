@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Literal, Protocol
 
 from airhilt.errors import AirhiltError
@@ -13,6 +13,8 @@ from airhilt.units import seconds_to_ns
 
 NEVER_NS = seconds_to_ns(1e9)
 """Latency of a step that never ends, in ns: longer than any run."""
+LONGEST_S = 3600.0
+"""Longest latency that may be given, in s."""
 
 
 class LatencySource(Protocol):
@@ -66,7 +68,7 @@ class Replay:
     Parameters
     ----------
     breaks_off
-        Whether the earlier run broke off: steps that it did not reach never end.
+        True if the earlier run broke off: steps that it did not reach never end.
 
     Raises
     ------
@@ -95,28 +97,43 @@ class Replay:
 
 @dataclass(frozen=True)
 class LatencySpec:
-    """The latency source of a run; `source` makes that of one worker."""
+    """The latency source of a run; `source` makes that of one worker.
+
+    Attributes
+    ----------
+    given_s
+        Latency of each step, or the median of those drawn, in place of what a worker declares.
+    stages
+        Sources of single stages, by name; the others have this one.
+    """
 
     kind: Literal["measured", "fixed", "lognormal", "replay"]
-    fixed_s: float | None = None
+    given_s: float | None = None
     replay_of: str | None = None
     recorded: Mapping[str, Mapping[int, int]] | None = None
     breaks_off: bool = False
+    stages: Mapping[str, LatencySpec] = field(default_factory=dict)
 
     @property
     def text(self) -> str:
         """Spelling on the command line."""
-        if self.fixed_s is not None:
-            return f"fixed:{self.fixed_s:g}"
-        return f"replay:{self.replay_of}" if self.kind == "replay" else self.kind
+        if self.kind == "replay":
+            return f"replay:{self.replay_of}"
+        own = self.kind if self.given_s is None else f"{self.kind}:{self.given_s:g}"
+        return ",".join([own, *(f"{stage}={each.text}" for stage, each in self.stages.items())])
+
+    def of(self, stage: str) -> LatencySpec:
+        """Return the latency source of a stage, such as ``asr``."""
+        return self.stages.get(stage, self)
 
     def source(self, worker: str, seed: int, median_s: float, sigma: float) -> LatencySource:
         """Return the source for a worker that declares ``median_s`` and ``sigma``."""
+        median_s = median_s if self.given_s is None else self.given_s
         match self.kind:
             case "measured":
                 return Measured()
             case "fixed":
-                return Fixed(seconds_to_ns(median_s if self.fixed_s is None else self.fixed_s))
+                return Fixed(seconds_to_ns(median_s))
             case "lognormal":
                 return Lognormal(worker, seed, median_s, sigma)
             case "replay":
@@ -125,28 +142,54 @@ class LatencySpec:
 
 
 def parse_latency(text: str) -> LatencySpec:
-    """Return what ``measured``, ``fixed``, ``fixed:SECONDS``, ``lognormal`` or ``replay:RUN`` say.
+    """Return the latency source that a text such as ``fixed,asr=lognormal:5.9`` says.
 
-    The recorded latencies of ``replay:RUN`` are for the caller to fill in.
+    One source is for the stages that are not named; without it that is ``measured``. The recorded
+    latencies of ``replay:RUN`` are for the caller to fill in.
 
     Raises
     ------
     AirhiltError
-        It is none of these.
+        It is none of the sources, or a stage is named twice.
     """
     kind, _, argument = text.partition(":")
-    if text in ("measured", "fixed", "lognormal"):
-        return LatencySpec(text)  # type: ignore[arg-type]
-    if kind == "fixed":
-        try:
-            seconds = float(argument)
-        except ValueError:
-            seconds = math.nan
-        if 0.0 <= seconds <= 3600.0:
-            return LatencySpec("fixed", fixed_s=seconds)
     if kind == "replay" and argument:
         return LatencySpec("replay", replay_of=argument)
-    raise AirhiltError(
-        f"latency {text!r}: expected measured, fixed, fixed:SECONDS (0 to 3600), lognormal or "
-        "replay:RUN"
+    rest: list[LatencySpec] = []
+    stages: dict[str, LatencySpec] = {}
+    for part in text.split(","):
+        stage, has_stage, said = part.strip().rpartition("=")
+        spec = _parse_one(said, text)
+        if not has_stage:
+            rest.append(spec)
+        elif not stage or stage in stages:
+            raise _refused(text)
+        else:
+            stages[stage] = spec
+    if len(rest) > 1:
+        raise _refused(text)
+    return replace(rest[0] if rest else LatencySpec("measured"), stages=stages)
+
+
+def _parse_one(said: str, text: str) -> LatencySpec:
+    """Return the source of one stage, a part of the text."""
+    kind, has_time, argument = said.partition(":")
+    if kind not in ("fixed", "lognormal") or not has_time:
+        if said not in ("measured", "fixed", "lognormal"):
+            raise _refused(text)
+        return LatencySpec(said)  # type: ignore[arg-type]
+    try:
+        seconds = float(argument)
+    except ValueError:
+        seconds = math.nan
+    if not 0.0 <= seconds <= LONGEST_S:
+        raise _refused(text)
+    return LatencySpec(kind, given_s=seconds)  # type: ignore[arg-type]
+
+
+def _refused(text: str) -> AirhiltError:
+    return AirhiltError(
+        f"latency {text!r}: expected measured, fixed, fixed:SECONDS (0 to {LONGEST_S:.0f}), "
+        "lognormal, lognormal:MEDIAN or replay:RUN, and after it other ones for single stages, "
+        "such as fixed,asr=lognormal:5.9,tts=fixed:0.9"
     )

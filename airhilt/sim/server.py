@@ -200,7 +200,12 @@ class Server:
                 f"its step began at {start_ns} ns; expected a time from then on, or null"
             )
         else:
-            self._director.at(output.t_out_ns, lambda: self._deliver(output), Priority.RESULT)
+            self._director.at(output.t_out_ns, lambda: self._send_held(output), Priority.RESULT)
+
+    def _send_held(self, output: Output) -> None:
+        """Send an output that was held back until its own time."""
+        if not self.is_lost:
+            self._deliver(output)
 
     def _wake_up(self) -> None:
         if not self._busy and not self.is_lost and self._wake_ns == self._director.now_ns:

@@ -55,6 +55,16 @@ def test_an_event_of_this_instant_may_be_scheduled_while_the_instant_runs() -> N
     assert ran == ["sensor", "physics", "observe"]
 
 
+def test_a_time_that_is_no_int_is_refused() -> None:
+    director = Director(Virtual())
+    with pytest.raises(TypeError, match=r"event at 0.5 ns; expected an int"):
+        director.at(0.5, lambda: None, Priority.SCRIPT)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"period of 0.5 ns; expected an int"):
+        director.every(0.5, lambda: None, Priority.SCRIPT)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"event at 0.5 ns; expected an int"):
+        director.every(1, lambda: None, Priority.SCRIPT, first_ns=0.5)  # type: ignore[arg-type]
+
+
 def test_an_event_in_the_past_is_refused_and_says_what_time_it_is() -> None:
     director = Director(Virtual())
 

@@ -25,7 +25,11 @@ def drawn(
     return [source.known_ns(seq) for seq in range(steps)]
 
 
-@pytest.mark.parametrize("text", ["measured", "fixed", "fixed:0.25", "lognormal", "replay:runs/a"])
+@pytest.mark.parametrize(
+    "text",
+    ["measured", "fixed", "fixed:0.25", "lognormal", "lognormal:5.9", "replay:runs/a,b",
+     "fixed,asr=lognormal:5.9,tts=fixed:0.9"],
+)  # fmt: skip
 def test_a_latency_source_is_written_as_it_was_typed(text: str) -> None:
     assert parse_latency(text).text == text
 
@@ -33,15 +37,30 @@ def test_a_latency_source_is_written_as_it_was_typed(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     ["", "slow", "fixed:", "fixed:x", "fixed:-1", "fixed:nan", "fixed:3601", "fixed:inf",
-     "replay", "replay:", "lognormal:1", "measured:2", "Fixed"],
+     "replay", "replay:", "lognormal:x", "measured:2", "Fixed", "fixed,measured", "fixed,",
+     "asr=", "=fixed", "asr=slow", "asr=fixed,asr=fixed", "fixed,asr=replay:runs/a"],
 )  # fmt: skip
 def test_any_other_is_refused_and_the_message_says_what_is_expected(text: str) -> None:
     with pytest.raises(AirhiltError) as caught:
         parse_latency(text)
     message = str(caught.value)
     assert repr(text) in message
-    for form in ("measured", "fixed", "fixed:SECONDS", "lognormal", "replay:RUN"):
+    for form in ("measured", "fixed", "fixed:SECONDS", "lognormal:MEDIAN", "replay:RUN"):
         assert form in message
+
+
+def test_a_stage_has_its_own_source_and_the_others_have_that_of_the_run() -> None:
+    spec = parse_latency("asr=fixed:5.9,fixed:0.1,tts=measured")
+    known = [
+        spec.of(stage).source("a", 1, 0.4, 0.2).known_ns(0) for stage in ("asr", "vision", "tts")
+    ]
+    assert known == [5_900_000_000, 100_000_000, None]
+    assert parse_latency("asr=fixed:5.9").of("vision").kind == "measured"
+
+
+def test_a_lognormal_latency_has_the_median_that_is_given() -> None:
+    latencies = drawn("lognormal:5.9", steps=1000)
+    assert statistics.median(latencies) == pytest.approx(5.9e9, rel=0.05)
 
 
 def test_a_measured_latency_is_not_known_beforehand() -> None:

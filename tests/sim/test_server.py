@@ -332,6 +332,15 @@ def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_noth
     assert len(bench.calls) == 1
 
 
+def test_an_output_that_a_lost_worker_held_back_is_not_sent() -> None:
+    bench = Bench(lambda *_: Reply((Output("out", b"x", 150),), 0.0), Fixed(10))
+    bench.offer_at(100, b"a")
+    bench.director.at(120, lambda: bench.server.lose("gone"), Priority.SCRIPT)
+    bench.run()
+    assert len(bench.steps) == 1
+    assert bench.out == []
+
+
 def test_the_run_can_end_before_a_step_does() -> None:
     bench = Bench(echo, Fixed(100))
     bench.offer_at(7, b"a")
