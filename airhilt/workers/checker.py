@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import re
 import threading
+import warnings
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 from typing import Any
+
+from pydantic import ValidationError
 
 from airhilt.errors import WorkerError
 from airhilt.messages import BUS_MESSAGES, Advisory, Modality, WorkerDescription
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
+from airhilt.workers.hints import is_reference, no_action
 from airhilt.workers.pool import is_match, parse_output, require_no_truth
-from airhilt.workers.protocol import Step, Worker
-from airhilt.workers.samples import sample_inputs
+from airhilt.workers.protocol import Worker, checked, described
+from airhilt.workers.samples import NAMES, sample_inputs
 
 PUBLISHED = sorted(
     {
@@ -42,6 +46,8 @@ def check_worker(
 ) -> None:
     """Try a worker on inputs and complain about all that a run would not take.
 
+    A warning (`UserWarning`) names the first advisory on which nobody would act in a run.
+
     Parameters
     ----------
     inputs
@@ -54,21 +60,22 @@ def check_worker(
     WorkerError
         Something is wrong; the message has a line for each problem.
     """
-    problems = list(dict.fromkeys(_problems(worker, inputs, patience_s)))
+    hints: list[str] = []
+    problems = list(dict.fromkeys(_problems(worker, inputs, patience_s, hints)))
+    for hint in hints[:1]:
+        warnings.warn(hint, stacklevel=2)
     if problems:
         raise WorkerError("\n".join(problems))
 
 
-def _problems(worker: Worker, inputs: Sequence[Input] | None, patience_s: float) -> Iterator[str]:
-    description: Any = getattr(worker, "description", None)
-    if not isinstance(description, WorkerDescription):
-        yield (
-            f"{type(worker).__name__}.description is {description!r}; expected an "
-            "airhilt.messages.WorkerDescription"
-        )
-        return
-    if not callable(getattr(worker, "step", None)):
-        yield f"worker {description.name!r} has no method step(t_ns, inputs)"
+def _problems(
+    worker: Worker, inputs: Sequence[Input] | None, patience_s: float, hints: list[str]
+) -> Iterator[str]:
+    """Yield what a run would not take; add to ``hints`` what it would take and nobody acts on."""
+    try:
+        description = described(worker)
+    except WorkerError as error:
+        yield str(error)
         return
     for wanted in description.inputs:
         yield from _wrong_input(description.name, wanted.key)
@@ -83,7 +90,12 @@ def _problems(worker: Worker, inputs: Sequence[Input] | None, patience_s: float)
             )
             return
         yield from _wrong_answer(description, t_ns, given, answer)
-    if worker.description != description:
+        hints += _hints(description, answer.step, None if inputs is not None else NAMES)
+    try:
+        is_same = described(worker) == description
+    except WorkerError:
+        is_same = False
+    if not is_same:
         yield f"worker {description.name!r} has another description after its steps; expected one"
 
 
@@ -133,14 +145,14 @@ class _Answer(threading.Thread):
         super().__init__(daemon=True)
         self._call = (worker, t_ns, inputs)
         self.step: Any = None
-        self.failure: Exception | None = None
+        self.failure: BaseException | None = None
 
     def run(self) -> None:
         """Compute the step."""
         worker, t_ns, inputs = self._call
         try:
             self.step = worker.step(t_ns, inputs)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             self.failure = error
 
 
@@ -152,9 +164,10 @@ def _wrong_answer(
         error = answer.failure
         yield f"worker {name!r} raised {type(error).__name__} on {_named(given)}: {error}"
         return
-    step = answer.step
-    if not isinstance(step, Step):
-        yield f"worker {name!r} returned {step!r} from step; expected an airhilt.workers.Step"
+    try:
+        step = checked(name, answer.step)
+    except WorkerError as error:
+        yield str(error)
         return
     if step.wake_ns is not None and step.wake_ns <= t_ns:
         yield (
@@ -162,13 +175,7 @@ def _wrong_answer(
             "a later time"
         )
     for output in step.outputs:
-        if isinstance(output, Output):
-            yield from _wrong_output(description, t_ns, output)
-        else:
-            yield (
-                f"worker {name!r} returned {output!r} among its outputs; expected "
-                "airhilt.workers.Output"
-            )
+        yield from _wrong_output(description, t_ns, output)
 
 
 def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> Iterator[str]:
@@ -199,6 +206,32 @@ def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> 
             f"worker {name!r} wants {output.key!r} published at {output.t_out_ns} ns, before its "
             f"step at {t_ns} ns; expected a later time, or None"
         )
+
+
+def _hints(description: WorkerDescription, step: Any, names: Sequence[str] | None) -> Iterator[str]:
+    """Yield a hint for each advisory on which nobody acts.
+
+    Parameters
+    ----------
+    names
+        Names of all who may be told; None if anybody may be.
+    """
+    if is_reference(description):
+        return
+    try:
+        outputs = checked(description.name, step).outputs
+    except WorkerError:
+        return  # `_wrong_answer` tells what is wrong with the step.
+    for output in outputs:
+        try:
+            advisory = Advisory.model_validate_json(output.payload)
+        except ValidationError:
+            continue  # It is no advisory; `_wrong_answer` tells if it had to be one.
+        is_known = names is None or advisory.recipient in names
+        # Everybody in the samples is an aircraft, and its crew follows every recommendation.
+        text = no_action(advisory, (lambda _: True) if is_known else None)
+        if text is not None:
+            yield f"worker {description.name!r}: {text}"
 
 
 def _named(given: Sequence[Input]) -> str:

@@ -14,7 +14,7 @@ from airhilt.bus.session import ROOT, connect_client
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply
 from airhilt.sim.worker import Input
-from airhilt.workers.protocol import Worker, timed_step
+from airhilt.workers.protocol import Worker, checked, described, timed_step
 
 
 def answer_grants(worker: Worker, connect: str, run: str | None, patience_s: float) -> None:
@@ -39,18 +39,19 @@ def _find_run(session: zenoh.Session, connect: str, patience_s: float) -> str:
 
 def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
     over = threading.Event()
-    name = worker.description.name
+    description = described(worker)
+    name = description.name
     key = f"{prefix}/worker/{name}"
 
     def describe(query: zenoh.Query) -> None:
         with query:
-            query.reply(f"{key}/describe", worker.description.model_dump_json().encode())
+            query.reply(f"{key}/describe", description.model_dump_json().encode())
 
     def step(query: zenoh.Query) -> None:
         with query:
             try:
-                payload, attachment = _answer(worker, query)
-            except Exception as error:
+                payload, attachment = _answer(name, worker, query)
+            except (Exception, SystemExit) as error:
                 query.reply_err(f"{type(error).__name__}: {error}".encode())
                 raise
             query.reply(f"{key}/step", payload, attachment=attachment)
@@ -70,7 +71,7 @@ def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
         entity.undeclare()
 
 
-def _answer(worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
+def _answer(name: str, worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
     if query.attachment is None:
         raise BusError("a grant without an attachment")
     try:
@@ -83,10 +84,11 @@ def _answer(worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
         Input(item.key, item.t_in_ns, part, item.attachment)
         for item, part in zip(grant.inputs, parts, strict=True)
     ]
-    reply = timed_step(worker, grant.t_ns, inputs)
+    result, compute_s = timed_step(worker, grant.t_ns, inputs)
+    step = checked(name, result)
     header = StepReply(
         seq=grant.seq,
-        compute_s=reply.compute_s,
+        compute_s=compute_s,
         outputs=tuple(
             StepOutput(
                 key=output.key,
@@ -94,8 +96,8 @@ def _answer(worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
                 t_out_ns=output.t_out_ns,
                 attachment=output.attachment,
             )
-            for output in reply.outputs
+            for output in step.outputs
         ),
-        wake_ns=reply.wake_ns,
+        wake_ns=step.wake_ns,
     )
-    return pack(output.payload for output in reply.outputs), header.model_dump_json().encode()
+    return pack(output.payload for output in step.outputs), header.model_dump_json().encode()

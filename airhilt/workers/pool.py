@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
+    UNREGISTERED,
     WORKER_OUTPUTS,
     Advisory,
     AdvisoryAudio,
@@ -90,7 +91,7 @@ class WorkerPool:
                 description.name,
                 director,
                 participant.endpoint,
-                latency.source(
+                latency.of(description.modality).source(
                     description.name, seed, description.latency.median_s, description.latency.sigma
                 ),
                 deliver=partial(self._deliver, description.name),
@@ -177,16 +178,21 @@ def parse_output(
 ) -> Message:
     """Return the message that a worker put on a key: the payload, or the header of its bytes.
 
+    Parameters
+    ----------
+    worker
+        Name of the worker, or that of programs that take no grants.
+
     Raises
     ------
     WorkerError
         It may not publish there, or the payload is not what belongs there.
     """
+    who = "a program" if worker == UNREGISTERED else f"worker {worker!r}"
     model = WORKER_OUTPUTS.get(key.split("/")[0])
     if model is None:
         raise WorkerError(
-            f"worker {worker!r} published on {key!r}; expected a key under "
-            f"{', '.join(sorted(WORKER_OUTPUTS))}"
+            f"{who} published on {key!r}; expected a key under {', '.join(sorted(WORKER_OUTPUTS))}"
         )
     message: Message
     try:
@@ -196,48 +202,48 @@ def parse_output(
             message = model.model_validate_json(payload)
     except ValidationError as error:
         raise WorkerError(
-            f"worker {worker!r} published on {key!r} something that is no {model.__name__}: "
+            f"{who} published on {key!r} something that is no {model.__name__}: "
             f"{first_problem(error)}; see `airhilt schema`"
         ) from None
     if isinstance(message, Advisory) and message.t_ready_ns > now_ns:
         raise WorkerError(
-            f"worker {worker!r} published an advisory with t_ready_ns {message.t_ready_ns} at "
-            f"{now_ns} ns; expected a time that has come"
+            f"{who} published an advisory with t_ready_ns {message.t_ready_ns} at {now_ns} ns; "
+            "expected a time that has come"
         )
     if isinstance(message, AdvisoryAudio):
-        _check_audio(worker, key, message, payload)
-    if isinstance(message, Transcript) and key != f"asr/{message.frequency_khz}":
-        raise WorkerError(
-            f"worker {worker!r} published on {key!r} a transcript of {message.frequency_khz} kHz; "
-            "expected the frequency in the key"
-        )
-    if isinstance(message, Detections) and key != f"vision/{message.camera}":
-        raise WorkerError(
-            f"worker {worker!r} published on {key!r} what is in a picture of camera "
-            f"{message.camera!r}; expected the camera in the key"
-        )
-    if isinstance(message, Advisory) and key != f"advisory/{message.recipient}":
-        raise WorkerError(
-            f"worker {worker!r} published on {key!r} an advisory for {message.recipient!r}; "
-            "expected the recipient in the key"
-        )
+        _check_audio(who, key, message, payload)
+    _check_key(who, key, message)
     return message
 
 
-def _check_audio(worker: str, key: str, header: AdvisoryAudio, pcm: bytes) -> None:
+def _check_key(who: str, key: str, message: Message) -> None:
+    """Complain about a message of another frequency, camera or recipient than its key names."""
+    match message:
+        case Transcript() if key != f"asr/{message.frequency_khz}":
+            what, part = f"a transcript of {message.frequency_khz} kHz", "frequency"
+        case Detections() if key != f"vision/{message.camera}":
+            what, part = f"what is in a picture of camera {message.camera!r}", "camera"
+        case Advisory() if key != f"advisory/{message.recipient}":
+            what, part = f"an advisory for {message.recipient!r}", "recipient"
+        case _:
+            return
+    raise WorkerError(f"{who} published on {key!r} {what}; expected the {part} in the key")
+
+
+def _check_audio(who: str, key: str, header: AdvisoryAudio, pcm: bytes) -> None:
     if key != f"tts/{header.id}":
         raise WorkerError(
-            f"worker {worker!r} published on {key!r} the voice of advisory {header.id!r}; expected "
+            f"{who} published on {key!r} the voice of advisory {header.id!r}; expected "
             "its id in the key"
         )
     if header.sample_rate_hz != SAMPLE_RATE_HZ:
         raise WorkerError(
-            f"worker {worker!r} published on {key!r} audio at {header.sample_rate_hz} Hz; expected "
+            f"{who} published on {key!r} audio at {header.sample_rate_hz} Hz; expected "
             f"{SAMPLE_RATE_HZ} Hz"
         )
     if len(pcm) != 2 * header.samples or hashlib.sha256(pcm).hexdigest() != header.sha256:
         raise WorkerError(
-            f"worker {worker!r} published on {key!r} {len(pcm)} bytes that are not what their "
+            f"{who} published on {key!r} {len(pcm)} bytes that are not what their "
             f"header says; expected {header.samples} samples of 16 bits with the SHA-256 "
             f"{header.sha256}"
         )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
+from airhilt.errors import WorkerError, first_line, shown
 from airhilt.messages import WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
@@ -35,17 +36,118 @@ class Worker(Protocol):
         ...
 
 
-def timed_step(worker: Worker, t_ns: int, inputs: Sequence[Input]) -> Reply:
-    """Run one step and measure the wall time that it takes."""
+def described(worker: Worker) -> WorkerDescription:
+    """Return what a worker says of itself.
+
+    Raises
+    ------
+    WorkerError
+        It has no description, or no method `step`.
+    """
+    kind = type(worker).__name__
+    if isinstance(worker, type):
+        raise WorkerError(
+            f"{worker.__name__} is a class; expected a worker made of it: {worker.__name__}()"
+        )
+    try:
+        description = worker.description
+    except (Exception, SystemExit) as error:
+        raise WorkerError(
+            f"{kind}.description cannot be read: {first_line(error)}; expected an "
+            "airhilt.messages.WorkerDescription"
+        ) from None
+    if not isinstance(description, WorkerDescription):
+        raise WorkerError(
+            f"{kind}.description is {shown(description)}; expected an "
+            "airhilt.messages.WorkerDescription"
+        )
+    if not callable(getattr(worker, "step", None)):
+        raise WorkerError(f"worker {description.name!r} has no method step(t_ns, inputs)")
+    return description
+
+
+def timed_step(worker: Worker, t_ns: int, inputs: Sequence[Input]) -> tuple[Step, float]:
+    """Run one step; return its result, as yet unchecked, and the wall time in s."""
     begun = time.perf_counter()
     step = worker.step(t_ns, inputs)
-    return Reply(step.outputs, time.perf_counter() - begun, step.wake_ns)
+    return step, time.perf_counter() - begun
+
+
+def checked(name: str, step: Any) -> Step:
+    """Return the result of a step if its parts have the right types.
+
+    Parameters
+    ----------
+    name
+        Name of the worker.
+
+    Raises
+    ------
+    WorkerError
+        A part has another type.
+    """
+    if not isinstance(step, Step):
+        raise WorkerError(
+            f"worker {name!r} returned {shown(step)} from step; expected an airhilt.workers.Step"
+        )
+    if not isinstance(step.outputs, tuple | list):
+        raise WorkerError(
+            f"worker {name!r} returned a Step whose outputs are {shown(step.outputs)}; expected a "
+            "tuple of airhilt.workers.Output"
+        )
+    if not _is_time(step.wake_ns):
+        raise WorkerError(
+            f"worker {name!r} returned a Step with wake_ns {shown(step.wake_ns)}; expected an int, "
+            "in ns, or None"
+        )
+    for output in step.outputs:
+        _check_output(name, output)
+    return Step(tuple(step.outputs), step.wake_ns)
+
+
+def _check_output(name: str, output: Any) -> None:
+    if not isinstance(output, Output):
+        raise WorkerError(
+            f"worker {name!r} returned {shown(output)} among its outputs; expected "
+            "airhilt.workers.Output"
+        )
+    if not isinstance(output.key, str):
+        raise WorkerError(
+            f"worker {name!r} returned an Output with the key {shown(output.key)}; expected a str "
+            "such as 'advisory/ATC'"
+        )
+    if not isinstance(output.payload, bytes):
+        raise WorkerError(
+            f"worker {name!r} published on {output.key!r} the payload {shown(output.payload)}; "
+            "expected bytes"
+        )
+    if not _is_time(output.t_out_ns):
+        raise WorkerError(
+            f"worker {name!r} published on {output.key!r} with t_out_ns {shown(output.t_out_ns)}; "
+            "expected an int, in ns, or None"
+        )
+
+
+def _is_time(value: object) -> bool:
+    return value is None or (isinstance(value, int) and not isinstance(value, bool))
 
 
 class LocalWorker:
-    """Calls a worker in this process."""
+    """Calls a worker in this process.
+
+    Attributes
+    ----------
+    description
+        Description of the worker, read once.
+
+    Raises
+    ------
+    WorkerError
+        The worker has no description, or no method `step`.
+    """
 
     def __init__(self, worker: Worker) -> None:
+        self.description = described(worker)
         self._worker = worker
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> LocalStep:  # noqa: ARG002
@@ -53,18 +155,22 @@ class LocalWorker:
 
         An exception of the worker counts as its loss, so that it cannot end the run.
         """
+        name = self.description.name
         try:
-            return LocalStep(timed_step(self._worker, t_ns, inputs), None)
-        except Exception as error:
-            name = self._worker.description.name
-            return LocalStep(None, f"worker {name!r} failed: {type(error).__name__}: {error}")
+            step, compute_s = timed_step(self._worker, t_ns, inputs)
+        except (Exception, SystemExit) as error:
+            failure = f"worker {name!r} failed: {type(error).__name__}: {error}"
+            return LocalStep(name, None, 0.0, failure)
+        return LocalStep(name, step, compute_s, None)
 
 
 @dataclass(frozen=True, slots=True)
 class LocalStep:
     """A step that has been computed, or has failed."""
 
-    reply: Reply | None
+    worker: str
+    step: Step | None
+    compute_s: float
     failure: str | None
 
     def result(self) -> Reply:
@@ -74,7 +180,10 @@ class LocalStep:
         ------
         WorkerLost
             The worker raised.
+        WorkerError
+            The worker returned something else than a step.
         """
-        if self.reply is None:
-            raise WorkerLost(self.failure or "worker failed")
-        return self.reply
+        if self.failure is not None:
+            raise WorkerLost(self.failure)
+        step = checked(self.worker, self.step)
+        return Reply(step.outputs, self.compute_s, step.wake_ns)

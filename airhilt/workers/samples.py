@@ -27,6 +27,8 @@ from airhilt.messages import (
 from airhilt.sim.worker import Input
 from airhilt.units import SECOND_NS
 
+NAMES = ("AAL123", "DAL456", "a00001", "a00002")
+"""Callsigns and addresses of the aircraft in the samples."""
 SILENCE = bytes(32_000)
 """PCM of one second."""
 VIEW = CameraView(

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 import threading
 from collections.abc import Sequence
+from typing import Any
 
 import pytest
 
@@ -21,7 +23,7 @@ from airhilt.messages import (
     Transcript,
     WorkerDescription,
 )
-from airhilt.workers import Input, Output, Step, check_worker
+from airhilt.workers import Input, LocalWorker, Output, Step, check_worker
 from airhilt.workers.pool import require_no_truth
 from airhilt.workers.samples import sample_inputs
 from decisions import reference
@@ -94,6 +96,45 @@ class Forgetful(Ears):
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         super().step(t_ns, inputs)
         return None  # type: ignore[return-value]
+
+
+def step_of(*parts: Any, **more: Any) -> Step:
+    """Return a step whose parts may have any type."""
+    return Step(*parts, **more)
+
+
+def output_of(*parts: Any) -> Output:
+    """Return an output whose parts may have any type."""
+    return Output(*parts)
+
+
+class Odd(Ears):
+    """Returns what the test puts in its class."""
+
+    result: object = None
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        return self.result  # type: ignore[return-value]
+
+
+class Unreadable(Ears):
+    """Has a description that cannot be read."""
+
+    def __init__(self) -> None:
+        pass
+
+    @property
+    def description(self) -> WorkerDescription:  # type: ignore[override]
+        raise KeyError("model")
+
+
+class Unable(Ears):
+    step = None  # type: ignore[assignment]
+
+
+class Quitting(Ears):
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        raise SystemExit(3)
 
 
 class Stamping(Ears):
@@ -183,6 +224,9 @@ def test_the_examples_pass(example: str, worker: str) -> None:
         (Restless, "to be called again at 1000000000 ns; expected a later time"),
         (Eyes, "of modality vision published on 'asr/118300'; expected vision/..."),
         (Raising, "worker 'ears' raised ValueError on radio/118300/tx: no model"),
+        (Quitting, "worker 'ears' raised SystemExit on radio/118300/tx: 3"),
+        (Unreadable, "Unreadable.description cannot be read: KeyError: 'model'; expected an"),
+        (Unable, "worker 'ears' has no method step(t_ns, inputs)"),
         (Hanging, "has not answered for 0.2 s to radio/118300/tx; an attached worker that takes"),
     ],
 )
@@ -190,6 +234,41 @@ def test_a_fault_is_named(worker: type[Ears], words: str) -> None:
     with pytest.raises(WorkerError) as caught:
         check_worker(worker(), patience_s=0.2)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("result", "words"),
+    [
+        (step_of(5), "returned a Step whose outputs are 5; expected a tuple of"),
+        (step_of(("x",)), "returned 'x' among its outputs; expected airhilt.workers.Output"),
+        (step_of((output_of(5, b"{}"),)), "returned an Output with the key 5; expected a str"),
+        (step_of((output_of("k", "{}"),)), "published on 'k' the payload '{}'; expected bytes"),
+        (step_of((output_of("k", b"", "x"),)), "on 'k' with t_out_ns 'x'; expected an int, in ns"),
+        (
+            step_of((output_of("k", b"", True),)),
+            "on 'k' with t_out_ns True; expected an int, in ns",
+        ),
+        (step_of((), wake_ns="x"), "a Step with wake_ns 'x'; expected an int, in ns"),
+        (step_of((), wake_ns=0.5), "a Step with wake_ns 0.5; expected an int, in ns"),
+    ],
+)
+def test_a_part_of_a_step_with_another_type_is_named_by_the_checker_and_in_a_run(
+    result: Step, words: str
+) -> None:
+    class Returning(Odd):
+        pass
+
+    Returning.result = result
+    with pytest.raises(WorkerError, match=re.escape(words)) as told:
+        check_worker(Returning())
+    with pytest.raises(WorkerError) as raised:
+        LocalWorker(Returning()).dispatch(0, 0, ()).result()
+    assert str(raised.value) == str(told.value)
+
+
+def test_a_class_in_the_place_of_a_worker_is_refused() -> None:
+    with pytest.raises(WorkerError, match=r"Ears is a class; expected .*: Ears\(\)"):
+        check_worker(Ears)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("key", ["truth/state/*", "*/118300", "9x/*", "$y/*", "$*/state", "/adsb"])
@@ -209,6 +288,27 @@ def test_a_key_of_a_sensor_of_another_package_is_no_fault() -> None:
         wants = "temperature/*"
 
     check_worker(Thermometer())
+
+
+@pytest.mark.parametrize(
+    ("recipient", "words"),
+    [
+        ("AAL123", "worker 'ears': its CAUTION to AAL123 has no recommendation: nobody acts on it"),
+        ("AAL124", "worker 'ears': its CAUTION to AAL124: nobody has that name"),
+    ],
+)
+def test_a_warning_on_which_nobody_acts_is_no_fault_and_is_warned_of(
+    recipient: str, words: str
+) -> None:
+    class WarnsOnly(Nameless):
+        def heard(self, t_ns: int, item: Input) -> Output:
+            told = Advisory.model_validate_json(super().heard(t_ns, item).payload)
+            told = told.model_copy(update={"id": "ears-1", "recipient": recipient})
+            return Output(f"advisory/{recipient}", told.model_dump_json().encode())
+
+    with pytest.warns(UserWarning, match=words) as told:
+        check_worker(WarnsOnly())
+    assert len(told) == 1
 
 
 def test_all_faults_are_named_each_once() -> None:

@@ -18,7 +18,7 @@ from airhilt.messages import (
     Transmission,
     WorkerDescription,
 )
-from airhilt.sim import Director, Input, Output, Priority, Virtual, parse_latency
+from airhilt.sim import Director, Input, Output, Priority, Virtual, WorkerLost, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step
 
@@ -55,7 +55,7 @@ class Listener:
     name: str = "listener"
     policy: str = "fifo"
     output: Output | None = None
-    failure: Exception | None = None
+    failure: BaseException | None = None
     heard: list[Any] = field(default_factory=list)
     inputs: list[Any] = field(default_factory=list)
 
@@ -174,6 +174,30 @@ def test_a_worker_that_raises_is_lost_and_the_others_go_on() -> None:
     run.director.run()
     assert run.losses == [("bad", "worker 'bad' failed: ZeroDivisionError: by zero")]
     assert len(good.heard) == 2
+
+
+def test_a_worker_that_ends_the_interpreter_is_lost_and_the_run_goes_on() -> None:
+    run = Run([Listener("asr/*", "bad", failure=SystemExit("bye"))])
+    run.say("asr/1")
+    run.director.run()
+    assert run.losses == [("bad", "worker 'bad' failed: SystemExit: bye")]
+
+
+def test_the_description_of_a_worker_is_read_once() -> None:
+    class Changing(Listener):
+        reads = 0
+
+        @property
+        def description(self) -> WorkerDescription:
+            self.reads += 1
+            if self.reads > 1:
+                raise ValueError("read again")
+            return super().description
+
+    worker = Changing("asr/*", failure=ValueError("no model"))
+    step = LocalWorker(worker).dispatch(0, 0, ())  # type: ignore[arg-type]
+    with pytest.raises(WorkerLost, match="worker 'listener' failed: ValueError: no model"):
+        step.result()
 
 
 def test_dropped_inputs_are_counted_by_worker_and_key() -> None:
