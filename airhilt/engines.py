@@ -99,22 +99,22 @@ class Engine(Generic[T_co]):
     name
         Name of the module or entry point.
     summary
-        What it is, in a few words.
+        Description in a few words.
     create
         Returns the engine. It is given what follows ``NAME:``, or the whole text if `takes` has
         recognised that; empty if there is nothing.
     argument
         Word for what may follow ``NAME:``, such as ``FOLDER``; empty if nothing may.
     is_argument_required
-        Whether the name alone is not enough.
+        True if the name alone is not enough.
     takes
         Returns whether a text without a name, a path or an address, is for this engine.
     usage
         Words for error messages; empty: made from name and argument.
     requires
-        What must be installed.
+        Packages or programs that must be installed.
     is_remote
-        Whether it asks a program elsewhere, which may answer differently another time: a replay
+        True if it asks a program elsewhere, which may answer differently another time: a replay
         takes its results from the record.
     """
 
@@ -156,22 +156,22 @@ class EngineFamily(Family, Generic[T]):
     Attributes
     ----------
     product
-        What each engine must be an instance of, a protocol.
-    also
-        Words that may stand in the place of an engine, such as ``none``, for error messages.
+        Protocol that each engine must be an instance of.
     """
 
     protocol: type[Engine[T]] = Engine
     product: type[Any] = object
-    also: tuple[str, ...] = ()
 
-    def create(self, text: str) -> T:
+    def create(self, text: str, also: Sequence[str] = ()) -> T:
         """Return the engine for what a person has written.
 
         Parameters
         ----------
         text
             ``NAME``, ``NAME:ARGUMENT``, a path, or an address.
+        also
+            Words that the caller takes in the place of an engine, such as ``none``, for error
+            messages.
 
         Raises
         ------
@@ -179,7 +179,25 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or it cannot be made. The error is of the class
             that the family declares.
         """
-        return self.make(*self.choose(text))
+        return self.make(*self.choose(text, also))
+
+    def require_known(self, text: str, also: Sequence[str] = ()) -> None:
+        """Complain about a text that means no engine; one that is named is not loaded.
+
+        Parameters
+        ----------
+        also
+            Words that the caller takes in the place of an engine, such as ``none``.
+
+        Raises
+        ------
+        AirhiltError
+            No engine is meant, or more than one.
+        """
+        name = text.partition(":")[0]
+        is_own = any(point.name == name for point in self.own())
+        if text not in also and not is_own and name not in self.names():
+            self.choose(text, also)
 
     def make(self, engine: Engine[T], argument: str) -> T:
         """Return what an engine makes of an argument, checked against the family's protocol.
@@ -204,8 +222,8 @@ class EngineFamily(Family, Generic[T]):
             raise self.error(f"{self.word} {text!r}: what it makes, {made!r}, has no {lacks}")
         return made
 
-    def choose(self, text: str) -> tuple[Engine[T], str]:
-        """Return the engine that a text asks for, and the argument for it.
+    def choose(self, text: str, also: Sequence[str] = ()) -> tuple[Engine[T], str]:
+        """Return the engine that a text asks for, and the argument for it; `also` as in `create`.
 
         Raises
         ------
@@ -230,8 +248,9 @@ class EngineFamily(Family, Generic[T]):
         if text and Path(text).exists():
             problem, meant = f"no {self.word} knows such files", ""
         else:
-            problem, meant = "there is none of that name", self._suggestion(name, engines)
-        raise self.error(f"{self.word} {text!r}: {problem}; expected {self._forms(engines)}{meant}")
+            problem, meant = "there is none of that name", _suggestion(name, engines, also)
+        forms = _forms(engines, also)
+        raise self.error(f"{self.word} {text!r}: {problem}; expected {forms}{meant}")
 
     def _takes(self, engine: Engine[T], text: str) -> bool:
         try:
@@ -242,19 +261,21 @@ class EngineFamily(Family, Generic[T]):
                 f"{type(error).__name__}: {error}"
             ) from error
 
-    def _forms(self, engines: Sequence[Engine[T]]) -> str:
-        """Return what may be written, for error messages."""
-        words = [
-            f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
-            for engine in engines
-        ]
-        *others, last = [*words, *self.also]
-        return f"{', '.join(others)}, or {last}" if others else last
 
-    def _suggestion(self, name: str, engines: Sequence[Engine[T]]) -> str:
-        named = [engine.name for engine in engines if not engine.usage]
-        tail = nearest(name, [*named, *self.also])
-        return tail if "did you mean" in tail else ""
+def _forms(engines: Sequence[Engine[Any]], also: Sequence[str]) -> str:
+    """Return what may be written, for error messages."""
+    words = [
+        f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
+        for engine in engines
+    ]
+    *others, last = [*words, *also]
+    return f"{', '.join(others)}, or {last}" if others else last
+
+
+def _suggestion(name: str, engines: Sequence[Engine[Any]], also: Sequence[str]) -> str:
+    named = [engine.name for engine in engines if not engine.usage]
+    tail = nearest(name, [*named, *also])
+    return tail if "did you mean" in tail else ""
 
 
 def _loadable(installed: Members) -> list[Engine[Any]]:

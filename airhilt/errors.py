@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import reprlib
+import traceback
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -85,7 +88,19 @@ def first_problem(error: ValidationError) -> str:
     return f"{where}: {first['msg']}" if where else str(first["msg"])
 
 
-def first_line(error: Exception) -> str:
+def shown(value: object) -> str:
+    """Return a value as an error shows it: in one line, and cut where it is long."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def first_line(error: BaseException) -> str:
     """Return kind and first line of what a library raised; some write pages."""
     lines = str(error).strip().splitlines()
     return f"{type(error).__name__}: {lines[0]}" if lines else type(error).__name__
+
+
+def failure_in(error: Exception) -> str:
+    """Return what another package's code raised, in one line, with the line of code that did."""
+    frames = traceback.extract_tb(error.__traceback__)
+    where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f"{first_line(error)}{where}"

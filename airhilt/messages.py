@@ -760,6 +760,11 @@ class WorkerDescription(Part):
     modality: Modality
     inputs: tuple[InputSpec, ...] = Field(min_length=1)
     latency: DeclaredLatency = DeclaredLatency(median_s=0.1)
+    engine: str = Field(
+        "",
+        description="name of the decision engine in AIRHILT's decision worker, such as reference; "
+        "empty for other workers",
+    )
 
 
 class GrantInput(Part):

@@ -7,21 +7,32 @@ cosim`` makes its flags of them, and ``run.json`` holds them whole, so that a re
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
 from pydantic.fields import FieldInfo
+from pydantic_core import PydanticCustomError
 
 from airhilt.engines import ASR, DETECTOR, RENDERER_HELP, TTS, WORDING
-from airhilt.errors import AirhiltError, first_problem
+from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.library import nearest
 from airhilt.messages import RadarKind
 from airhilt.scenario.models import Topology
 
 FORMER_NAMES = {"listen": "endpoint"}
 """Names that options had up to version 0.4, still understood, by what they are now."""
+RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
+"""Names of runs: one chunk of a key of Zenoh, and of a path."""
 LONGEST_S = 86_400.0
 """Greatest timeout in s."""
 
@@ -41,7 +52,7 @@ class Flag:
     default
         Shown in the help where the option's own default (None) says nothing.
     needs
-        Name of the option without which this one does nothing.
+        Names of the options without which this one does nothing.
     former
         Spellings of earlier versions: understood, but not shown.
     """
@@ -50,8 +61,20 @@ class Flag:
     help: str
     metavar: str | None = None
     default: str = ""
-    needs: str = ""
+    needs: tuple[str, ...] = ()
     former: tuple[str, ...] = ()
+
+
+def _one_chunk(name: str) -> str:
+    """Return a name that is one chunk of a key."""
+    if RUN_NAME.fullmatch(name) is None:
+        raise PydanticCustomError(
+            "run_name",
+            "found {name}; expected at most 80 letters, digits, '.', '_' and '-', a letter or a "
+            "digit first: it is a part of keys",
+            {"name": shown(name)},
+        )
+    return name
 
 
 Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
@@ -62,7 +85,9 @@ class Options(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    seed: Annotated[int, Flag("--seed", "Of perturbations, sensors, crews and turbulence.")] = 0
+    seed: Annotated[
+        int, Flag("--seed", "Seed of perturbations, sensors, crews and turbulence.")
+    ] = 0
     out: Annotated[
         Path | None,
         Flag("--out", "The run folder.", "DIR", default="a new one under runs/"),
@@ -72,10 +97,10 @@ class Options(BaseModel):
         str | None,
         Flag(
             "--assistant",
-            "Who decides: reference, an engine of another package, none, or external (an attached "
-            "program).",
+            "Who decides: reference, an engine of another package, none, or external (a worker or "
+            "program of yours).",
             "NAME",
-            default="reference, external if an attached program may decide",
+            default="reference, external if a worker or program of yours may decide",
         ),
     ] = None
     pace: Annotated[
@@ -89,7 +114,12 @@ class Options(BaseModel):
     ] = None
     latency: Annotated[
         str,
-        Flag("--latency", "measured, fixed, fixed:SECONDS, lognormal or replay:RUN.", "SOURCE"),
+        Flag(
+            "--latency",
+            "measured, fixed, fixed:SECONDS, lognormal, lognormal:MEDIAN or replay:RUN; after it "
+            "other ones for single stages: fixed,asr=lognormal:5.9,tts=fixed:0.9.",
+            "SOURCE",
+        ),
     ] = "measured"
     endpoint: Annotated[
         str | None,
@@ -121,7 +151,7 @@ class Options(BaseModel):
             "SECONDS",
         ),
     ] = 5.0
-    run_name: str | None = None
+    run_name: Annotated[str, AfterValidator(_one_chunk)] | None = None
     """First part of the keys of the run; None: scenario and seed."""
     cameras: Annotated[bool, Flag("--no-cameras", "Leave cameras and vision out.")] = True
     renderer: Annotated[
@@ -130,7 +160,7 @@ class Options(BaseModel):
             "--renderer",
             RENDERER_HELP,
             "NAME",
-            needs="cameras",
+            needs=("cameras",),
         ),
     ] = "auto"
     detector: Annotated[
@@ -140,7 +170,7 @@ class Options(BaseModel):
             "What looks at pictures: embedded, embedded:FILE.onnx, yolo:FILE, the address of a "
             "service, or none.",
             "ENGINE",
-            needs="cameras",
+            needs=("cameras", "assistant"),
         ),
     ] = DETECTOR
     video: Annotated[
@@ -148,7 +178,7 @@ class Options(BaseModel):
         Flag(
             "--video",
             "Write what each camera saw as MP4, with boxes and advisories.",
-            needs="cameras",
+            needs=("cameras",),
         ),
     ] = False
     speech: Annotated[bool, Flag("--no-speech", "Radio calls as text, not as sound.")] = True
@@ -168,7 +198,7 @@ class Options(BaseModel):
             "vhf, vhf_833, fading, noisy_cockpit, monitor, line, or a learned channel, FILE.onnx.",
             "NAME",
             default="the scenario's, or vhf",
-            needs="speech",
+            needs=("speech",),
         ),
     ] = None
     asr: Annotated[
@@ -177,7 +207,7 @@ class Options(BaseModel):
             "--asr",
             "What recognises speech: embedded, whisper:FOLDER, or the address of a service.",
             "ENGINE",
-            needs="speech",
+            needs=("speech", "assistant"),
         ),
     ] = ASR
     tts: Annotated[
@@ -186,12 +216,13 @@ class Options(BaseModel):
             "--tts",
             "What speaks: espeak, flite, coqui:FOLDER, or the address of a service.",
             "ENGINE",
-            needs="speech",
+            needs=("speech",),
         ),
     ] = TTS
-    wording: Annotated[str, Flag("--wording", "What turns an advisory into words.", "NAME")] = (
-        WORDING
-    )
+    wording: Annotated[
+        str,
+        Flag("--wording", "What turns an advisory into words.", "NAME", needs=("assistant",)),
+    ] = WORDING
     topology: Annotated[
         Topology | None,
         Flag(

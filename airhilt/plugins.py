@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from inspect import get_annotations
 from typing import Any
 
 from airhilt.errors import AirhiltError
@@ -35,7 +36,7 @@ class Family:
     attribute
         Name of the object in each of these modules, such as ``KIND``.
     protocol
-        What each member must be an instance of; a member with a ``name`` goes by that name alone.
+        Type of each member; a member with a ``name`` goes by that name alone.
     error
         Raised for a member that does not exist or cannot be loaded.
     """
@@ -75,6 +76,13 @@ class Family:
         """
         own = [point for point in self.own() if point.name == name]
         return (Members(self, tuple(own)) if own else self.scan()).load(name)
+
+    def origin(self, name: str) -> str:
+        """Return name and version of the other package that has a member; empty for AIRHILT's."""
+        if any(point.name == name for point in self.own()):
+            return ""
+        found = [point.dist for point in entry_points(group=self.group, name=name) if point.dist]
+        return f"{found[0].name} {found[0].version}" if found else ""
 
 
 @dataclass(frozen=True)
@@ -125,6 +133,12 @@ class Members:
 
 
 def missing(thing: object, protocol: type[Any]) -> list[str]:
-    """Return the public names that a protocol has and a thing has not."""
-    names = [name for name in vars(protocol) if not name.startswith("_")]
-    return [name for name in names if not hasattr(thing, name)]
+    """Return the public names that a protocol, with what it extends, has and a thing has not."""
+    parts = [each for each in protocol.__mro__[1:] if getattr(each, "_is_protocol", False)]
+    every = (name for part in (protocol, *parts) for name in (*vars(part), *_annotated(part)))
+    names = dict.fromkeys(every)
+    return [name for name in names if not name.startswith("_") and not hasattr(thing, name)]
+
+
+def _annotated(part: type[Any]) -> tuple[str, ...]:
+    return tuple(get_annotations(part)) if getattr(part, "_is_protocol", False) else ()

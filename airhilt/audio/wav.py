@@ -39,7 +39,7 @@ def decode_wav(data: bytes, source: str) -> Audio:
     Parameters
     ----------
     source
-        Where the bytes come from, for messages.
+        Origin of the bytes, for messages.
 
     Raises
     ------

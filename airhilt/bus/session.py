@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 import time
 from collections.abc import Callable
@@ -16,6 +17,15 @@ ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
 """Time between two attempts to connect, in s."""
+
+IN_USE = "Address already in use"
+"""Text in the error of Zenoh where another program has the port."""
+SHARED_MEMORY = "POSIX shm"
+"""Text in the error of Zenoh where a segment of shared memory cannot be made."""
+SHARED_MEMORY_FOLDER = "/dev/shm"  # noqa: S108
+"""Folder in which Linux keeps segments of shared memory."""
+SOURCE_POSITION = re.compile(r" at \S+\.rs:\d+\.?")
+"""Place in the source of Zenoh that an error names."""
 
 
 def free_endpoint() -> str:
@@ -60,18 +70,19 @@ def connect_client(endpoint: str, patience_s: float) -> zenoh.Session:
     Raises
     ------
     BusError
-        Nothing listens there in time.
+        Nothing listens there in time, or Zenoh cannot make its shared memory.
     """
     config = configuration("client", "connect", endpoint)
     deadline = time.monotonic() + patience_s
     while True:
         try:
             return zenoh.open(config)
-        except zenoh.ZError:
+        except zenoh.ZError as error:
+            _require_shared_memory(error)
             if time.monotonic() > deadline:
                 raise BusError(
                     f"nothing listens on {endpoint} after {patience_s:g} s; start the run first: "
-                    f"airhilt cosim --scenario NAME --endpoint {endpoint}"
+                    f"airhilt cosim --scenario NAME --endpoint {endpoint} (Zenoh: {_reason(error)})"
                 ) from None
             time.sleep(RETRY_S)
 
@@ -84,12 +95,12 @@ class Bus:
     run
         Name of the run, one key chunk.
     endpoint
-        Where to accept connections; None takes a free loopback port.
+        Endpoint at which to accept connections; None takes a free loopback port.
 
     Raises
     ------
     BusError
-        The endpoint is malformed or in use.
+        The endpoint is malformed or in use, or Zenoh cannot make its shared memory.
     """
 
     def __init__(self, run: str, endpoint: str | None = None) -> None:
@@ -99,9 +110,15 @@ class Bus:
         try:
             self.session = zenoh.open(configuration("router", "listen", self.endpoint))
         except zenoh.ZError as error:
+            _require_shared_memory(error)
+            advice = (
+                "another program has the port: choose another with --endpoint, or leave it out for "
+                "a free one"
+                if IN_USE in str(error)
+                else "expected a free port of this machine, such as tcp/127.0.0.1:7447"
+            )
             raise BusError(
-                f"cannot listen on {self.endpoint}: {_reason(error)}; is the port in use? "
-                "choose another with --endpoint, or leave it out for a free one"
+                f"cannot listen on {self.endpoint}: {_reason(error)}; {advice}"
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._latest: dict[str, bytes] = {}
@@ -163,7 +180,21 @@ class Bus:
         self.session.close()  # type: ignore[no-untyped-call]
 
 
+def _require_shared_memory(error: zenoh.ZError) -> None:
+    """Complain if a session cannot be opened for want of shared memory, whatever the endpoint.
+
+    Raises
+    ------
+    BusError
+        The error is one of shared memory.
+    """
+    if SHARED_MEMORY in str(error):
+        raise BusError(
+            f"Zenoh cannot make its shared memory in {SHARED_MEMORY_FOLDER}: {_reason(error)}; "
+            f"{SHARED_MEMORY_FOLDER} must be writable and have room (in a container: --shm-size)"
+        ) from None
+
+
 def _reason(error: zenoh.ZError) -> str:
-    """Return the first sentence of a ZError without its source positions."""
-    text = str(error).split(" at ")[0].split(" => ")[0]
-    return text.strip() or "refused"
+    """Return the text of a ZError without its source positions."""
+    return SOURCE_POSITION.sub("", str(error)).strip() or "refused"

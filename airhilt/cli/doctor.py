@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
+import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -16,24 +17,8 @@ from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family, Members
 
-NEEDED = (
-    "jsbsim",
-    "numpy",
-    "eclipse-zenoh",
-    "pydantic",
-    "mcap",
-    "zstandard",
-    "geographiclib",
-    "shapely",
-    "networkx",
-    "pygeomag",
-    "scipy",
-    "onnxruntime",
-    "espeakng-loader",
-    "jiwer",
-    "httpx",
-    "pillow",
-)
+NO_NAME = re.compile(r"[^A-Za-z0-9._-]")
+"""Character that ends the name at the beginning of a requirement."""
 EMBREE = "embree"
 """Renderer of a plain install."""
 OPTIONAL = {
@@ -52,6 +37,8 @@ class Finding:
     """Version or count; empty if it is missing."""
     needed: bool
     remedy: str = ""
+    is_broken: bool = False
+    """True if it is installed, and does not work."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return it for JSON."""
@@ -60,7 +47,8 @@ class Finding:
     def __str__(self) -> str:
         if self.found:
             return f"ok       {self.name} {self.found}"
-        return f"{'MISSING' if self.needed else 'absent '}  {self.name}: {self.remedy}"
+        word = "BROKEN" if self.is_broken else "MISSING" if self.needed else "absent"
+        return f"{word:7}  {self.name}: {self.remedy}"
 
 
 def examine() -> list[Finding]:
@@ -68,7 +56,7 @@ def examine() -> list[Finding]:
     findings = [
         Finding("airhilt", __version__, needed=True),
         Finding("python", platform.python_version(), needed=True),
-        *[_package(name) for name in NEEDED],
+        *_packages(),
         *[_library(kind) for kind in ("aircraft", "scenarios")],
         _jsbsim_models(),
         *_engines(),
@@ -76,6 +64,21 @@ def examine() -> list[Finding]:
         *_families(),
     ]
     return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
+
+
+def _packages() -> list[Finding]:
+    """Look for the packages that AIRHILT depends on.
+
+    A package with a marker, which is for some machines only, is left out: embreex is one, and its
+    renderer is tried.
+    """
+    try:
+        requirements = importlib.metadata.requires("airhilt") or []
+    except importlib.metadata.PackageNotFoundError:
+        remedy = f"{sys.executable} -m pip install -e . (in the folder of pyproject.toml)"
+        return [Finding("metadata of airhilt", "", needed=False, remedy=remedy)]
+    needed = [requirement for requirement in requirements if ";" not in requirement]
+    return [_package(NO_NAME.split(requirement, 1)[0]) for requirement in needed]
 
 
 def _package(name: str) -> Finding:
@@ -112,12 +115,16 @@ def _engine(family: EngineFamily[Any], installed: Members, name: str, needed: bo
     title = f"{family.word} {name}"
     try:
         engine: Engine[Any] = installed.load(name)
+    except AirhiltError as error:
+        return Finding(title, "", needed, str(error), is_broken=True)
+    try:
         if lacks := engine.lacks():
             return Finding(title, "", needed, f"{engine.summary}; {lacks}")
         if engine.accepts("") and not engine.usage:
             family.make(engine, "")
     except AirhiltError as error:
-        return Finding(title, "", needed, str(error))
+        is_own = any(point.name == name for point in family.own())  # Its files may be missing.
+        return Finding(title, "", needed, str(error), is_broken=not is_own)
     packages = "".join(f"{requirement.found()}, " for requirement in engine.requires)
     return Finding(title, f"({packages}{engine.summary})", needed)
 
@@ -151,7 +158,8 @@ def _members(
             load(installed, name)
             usable.append(name)
         except AirhiltError as error:
-            broken.append(Finding(f"{family.word} {name}", "", name in needed, str(error)))
+            title = f"{family.word} {name}"
+            broken.append(Finding(title, "", name in needed, str(error), is_broken=True))
     found = f"({len(usable)}: {', '.join(usable)})"
     return [Finding(f"{family.word}s", found, needed=False), *broken]
 
@@ -167,11 +175,13 @@ def _renderers() -> list[Finding]:
 def _renderer(name: str, *, needed: bool) -> Finding:
     from airhilt.errors import RendererError
     from airhilt.sensors.cameras.renderer_process import probe
+    from airhilt.sensors.cameras.renderers import FAMILY
 
     try:
         probe(name)
     except RendererError as error:
-        return Finding(f"renderer {name}", "", needed=needed, remedy=str(error))
+        is_own = any(point.name == name for point in FAMILY.own())  # Its library may be missing.
+        return Finding(f"renderer {name}", "", needed, str(error), is_broken=not is_own)
     return Finding(f"renderer {name}", "(draws)", needed=needed)
 
 

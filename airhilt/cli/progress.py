@@ -112,11 +112,7 @@ def print_summary(summary: Summary, folder: Path) -> None:
 
 
 def _rows(summary: Summary) -> list[tuple[str, str]]:
-    window = "none: the scenario declares no conflict, or its condition never came true"
-    if summary.t_conflict_s is not None and summary.t_conflict_end_s is not None:
-        window = f"{summary.t_conflict_s:.2f} to {summary.t_conflict_end_s:.2f} s"
-    approach = summary.closest_approach
-    rows = [
+    return [
         ("scenario", f"{summary.scenario}, seed {summary.seed}"),
         ("assistant", _assistant(summary)),
         ("outcome", summary.outcome),
@@ -125,7 +121,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
             f"{summary.duration_s:.1f} s, {_factor(summary.real_time_factor)} x real time, "
             f"{summary.cpu_s:.2f} s of CPU",
         ),
-        ("conflict window", window),
+        ("conflict window", _conflict_window(summary)),
         ("first warning", _seconds(summary.t_first_warning_s)),
         ("time to first warning", _seconds(summary.time_to_first_warning_s)),
         ("before closest approach", _seconds(summary.lead_before_closest_approach_s)),
@@ -139,29 +135,42 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
             f"horizontal {_distance(summary.min_horizontal_separation_m)} while vertical was lost, "
             f"vertical {_height(summary.min_vertical_separation_m)} while horizontal was lost",
         ),
-    ]
-    if approach is not None:
-        rows.append(
-            (
-                "closest approach",
-                f"{_distance(approach.horizontal_m)}, {_height(approach.vertical_m)} at "
-                f"{approach.t_s:.1f} s",
-            )
-        )
-    rows += [
+        *_approach_rows(summary),
         ("loss of separation", _yes(summary.loss_of_separation)),
         ("NMAC", _yes(summary.nmac)),
         ("collision", _yes(summary.collision)),
         *_incursion_rows(summary),
+        *_declared_rows(summary),
         ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
         ("nuisance alerts", str(summary.nuisance_alerts)),
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
         *_vision_rows(summary.vision),
         ("modalities", ", ".join(_modalities(summary))),
+        *((f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()),
     ]
-    rows += [(f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()]
-    return rows
+
+
+def _conflict_window(summary: Summary) -> str:
+    if summary.t_conflict_s is None or summary.t_conflict_end_s is None:
+        return "none: the scenario declares no conflict, or its condition never came true"
+    return f"{summary.t_conflict_s:.2f} to {summary.t_conflict_end_s:.2f} s"
+
+
+def _approach_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row on the closest approach, if there was one."""
+    approach = summary.closest_approach
+    if approach is None:
+        return []
+    distances = f"{_distance(approach.horizontal_m)}, {_height(approach.vertical_m)}"
+    return [("closest approach", f"{distances} at {approach.t_s:.1f} s")]
+
+
+def _declared_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row if the outcome that the scenario declares did not come about unassisted."""
+    if summary.unassisted_as_declared is not False:
+        return []
+    return [("as declared", "no: nobody was warned, and the declared outcome did not come about")]
 
 
 def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:

@@ -10,7 +10,6 @@ from click.core import ParameterSource
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
-from airhilt.errors import AirhiltError
 from airhilt.options import Flag, Options, flag_of
 
 
@@ -30,8 +29,6 @@ def options_given(context: click.Context) -> Options:
     ------
     click.BadParameter
         A value is not what the option takes.
-    AirhiltError
-        An option was given that does nothing, because another leaves out what it is about.
     """
     given = {
         name: value
@@ -40,7 +37,7 @@ def options_given(context: click.Context) -> Options:
         and context.get_parameter_source(name) is ParameterSource.COMMANDLINE
     }
     try:
-        options = Options(**given)
+        return Options(**given)
     except ValidationError as error:
         problem = error.errors()[0]
         flag = flag_of(Options.model_fields[str(problem["loc"][0])])
@@ -50,16 +47,6 @@ def options_given(context: click.Context) -> Options:
             context,
             param_hint=None if flag is None else f"'{flag.name}'",
         ) from None
-    for name, value in given.items():
-        flag = flag_of(Options.model_fields[name])
-        if flag is not None and flag.needs and not getattr(options, flag.needs):
-            switch = flag_of(Options.model_fields[flag.needs])
-            shown = flag.name if value is True else f"{flag.name} {value!r}"
-            raise AirhiltError(
-                f"{shown} would do nothing with {switch.name if switch else flag.needs}; "
-                "expected only one of the two"
-            )
-    return options
 
 
 def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.assistant.reference import NO_ASSISTANT
-from airhilt.cosim.participants import NO_DETECTOR, Participants
+from airhilt.assistant.reference import NO_ASSISTANT, NO_DETECTOR
+from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
@@ -50,7 +50,7 @@ class Vision:
     unavailable_reason
         Why pictures that somebody would look at cannot be drawn; empty if they can.
     is_watched
-        Whether a worker looks at the pictures.
+        True if a worker looks at the pictures.
     notice
         Called with what a user should know at once.
     """
@@ -158,7 +158,7 @@ def started_renderer(
     Parameters
     ----------
     is_watched
-        Whether the caller gives workers, which may look.
+        True if the caller gives workers, which may look.
     """
     may_look = (
         is_watched

@@ -17,8 +17,8 @@ from airhilt.messages import UNREGISTERED, ActorCommand, Advisory, Message
 from airhilt.sim import Director, RealTime, Virtual
 from airhilt.workers.pool import parse_output
 
-PATTERNS = ("advisory/*", "asr/*", "vision/*", "command/*")
-"""Keys on which any program may publish."""
+PATTERNS = ("advisory/*", "asr/*", "vision/*", "command/*", "tts/*")
+"""Keys that are heard; what comes on the last is refused, for a voice needs grants."""
 
 
 class ExternalPrograms:
@@ -27,16 +27,16 @@ class ExternalPrograms:
     Attributes
     ----------
     heard
-        Whether such a program has published.
+        True if such a program has published.
     has_decision
-        Whether somebody decides, so that its first advisory changes nothing.
+        True if somebody decides, so that its first advisory changes nothing.
 
     Parameters
     ----------
     obey
         Lets an actor carry out a command.
     is_strict
-        Whether a message that is refused stops the run.
+        True if a message that is refused stops the run.
     """
 
     def __init__(
@@ -52,6 +52,7 @@ class ExternalPrograms:
         is_strict: bool,
     ) -> None:
         self.heard = False
+        self._refusals: set[str] = set()
         self.has_decision = has_decision
         self._director = director
         self._router = router
@@ -93,7 +94,9 @@ class ExternalPrograms:
             message = _parse(key, data, self._director.now_ns)
         except WorkerError as error:
             self._event("refused", key, str(error))
-            self._observer.notice(str(error))
+            if str(error) not in self._refusals:
+                self._refusals.add(str(error))
+                self._observer.notice(str(error))
             if self._is_strict:
                 raise
             return
@@ -112,13 +115,19 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
     Raises
     ------
     WorkerError
-        It is not what belongs there.
+        It is not what belongs there, or it is a voice.
     """
+    if key.startswith("tts/"):
+        raise WorkerError(
+            "a program published on 'tts/*' without a grant; expected a voice that takes grants "
+            "(docs/workers.md)"
+        )
     if not key.startswith("command/"):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return ActorCommand.model_validate_json(data)
     except ValidationError as error:
         raise WorkerError(
-            f"{key}: not a command: {first_problem(error)}; see `airhilt schema`"
+            f"a program published on {key!r} something that is no ActorCommand: "
+            f"{first_problem(error)}; see `airhilt schema`"
         ) from None

@@ -17,7 +17,7 @@ class Modalities:
     Parameters
     ----------
     is_strict
-        Whether the loss of a modality stops the run.
+        True if the loss of a modality stops the run.
     """
 
     def __init__(

@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, Engines, reference_workers
+from airhilt.assistant.reference import EXTERNAL, NO_DETECTOR, Engines, reference_workers
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
 from airhilt.cosim.recorded import Recorded
 from airhilt.engines import ASSISTANT
 from airhilt.errors import WorkerError
-from airhilt.messages import Modality, WorkerDescription
+from airhilt.messages import Modality
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.workers import LocalWorker, Worker
-from airhilt.workers.pool import Participant
-
-NO_DETECTOR = "none"
-"""Name in the place of a detector: no worker looks at pictures."""
+from airhilt.workers.pool import Participant, Where
 
 
 @dataclass(frozen=True)
@@ -74,10 +71,11 @@ def connect(
     SpeechError, VisionError
         An engine cannot be loaded.
     WorkerError
-        Two workers have the same name.
+        A worker has no description or no method `step`, two have the same name, or one decides
+        though the options name another assistant.
     """
     workers = list(recorded.workers)
-    workers += [_participant(worker) for worker in given]
+    workers += [_participant(worker, "caller") for worker in given]
     attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
     workers += [
         Participant(description, worker, "attached")
@@ -87,41 +85,37 @@ def connect(
     programs = [worker.name for worker, description in attached if description is None]
     programs = programs or list(recorded.programs)
     taken = {worker.description.modality for worker in workers}
-    may_decide = "decision" in taken or bool(programs)
-    assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
     if "decision" in taken and not recorded.is_replay:
-        if assistant == NO_ASSISTANT:
-            raise WorkerError(
-                f"assistant {NO_ASSISTANT!r}, but a worker of yours decides; expected one of them"
-            )
-        assistant = EXTERNAL
-    engines = Engines(
-        asr=options.asr if options.speech else None,
-        tts=options.tts if options.speech else None,
-        detector=_detector(options, scenario),
-        wording=options.wording,
-    )
-    for worker in reference_workers(assistant, scenario.radio, taken, engines):
-        workers.append(Participant(worker.description, LocalWorker(worker), "in process"))
+        assistant = _external_assistant(options)
+    else:
+        may_decide = "decision" in taken or bool(programs)
+        assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
+    engines = _engines(options, scenario)
+    reference = reference_workers(assistant, scenario.radio, taken, engines)
+    workers += [_participant(worker, "in process") for worker in reference]
     _require_different_names(workers, programs)
     return Participants(assistant, tuple(workers), tuple(programs))
 
 
-def _participant(worker: Worker) -> Participant:
-    """Return a worker of the caller as one of the run.
+def _external_assistant(options: Options) -> str:
+    """Return the name of an assistant whose decisions a worker of the user makes.
 
     Raises
     ------
     WorkerError
-        It has no description.
+        The options name another one, or ask for none.
     """
-    description = getattr(worker, "description", None)
-    if not isinstance(description, WorkerDescription):
+    if options.assistant not in (None, EXTERNAL):
         raise WorkerError(
-            f"worker {worker!r}: its description is {description!r}; expected a "
-            "WorkerDescription (airhilt.messages)"
+            f"assistant {options.assistant!r}, but a worker of yours decides; expected one of them"
         )
-    return Participant(description, LocalWorker(worker), "caller")
+    return EXTERNAL
+
+
+def _participant(worker: Worker, where: Where) -> Participant:
+    """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
+    local = LocalWorker(worker)
+    return Participant(local.description, local, where)
 
 
 def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:
@@ -133,6 +127,15 @@ def _require_different_names(workers: Sequence[Participant], programs: Sequence[
             )
         if names.count(name) > 1:
             raise WorkerError(f"two workers are named {name!r}; expected a name for each")
+
+
+def _engines(options: Options, scenario: Scenario) -> Engines:
+    return Engines(
+        asr=options.asr if options.speech else None,
+        tts=options.tts if options.speech else None,
+        detector=_detector(options, scenario),
+        wording=options.wording,
+    )
 
 
 def _detector(options: Options, scenario: Scenario) -> str | None:

@@ -38,14 +38,14 @@ class Recorded:
         Names of the attached programs that took no grants.
     losses
         Losses of these programs, by name.
-    foreign
+    unregistered
         Messages of unregistered programs.
     unavailable_reason
         Why no pictures could be drawn from the start; empty if they could.
     cameras_lost
         Time from which there were no more pictures (ns), and why.
     has_pictures
-        Whether there were pictures, even if no worker looks at them in the replay.
+        True if there were pictures, even if no worker looks at them in the replay.
     """
 
     latency: LatencySpec | None = None
@@ -54,7 +54,7 @@ class Recorded:
     workers: tuple[Participant, ...] = ()
     programs: tuple[str, ...] = ()
     losses: Mapping[str, Loss] = field(default_factory=dict)
-    foreign: tuple[UnregisteredMessage, ...] = ()
+    unregistered: tuple[UnregisteredMessage, ...] = ()
     unavailable_reason: str = ""
     cameras_lost: tuple[int, str] | None = None
     has_pictures: bool = False

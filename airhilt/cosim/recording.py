@@ -88,7 +88,7 @@ def read_recorded(
         workers=tuple(workers),
         programs=programs,
         losses=losses,
-        foreign=tuple(
+        unregistered=tuple(
             UnregisteredMessage(logged.key, logged.t_ns, logged.data)
             for logged in log
             if logged.publisher == UNREGISTERED
@@ -179,9 +179,9 @@ class ReplayedWorker:
     given
         All that it gave, in order.
     outputs
-        How many of them each step gave.
+        Number of outputs that each step gave.
     wakes_ns
-        When each step asked to be called again.
+        Time at which each step asked to be called again.
     failure
         The step in which it was lost, and why; None if it was lost between steps or not at all.
     """

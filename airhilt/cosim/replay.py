@@ -12,14 +12,13 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from airhilt.cosim.differences import first_difference
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.recording import read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
-from airhilt.files import sha256
-from airhilt.messages import (
-    Event,
-)
+from airhilt.files import content_sha256
+from airhilt.messages import Event
 from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
 from airhilt.record.folder import versions
 from airhilt.scenario import Scenario
@@ -134,7 +133,7 @@ def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunIn
     notes += [
         f"{name} is not the file of the recording any more"
         for name, was_sha256 in info.models.items()
-        if not Path(name).is_file() or sha256(Path(name)) != was_sha256
+        if not Path(name).exists() or content_sha256(Path(name)) != was_sha256
     ]
     if info.phase != "finished":
         recorded = list(takewhile(lambda logged: not _is_stop(logged), recorded))
@@ -162,13 +161,5 @@ def _difference(index: int, was: Logged | None, now_is: Logged | None) -> str:
             f"{head}: recorded {was.key} by {was.publisher} at {was.t_ns} ns, "
             f"now {now_is.key} by {now_is.publisher} at {now_is.t_ns} ns"
         )
-    fields = _first_field(json.loads(was.data), json.loads(now_is.data), "")
-    return f"{head}: {was.key}{fields}"
-
-
-def _first_field(was: Any, now_is: Any, path: str) -> str:
-    if isinstance(was, dict) and isinstance(now_is, dict):
-        for key in sorted({*was, *now_is}):
-            if was.get(key) != now_is.get(key):
-                return _first_field(was.get(key), now_is.get(key), f"{path}/{key}")
-    return f"{path}: recorded {was!r}, now {now_is!r}"
+    field = first_difference(json.loads(was.data), json.loads(now_is.data), was.key)
+    return f"{head}: {field}"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
+
 from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import RadarKind
 from airhilt.scenario import Scenario
@@ -21,20 +24,30 @@ def with_requested_sensors(scenario: Scenario, radar: RadarKind | None, cockpit:
     Parameters
     ----------
     radar
-        Kind of a radar, which is also its name; None for no radar but the scenario's own. At an
-        airport, a terminal radar stands at the airport.
+        Kind of a radar, which is also its name, unless the scenario has a radar of another kind
+        by that name; None for no radar but the scenario's own. At an airport, a terminal radar
+        stands at the airport.
     cockpit
-        Whether all aircraft publish their instruments.
+        True if all aircraft publish their instruments.
     """
     changes: dict[str, object] = {}
-    if radar is not None and radar not in {declared.name for declared in scenario.radars}:
+    declared = {each.name: each.kind for each in scenario.radars}
+    if radar is not None and declared.get(radar) != radar:
         is_own = radar == "terminal" and isinstance(scenario.scene, AirportScene)
         position = RelativePosition(
             type="from_centre", bearing_deg=270.0, distance_nm=0.0 if is_own else AWAY_NM
         )
-        changes["radars"] = (*scenario.radars, Radar(name=radar, kind=radar, position=position))
+        name = next(each for each in _names_for(radar) if each not in declared)
+        changes["radars"] = (*scenario.radars, Radar(name=name, kind=radar, position=position))
     if cockpit:
         changes["cockpits"] = tuple(
             actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)
         )
     return scenario.model_copy(update=changes)
+
+
+def _names_for(radar: RadarKind) -> Iterator[str]:
+    """Yield names for a radar, the kind itself first."""
+    yield radar
+    for number in itertools.count(2):
+        yield f"{radar}_{number}"

@@ -10,6 +10,8 @@ from airhilt.record.log import LogWriter
 
 Listener = Callable[[str, Message, bytes], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
+Attributed = Callable[[str, Message], None]
+"""Called with the name of the publisher and its message."""
 
 
 class MessageRouter:
@@ -20,6 +22,7 @@ class MessageRouter:
         self._log = log
         self._listeners: list[Listener] = []
         self._observers: list[Listener] = []
+        self._attributed: list[Attributed] = []
 
     def listen(self, listener: Listener) -> None:
         """Call ``listener`` with every message that is not truth."""
@@ -28,6 +31,10 @@ class MessageRouter:
     def observe(self, observer: Listener) -> None:
         """Call ``observer`` with every message, truth too: for what measures the run."""
         self._observers.append(observer)
+
+    def attribute(self, listener: Attributed) -> None:
+        """Call ``listener`` with every message that is not truth, and the name of its publisher."""
+        self._attributed.append(listener)
 
     def publish(
         self, key: str, message: Message, publisher: str = RUN, raw: bytes | None = None
@@ -51,6 +58,8 @@ class MessageRouter:
         if not key.startswith("truth/"):
             for listener in self._listeners:
                 listener(key, message, payload)
+            for attributed in self._attributed:
+                attributed(publisher, message)
 
     def heard(self, key: str, message: Message, publisher: str) -> None:
         """Take in what another process has put on the bus itself."""
@@ -58,3 +67,5 @@ class MessageRouter:
         self._log.write(key, publisher, type(message), message.t_ns, data)
         for listener in (*self._observers, *self._listeners):
             listener(key, message, data)
+        for attributed in self._attributed:
+            attributed(publisher, message)

@@ -10,10 +10,14 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from airhilt.cosim.differences import first_difference
+from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
+from airhilt.cosim.provenance import model_files, other_packages
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError, first_problem
+from airhilt.library import nearest
 from airhilt.options import Options
 from airhilt.record import RunFolder, RunInfo, read_latencies
 from airhilt.record.folder import WorkerRecord, machine, versions
@@ -24,13 +28,15 @@ from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
 from airhilt.sensors.base import SensorType, load_sensor_types
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
-from airhilt.sensors.radio.backends.selection import channel_files, select_backend
+from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
 from airhilt.world.actors import Actor, build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
+STAGES = ("adsb", "asr", "vision", "decision", "tts")
+"""Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 
@@ -90,7 +96,8 @@ class Setup:
             versions=versions(),
             platform=machine(),
             renderer=renderer,
-            models=channel_files(self.scenario.radio) if options.speech else {},
+            models=model_files(self, participants),
+            other_packages=other_packages(self, participants, renderer),
         )
 
 
@@ -102,6 +109,8 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     AirhiltError
         Something that was given is wrong; nothing is written yet.
     """
+    if not recorded.is_replay:
+        check_options(options, given)
     scenario, draws = draw(given, options.seed)
     scenario = _with_radio_of(options, scenario)
     scenario = with_requested_sensors(scenario, options.radar, options.cockpit)
@@ -151,15 +160,28 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
 
 def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
     spec = parse_latency(text)
+    for stage in spec.stages:
+        if stage not in STAGES:
+            raise AirhiltError(
+                f"latency {text}: there is no stage {stage!r}; expected some of "
+                f"{', '.join(STAGES)}{nearest(stage, list(STAGES))}"
+            )
     if spec.replay_of is None:
         return spec
     earlier = RunFolder.open(Path(spec.replay_of))
     info = earlier.info()
-    if info.scenario != scenario.model_dump(mode="json") or info.options.seed != seed:
+    name = info.scenario.get("name")
+    if (name, info.options.seed) != (scenario.name, seed):
         raise AirhiltError(
-            f"latency {text}: that run is of {info.scenario.get('name')!r} with seed "
-            f"{info.options.seed}; expected the same scenario and seed as this one, "
-            f"{scenario.name!r} with {seed}"
+            f"latency {text}: that run is of {name!r} with seed {info.options.seed}; expected "
+            f"the same scenario and seed as this one, {scenario.name!r} with {seed}"
+        )
+    document = scenario.model_dump(mode="json")
+    if info.scenario != document:
+        raise AirhiltError(
+            f"latency {text}: the scenario {name!r} has changed since that run, at "
+            f"{first_difference(info.scenario, document)}; expected the scenario of that run, "
+            "which its run.json holds, or a new run to take latencies from"
         )
     recorded = read_latencies(earlier.latency_path)
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)

@@ -8,12 +8,13 @@ Data flows one way: actors, sensors, workers, advisories, crews.
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from contextlib import ExitStack, closing, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
-from typing import Literal
+from pathlib import Path
 
 from airhilt.bus.session import Bus
+from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderer
 from airhilt.cosim.events import EventPublisher
@@ -38,10 +39,12 @@ from airhilt.record.audio import AudioRecorder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
-from airhilt.sensors.base import Sensor, SensorContext, start_sensors
+from airhilt.sensors.base import Sensor, SensorContext
+from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
+from airhilt.workers.hints import is_reference
 from airhilt.workers.pool import WorkerPool
 from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
@@ -63,7 +66,7 @@ def run(
     Parameters
     ----------
     recorded
-        What a replay takes from the record of an earlier run.
+        Parts of the record of an earlier run that a replay takes.
     workers
         Workers of this process that take the places of reference workers.
 
@@ -94,16 +97,24 @@ def run(
         setup.folder.create(options.overwrite)
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)
-        simulation = Simulation(setup, participants, pace, vision, bus, observer)
-        with interruptible(simulation.interrupt):
-            try:
-                result = simulation.run(info)
-            except BaseException:
-                with suppress(AirhiltError):  # What stopped the run is the news, not its report.
-                    write_report(setup.folder.path)
-                raise
-            write_report(setup.folder.path)
-            return result
+        log = stack.enter_context(closing(LogWriter(setup.folder.log_path)))
+        latency_log = stack.enter_context(closing(LatencyLog(setup.folder.latency_path)))
+        simulation = Simulation(
+            setup, participants, pace, vision, bus, observer, log=log, latency_log=latency_log
+        )
+        return _run_and_report(simulation, info, setup.folder.path)
+
+
+def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Result:
+    with interruptible(simulation.interrupt):
+        try:
+            result = simulation.run(info)
+        except BaseException:
+            with suppress(AirhiltError):  # What stopped the run is the news, not its report.
+                write_report(folder)
+            raise
+        write_report(folder)
+        return result
 
 
 def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
@@ -122,6 +133,9 @@ class Simulation:
         vision: Vision,
         bus: Bus,
         observer: Observer,
+        *,
+        log: LogWriter,
+        latency_log: LatencyLog,
     ) -> None:
         self._setup = setup
         self._participants = participants
@@ -130,21 +144,15 @@ class Simulation:
         self._vision = vision
         self._phase: Phase = "running"
         self._director = Director(pace)
-        self._log = LogWriter(setup.folder.log_path)
-        self._latency_log = LatencyLog(setup.folder.latency_path)
-        self._router = MessageRouter(bus, self._log)
+        self._log = log
+        self._latency_log = latency_log
+        self._router = MessageRouter(bus, log)
         self._event = EventPublisher(self._director, self._router)
         self._modalities = Modalities(
             self._director, self._router, self._event, observer, is_strict=setup.options.strict
         )
         self._world = WorldLoop(self._director, setup, self._router, self._event)
-        self._collector = Collector(
-            setup.scenario,
-            setup.site.ground_m,
-            self._world.monitor,
-            self._world.runways,
-            Plans(setup.lines, setup.ends_ns),
-        )
+        self._collector = self._make_collector()
         self._pool = self._connect_workers()
         self._programs = self._connect_programs()
         self._advisories = AdvisoryDelivery(
@@ -153,27 +161,23 @@ class Simulation:
         self._router.listen(AudioRecorder(setup.folder.audio_path).take)
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
-        self._radio = RunRadio(
-            self._director,
-            setup,
-            self._world,
-            self._router,
-            self._event,
-            self._modalities,
-            observer,
-        )
-        self._radio.start()
+        self._radio = self._connect_radio()
         self._router.listen(self._advisories.take)
+        self._connect_hints()
         self._sensors: list[Sensor] = [self._radio, vision]
-        vision.mount(
-            self._director,
-            self._router,
-            state_at_ns=lambda: self._world.ticked_ns,
-            closest_ns=self._world.closest_approach_ns,
-            lost=partial(self._modalities.lose, "vision", "cameras_lost", "cameras"),
-        )
+        self._mount_cameras()
         self._schedule()
         self._serve_bus()
+
+    def _make_collector(self) -> Collector:
+        setup, world = self._setup, self._world
+        return Collector(
+            setup.scenario,
+            setup.site.ground_m,
+            world.monitor,
+            world.runways,
+            Plans(setup.lines, setup.ends_ns),
+        )
 
     def _connect_workers(self) -> WorkerPool:
         return WorkerPool(
@@ -197,6 +201,37 @@ class Simulation:
             obey=self._world.obey,
             has_decision=bool(participants.programs) or participants.does("decision"),
             is_strict=self._setup.options.strict,
+        )
+
+    def _connect_hints(self) -> None:
+        """Tell authors of warnings on which nobody acts; a replay tells nothing again."""
+        if self._setup.recorded.is_replay:
+            return
+        descriptions = [worker.description for worker in self._participants.workers]
+        exempt = [each.name for each in descriptions if is_reference(each)]
+        hints = AdvisoryHints(self._setup.actors, exempt, self._observer.notice)
+        self._router.attribute(hints.take)
+
+    def _connect_radio(self) -> RunRadio:
+        radio = RunRadio(
+            self._director,
+            self._setup,
+            self._world,
+            self._router,
+            self._event,
+            self._modalities,
+            self._observer,
+        )
+        radio.start()
+        return radio
+
+    def _mount_cameras(self) -> None:
+        self._vision.mount(
+            self._director,
+            self._router,
+            state_at_ns=lambda: self._world.ticked_ns,
+            closest_ns=self._world.closest_approach_ns,
+            lost=partial(self._modalities.lose, "vision", "cameras_lost", "cameras"),
         )
 
     def _sensor_context(self) -> SensorContext:
@@ -230,7 +265,7 @@ class Simulation:
         """Let what came from other processes in an earlier run come at its time."""
         if recorded.end_ns is not None:
             self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
-        for message in recorded.foreign:
+        for message in recorded.unregistered:
             take = partial(self._programs.take, message.key, message.data)
             self._director.at(message.t_ns, take, Priority.SCRIPT)
         for name, loss in recorded.losses.items():
@@ -253,59 +288,72 @@ class Simulation:
     def run(self, info: RunInfo) -> Result:
         """Run to the end, and finish the run folder whatever happens."""
         begun_wall, begun_cpu = time.perf_counter(), time.process_time()
-        failure: BaseException | None = None
+        failures: list[BaseException] = []
         folder = self._setup.folder
-        try:
+        with _kept(failures):
             self._set_modalities()
             self._brief()
             self._sensors += start_sensors(self._setup.sensor_types, self._sensor_context())
             self._vision.start()
             self._director.run()
-        except BaseException as error:
-            failure = error
-            if isinstance(error, KeyboardInterrupt):
-                self._observer.notice(f"interrupted; {folder.path} is complete up to here")
-        self._phase = "finished" if failure is None else "stopped"
+        if failures and isinstance(failures[0], KeyboardInterrupt):
+            self._observer.notice(f"interrupted; {folder.path} is complete up to here")
         wall_s = time.perf_counter() - begun_wall
         cpu_s = time.process_time() - begun_cpu
-        try:
-            summary = self._finish(info, _cause(failure), wall_s, cpu_s)
-        except AirhiltError:
-            if failure is None:
-                raise
-        if failure is not None:
-            raise failure
+        sensed = self._measurements_in_hand(failures)
+        with _kept(failures):
+            self._close_logs(_cause(failures), sensed)
+        with _kept(failures):
+            summary = self._summary(_cause(failures), wall_s, cpu_s)
+            folder.write_summary(summary)
+        with _kept(failures):
+            folder.write_info(self._final_info(info, _cause(failures)))
+        if failures:
+            raise self._first(failures)
         return Result(summary, folder.path)
 
     def interrupt(self) -> None:
         """Stop after the event in hand."""
         self._director.interrupt()
 
-    def _finish(self, info: RunInfo, cause: str, wall_s: float, cpu_s: float) -> Summary:
-        """Close the logs, then write the summary and ``run.json``."""
-        folder = self._setup.folder
-        phase: Literal["finished", "stopped"] = "stopped" if cause else "finished"
-        self._event(phase, "run", cause or "came to its end")
-        self._publish_clock()
+    def _measurements_in_hand(self, failures: list[BaseException]) -> list[StepRecord]:
+        """Return what sensors have measured and not published; keep the failures of those asked."""
+        steps: list[StepRecord] = []
+        for sensor in self._sensors:
+            with _kept(failures):
+                steps += sensor.unfinished()
+        return steps
+
+    def _close_logs(self, cause: str, sensed: Sequence[StepRecord]) -> None:
+        """Write the last lines of the logs and close them."""
+        self._phase = "stopped" if cause else "finished"
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
             stack.callback(self._vision.finish)
+            self._event(self._phase, "run", cause or "came to its end")
+            self._publish_clock()
             self._radio.close()
-            sensed = (step for sensor in self._sensors for step in sensor.unfinished())
             for step in (*self._pool.unfinished(), *sensed):
                 self._latency_log.step(step)
-        summary = self._summary(cause, wall_s, cpu_s)
-        folder.write_summary(summary)
-        folder.write_info(
-            info.model_copy(
-                update={
-                    "phase": phase,
-                    "cause": cause,
-                    "unregistered_programs": self._programs.heard,
-                    "hashes": {"log.mcap": sha256(folder.log_path)},
-                }
-            )
+
+    def _final_info(self, info: RunInfo, cause: str) -> RunInfo:
+        """Return what ``run.json`` says of the run when it has ended."""
+        return info.model_copy(
+            update={
+                "phase": "stopped" if cause else "finished",
+                "cause": cause,
+                "unregistered_programs": self._programs.heard,
+                "hashes": {"log.mcap": sha256(self._setup.folder.log_path)},
+            }
         )
-        return summary
+
+    def _first(self, failures: Sequence[BaseException]) -> BaseException:
+        """Return what stopped the run; tell the user what failed after it."""
+        first, *others = failures
+        for text in dict.fromkeys(_said(other) for other in others):
+            if text != _said(first):
+                self._observer.notice(f"failed as well, when the run was finished: {text}")
+                first.add_note(f"Failed as well, when the run was finished: {text}")
+        return first
 
     def _summary(self, cause: str, wall_s: float, cpu_s: float) -> Summary:
         now_ns = self._director.now_ns
@@ -382,11 +430,22 @@ class Simulation:
         )
 
 
-def _cause(failure: BaseException | None) -> str:
+@contextmanager
+def _kept(failures: list[BaseException]) -> Iterator[None]:
+    """Keep what fails, so that the rest of the run folder is written all the same."""
+    try:
+        yield
+    except BaseException as error:
+        failures.append(error)
+
+
+def _cause(failures: Sequence[BaseException]) -> str:
     """Return why a run was stopped, in words; empty if it was not."""
+    return _said(failures[0]) if failures else ""
+
+
+def _said(failure: BaseException) -> str:
     match failure:
-        case None:
-            return ""
         case KeyboardInterrupt():
             return "interrupted"
         case AirhiltError():

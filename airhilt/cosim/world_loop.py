@@ -10,6 +10,7 @@ from airhilt.cosim.conflict_window import ConflictWindow
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import TICK_S, Setup
+from airhilt.errors import AirhiltError, failure_in
 from airhilt.messages import ConflictPhase, ConflictTruth
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
@@ -153,11 +154,23 @@ class WorldLoop:
         now_ns = self._director.now_ns
         for actor in self._actors.values():
             if actor.body.ended is None:
-                actor.body.advance()
+                self._advance(actor)
                 if actor.body.ended is not None:
                     self._tell_end(actor)
         self.ticked_ns = now_ns
         self.monitor.tick(now_ns)
+
+    def _advance(self, actor: Actor) -> None:
+        """Move an actor on by one tick; its body may be the code of another package."""
+        try:
+            actor.body.advance()
+        except AirhiltError:
+            raise
+        except Exception as error:
+            raise AirhiltError(
+                f"actor {actor.spec.callsign!r} cannot move on at "
+                f"{self._director.now_ns / SECOND_NS:.2f} s: {failure_in(error)}"
+            ) from error
 
     def _tell_end(self, actor: Actor) -> None:
         self._event("actor_ended", actor.spec.callsign, actor.body.ended or "")

@@ -29,8 +29,12 @@ RECORDED_VERSIONS = (
     "pydantic",
     "mcap",
     "zstandard",
+    "geographiclib",
+    "shapely",
+    "pygeomag",
 )
-OF_EXTRAS = (
+"""Packages that every run has, whose versions are recorded."""
+WHERE_INSTALLED = (
     "embreex",
     "open3d-cpu",
     "open3d",
@@ -40,7 +44,7 @@ OF_EXTRAS = (
     "faster-whisper",
     "coqui-tts",
 )
-"""Packages of extras, whose versions are recorded where they are installed."""
+"""Packages that not every machine has, whose versions are recorded where they are installed."""
 
 
 class WorkerRecord(BaseModel):
@@ -78,7 +82,10 @@ class RunInfo(BaseModel):
     renderer: str = ""
     """Renderer that drew, where the options ask for ``auto``; empty if no pictures were drawn."""
     models: dict[str, str] = {}
-    """SHA-256 of each file of the user that decides what is heard, by its path."""
+    """SHA-256 of each file or folder of the user that an engine or a channel uses, by its path."""
+    other_packages: dict[str, str] = {}
+    """Name and version of the package of each member in use that is not AIRHILT's, such as that of
+    ``kind moose``."""
 
     @model_validator(mode="before")
     @classmethod
@@ -96,7 +103,7 @@ class RunInfo(BaseModel):
 def versions() -> dict[str, str]:
     """Return the versions of AIRHILT and of the packages that decide its results."""
     found = {name: importlib.metadata.version(name) for name in RECORDED_VERSIONS}
-    for name in OF_EXTRAS:
+    for name in WHERE_INSTALLED:
         with suppress(importlib.metadata.PackageNotFoundError):
             found[name] = importlib.metadata.version(name)
     return {"airhilt": __version__, "python": platform.python_version(), **found}

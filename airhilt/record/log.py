@@ -85,13 +85,15 @@ class LogWriter:
             raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
-        """Write the index and close the file.
+        """Write the index and close the file, unless it is closed already.
 
         Raises
         ------
         RunFolderError
             The disk is full or gone; what was flushed before stays readable.
         """
+        if self._stream.closed:
+            return
         try:
             with self._stream:
                 self._writer.finish()  # type: ignore[no-untyped-call]
@@ -125,4 +127,5 @@ def read_log(path: Path) -> Iterator[Logged]:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
     except BROKEN as error:
         if not channels:
-            raise RunFolderError(f"{path}: not an MCAP log: {error}") from None
+            reason = str(error) or "it ends before its first message"
+            raise RunFolderError(f"{path}: not an MCAP log: {reason}") from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -12,7 +13,7 @@ from urllib.parse import quote
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.errors import AirhiltError, RunFolderError, first_problem
+from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.geodesy.relative_motion import relative
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
@@ -20,7 +21,16 @@ from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
 from airhilt.report.sections import GuardedContent
 from airhilt.report.text import cut
-from airhilt.report.tracks import Locate, Phases, Projection, ThinnedStates, Track
+from airhilt.report.tracks import (
+    Locate,
+    Phases,
+    Projection,
+    State,
+    ThinnedStates,
+    Track,
+    parse_state,
+)
+from airhilt.report.unread import UnreadMessages
 from airhilt.shapes.sizes import Size
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
@@ -31,6 +41,8 @@ if TYPE_CHECKING:
 
 Json = dict[str, Any]
 
+STATE = "truth/state/"
+"""Beginning of the keys of the actors' true states."""
 MOST_POINTS = 600
 """Largest number of points of one track: a chart is hardly wider in pixels."""
 MOST_POINTS_AT_AIRPORT = 1200
@@ -56,11 +68,11 @@ class RunData:
     end_ns
         Time of the last message in the log.
     events
-        What happened, as rows of the timeline.
+        Events, as rows of the timeline.
     locate
         Returns where a place lies on the plan, in NM east and north of its centre.
     tracks
-        Where each actor was, by its callsign.
+        Track of each actor, by its callsign.
     pair
         The two actors whose separation is drawn, None if there is no such pair.
     pair_is_annotated
@@ -164,11 +176,13 @@ class _Log:
     """Sorts the messages of a log."""
 
     def __init__(self, points_a_track: int, contents: Sequence[GuardedContent]) -> None:
-        self.states: dict[str, ThinnedStates] = {}
+        self.states: dict[str, list[State]] = {}
         self.phases: dict[str, Phases] = {}
         self.events = Events()
         self.end_ns = 0
         self._points_a_track = points_a_track
+        self._thinned: dict[str, ThinnedStates] = {}
+        self._unread = UnreadMessages()
         self._contents = contents
         self._receivers: dict[str, list[GuardedContent]] = {}
 
@@ -179,22 +193,32 @@ class _Log:
                 self._take(logged)
         except RunFolderError as error:
             notes.append(f"The log cannot be read, so there is nothing to draw: {cut(str(error))}")
-        except ValidationError as error:
-            notes.append(
-                f"The log is not as this version writes it ({error.title}: "
-                f"{first_problem(error)}), and shown up to there."
-            )
+        self._parse_states()
+        if note := self._unread.note():
+            notes.append(note)
 
     def _take(self, logged: Logged) -> None:
         self.end_ns = max(self.end_ns, logged.t_ns)
         for content in self._receivers_of(logged.key):
-            content.take(logged)
-        if logged.key.startswith("truth/state/"):
-            actor = logged.key.removeprefix("truth/state/")
-            self.states.setdefault(actor, ThinnedStates(self._points_a_track)).add(logged.data)
-            self.phases.setdefault(actor, Phases()).add(logged.t_ns, logged.data)
-        else:
-            self.events.take(logged)
+            self._unread.attempt(content.take, logged)
+        take = self._take_state if logged.key.startswith(STATE) else self.events.take
+        self._unread.attempt(take, logged)
+
+    def _take_state(self, logged: Logged) -> None:
+        actor = logged.key.removeprefix(STATE)
+        self.phases.setdefault(actor, Phases()).add(logged.t_ns, logged.data)
+        self._thinned.setdefault(actor, ThinnedStates(self._points_a_track)).add(logged)
+
+    def _parse_states(self) -> None:
+        """Parse the states that were kept; an actor without any has no track."""
+
+        def parse(logged: Logged) -> None:
+            state = parse_state(logged.data)
+            self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
+
+        for thinned in self._thinned.values():
+            for logged in thinned.messages():
+                self._unread.attempt(parse, logged)
 
     def _receivers_of(self, key: str) -> list[GuardedContent]:
         if key not in self._receivers:
@@ -270,14 +294,13 @@ def _locate(log: _Log, airport: ReportAirport | None) -> Locate:
     """Return the projection of the plan: around the airport, or around the traffic."""
     if airport is not None:
         return airport.locate
-    states = [state for thinned in log.states.values() for state in thinned.states()]
-    return Projection.around(states).locate
+    return Projection.around(chain.from_iterable(log.states.values())).locate
 
 
 def _tracks(log: _Log, locate: Locate) -> dict[str, Track]:
     return {
-        actor: Track.of(thinned.states(), log.phases[actor].as_json(), locate)
-        for actor, thinned in log.states.items()
+        actor: Track.of(states, log.phases[actor].as_json(), locate)
+        for actor, states in log.states.items()
     }
 
 

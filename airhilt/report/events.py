@@ -24,7 +24,7 @@ class Events:
     Attributes
     ----------
     rows
-        What the page shows of each event, in the order of the log.
+        Content of the page on each event, in the order of the log.
     left_out
         Number of events for which there was no room.
     ended

@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.record import RunFolder
@@ -85,6 +85,13 @@ def render(folder: RunFolder, page: Path) -> str:
     run.notes.extend(map(cut, problems))
     whole = [content.section for content in contents if content.is_whole]
     return _Assembly(whole, run.as_json() | {"sections": own}).page()
+
+
+class _Script(NamedTuple):
+    """A script of the page, and the section that it draws."""
+
+    text: str
+    section: str = ""
 
 
 class _Assembly:
@@ -162,15 +169,19 @@ class _Assembly:
     def _note(self, text: str) -> None:
         self._data["notes"].append(cut(text))
 
-    def _all_scripts(self) -> list[str]:
-        """Return all scripts; a section has a scope of its own."""
-        shared = [_own_file(f"shared/{name}.js") for name in SHARED]
+    def _all_scripts(self) -> list[_Script]:
+        """Return all scripts; that of a section has a scope and an element of its own."""
+        shared = [_Script(_own_file(f"shared/{name}.js")) for name in SHARED]
         own = [
-            f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n"
+            _Script(
+                f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n",
+                section.name,
+            )
             for section in self._sections
             if self._is_on_page(section) and (script := self._scripts[section.name])
         ]
-        return [_inline(script) for script in (*shared, *own, "page.begin();\n")]
+        scripts = [*shared, *own, _Script("page.begin();\n")]
+        return [script._replace(text=_inline(script.text)) for script in scripts]
 
 
 def _own_file(name: str) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from airhilt.geodesy.wgs84 import Place, offset_m
+from airhilt.record import Logged
 from airhilt.report.intervals import Intervals, seconds
 from airhilt.report.text import cut
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
@@ -40,13 +41,13 @@ def parse_state(data: bytes) -> State:
     """Return the state in an `ActorTruth` as it was logged."""
     truth = json.loads(data)
     return State(
-        truth["t_ns"],
-        truth["latitude_deg"] * DEGREE,
-        truth["longitude_deg"] * DEGREE,
-        truth["altitude_m"],
-        truth["velocity_north_m_s"],
-        truth["velocity_east_m_s"],
-        truth["heading_deg"],
+        int(truth["t_ns"]),
+        float(truth["latitude_deg"]) * DEGREE,
+        float(truth["longitude_deg"]) * DEGREE,
+        float(truth["altitude_m"]),
+        float(truth["velocity_north_m_s"]),
+        float(truth["velocity_east_m_s"]),
+        float(truth["heading_deg"]),
         truth["on_ground"],
     )
 
@@ -54,32 +55,32 @@ def parse_state(data: bytes) -> State:
 class ThinnedStates:
     """Keeps a limited number of an actor's states, evenly spaced in time, and the last one.
 
-    Messages are kept as bytes: most are thrown away again, and parsing is what takes time.
+    Messages are kept as logged: most are thrown away again, and parsing is what takes time.
     """
 
     def __init__(self, most: int) -> None:
         self._most = most
         self._stride = 1
         self._seen = 0
-        self._kept: list[bytes] = []
-        self._last = b""
+        self._kept: list[Logged] = []
+        self._last: Logged | None = None
 
-    def add(self, data: bytes) -> None:
+    def add(self, logged: Logged) -> None:
         """Add the next state, as it was logged."""
         if self._seen % self._stride == 0:
             if len(self._kept) == self._most:
                 self._kept = self._kept[::2]
                 self._stride *= 2
             if self._seen % self._stride == 0:
-                self._kept.append(data)
+                self._kept.append(logged)
         self._seen += 1
-        self._last = data
+        self._last = logged
 
-    def states(self) -> list[State]:
-        """Return the states that were kept."""
-        last_is_kept = self._kept[-1] is self._last
-        kept = self._kept if last_is_kept else [*self._kept, self._last]
-        return [parse_state(data) for data in kept]
+    def messages(self) -> list[Logged]:
+        """Return the messages that were kept."""
+        if self._last is None or self._kept[-1] is self._last:
+            return self._kept
+        return [*self._kept, self._last]
 
 
 class Phases:

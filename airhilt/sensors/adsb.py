@@ -69,7 +69,7 @@ class AdsbSensor:
     Parameters
     ----------
     context
-        What the run gives.
+        Parts of the run that the sensor uses.
     """
 
     def __init__(self, context: SensorContext) -> None:
@@ -78,7 +78,7 @@ class AdsbSensor:
         self._state_at_ns = context.state_at_ns
         self._publish = context.publish
         self._done = context.step_done
-        self._latency = context.latency.source(
+        self._latency = context.latency.of(STAGE).source(
             STAGE, context.seed, DECLARED_LATENCY.median_s, DECLARED_LATENCY.sigma
         )
         self._seq = 0

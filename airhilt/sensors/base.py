@@ -1,4 +1,4 @@
-"""Sensors: their protocol, what a run gives to each, and how a run starts them all.
+"""Sensors: their protocol, what a run gives to each, and how a run finds them all.
 
 A sensor measures the true world and publishes what can be perceived of it. One file is one type of
 sensor: a module of this package, or an object in another package that an entry point of the group
@@ -8,21 +8,21 @@ first chunk of the keys that its sensors publish on: ``adsb`` publishes on ``ads
 Cameras and the radio are a `Sensor` too, but no `SensorType`: the run makes these two itself,
 because they need a renderer, voices, and what crews and workers say.
 
-`SensorType` is what to write; a run calls `load_sensor_types` and `start_sensors`.
+`SensorType` is what to write; a run calls `load_sensor_types`, then `starting.start_sensors`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-from airhilt.errors import AirhiltError, ScenarioError, SensorError
+from airhilt.errors import ScenarioError, SensorError
 from airhilt.library import nearest
 from airhilt.messages import WORKER_OUTPUTS, Message
 from airhilt.plugins import Family, Members
 from airhilt.scenario.models import Scenario
-from airhilt.sim import Director, LatencySpec, StepRecord
+from airhilt.sim import LatencySpec, Scheduler, StepRecord
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
 
@@ -66,7 +66,7 @@ class SensorContext:
         Settings of this sensor type in the scenario's ``sensors``; None if it has none there.
     """
 
-    director: Director
+    director: Scheduler
     scenario: Scenario
     site: ScenarioSite
     actors: Mapping[str, Actor]
@@ -117,7 +117,7 @@ FAMILY = Family(
     "SENSOR",
     SensorType,
     SensorError,
-    frozenset({"base", "cameras", "radio"}),
+    frozenset({"base", "cameras", "radio", "starting"}),
 )
 
 
@@ -163,38 +163,6 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
     return types, problems
 
 
-def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[Sensor]:
-    """Start a sensor of each type that has something to do in a run.
-
-    Raises
-    ------
-    AirhiltError
-        The scenario asks for a sensor that cannot exist.
-    """
-    sensors = []
-    for sensor_type in types:
-        sensor = _create(sensor_type, context)
-        if sensor is not None:
-            sensor.start()
-            sensors.append(sensor)
-    return sensors
-
-
-def _create(sensor_type: SensorType, context: SensorContext) -> Sensor | None:
-    name = sensor_type.name
-    settings = context.scenario.sensors.get(name)
-    publish = _publish_below(name, context.publish)
-    try:
-        return sensor_type.create(replace(context, publish=publish, settings=settings))
-    except AirhiltError:
-        raise
-    except Exception as error:
-        raise SensorError(
-            f"sensor {name!r} cannot be made with the settings {settings!r}: "
-            f"{type(error).__name__}: {error}; see sensors/{name} in the scenario"
-        ) from error
-
-
 def load_sensor_type(installed: Members, name: str) -> SensorType:
     """Return a sensor type.
 
@@ -218,14 +186,3 @@ def load_sensor_type(installed: Members, name: str) -> SensorType:
         if not (isinstance(model, type) and issubclass(model, Message)):
             raise SensorError(f"sensor {name!r} declares {model!r} on {key!r}; expected a Message")
     return sensor_type
-
-
-def _publish_below(name: str, publish: Publish) -> Publish:
-    """Return a function that publishes on keys below a name only."""
-
-    def publish_below(key: str, message: Message, *, raw: bytes | None = None) -> None:
-        if not key.startswith(f"{name}/"):
-            raise SensorError(f"sensor {name!r} published on {key!r}; expected {name}/...")
-        publish(key, message, raw=raw)
-
-    return publish_below

@@ -40,7 +40,7 @@ class Cockpits:
     Parameters
     ----------
     context
-        What the run gives.
+        Parts of the run that the sensor uses.
     """
 
     def __init__(self, context: SensorContext) -> None:

@@ -94,7 +94,7 @@ class TurningRadar:
     declared
         The radar as the scenario declares it.
     context
-        What the run gives.
+        Parts of the run that the sensor uses.
     """
 
     def __init__(self, declared: Radar, context: SensorContext) -> None:

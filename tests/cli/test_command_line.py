@@ -180,6 +180,11 @@ def test_latencies_of_another_scenario_are_refused(
     done = airhilt_command(*command, "--seed", "1", "--latency", "replay:run", "--out", "other")
     assert_is_a_users_mistake(done, "expected the same scenario and seed")
     assert not (encounter_file.parent / "other").exists()
+    document = json.loads(encounter_file.read_text())
+    encounter_file.write_text(json.dumps(document | {"duration_s": document["duration_s"] + 1.0}))
+    done = airhilt_command(*command, "--latency", "replay:run", "--out", "other")
+    assert_is_a_users_mistake(done, "has changed since that run, at /duration_s: recorded ")
+    assert not (encounter_file.parent / "other").exists()
 
 
 def test_a_route_that_leads_nowhere_is_named(airhilt_command: Any, encounter_file: Path) -> None:

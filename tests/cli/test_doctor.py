@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import os
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from airhilt.assistant.vision.detectors import embedded
 from airhilt.cli import doctor
+from airhilt.cli.commands.doctor import COMMAND
 from airhilt.cli.doctor import Finding, examine
 from airhilt.errors import RendererError
 from engine_package import installed
+from paths import ROOT
 
 
 @pytest.fixture(autouse=True)
@@ -64,18 +68,20 @@ def test_embree_is_needed_and_the_other_renderers_are_not(monkeypatch: pytest.Mo
         ("airhilt.kinds", "kind broken"),
         ("airhilt.report_sections", "report section broken"),
         ("airhilt.commands", "command broken"),
+        ("airhilt.asr", "recogniser broken"),
+        ("airhilt.assistants", "assistant broken"),
     ],
 )
-def test_a_broken_member_is_listed_with_the_cause_and_is_not_needed(
+def test_a_broken_member_is_listed_with_the_cause_and_is_not_absent(
     group: str, title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with installed(tmp_path, monkeypatch, group, "broken", "raise RuntimeError('it is broken')"):
         broken = found()[title]
-    assert str(broken).startswith(f"absent   {title}: ")
+    assert str(broken).startswith(f"BROKEN   {title}: ")
     assert "RuntimeError: it is broken" in broken.remedy
 
 
-def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_needed(
+def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_absent(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.undo()
@@ -83,7 +89,7 @@ def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_needed(
     source = "raise RuntimeError('it is broken')"
     with installed(tmp_path, monkeypatch, "airhilt.renderers", "broken", source):
         broken = doctor._renderer("broken", needed=False)
-    assert str(broken).startswith("absent   renderer broken: ")
+    assert str(broken).startswith("BROKEN   renderer broken: ")
     assert "RuntimeError: it is broken" in broken.remedy
 
 
@@ -95,6 +101,37 @@ def test_the_members_that_can_be_used_are_listed_by_family() -> None:
         assert member in families[family].found
 
 
-def test_a_sensor_of_airhilt_that_is_broken_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_sensor_of_airhilt_that_is_broken_is_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("airhilt.sensors.adsb.SENSOR", 42)
-    assert str(found()["sensor adsb"]).startswith("MISSING  sensor adsb: ")
+    sensor = found()["sensor adsb"]
+    assert str(sensor).startswith("BROKEN   sensor adsb: ")
+    assert sensor.needed
+
+
+FAILS_WHEN_MADE = """
+from airhilt.engines import Engine
+ENGINE = Engine("broken", "fails", lambda _: 1 / 0)
+"""
+
+
+def test_an_engine_of_another_package_that_cannot_be_made_is_broken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.asr", "broken", FAILS_WHEN_MADE):
+        assert str(found()["recogniser broken"]).startswith("BROKEN   recogniser broken: ")
+
+
+def test_the_command_fails_if_something_is_broken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.kinds", "broken", "raise RuntimeError"):
+        done = CliRunner().invoke(COMMAND)
+    assert done.exit_code == 1
+    assert "BROKEN   kind broken" in done.stdout
+
+
+def test_every_package_that_airhilt_depends_on_is_looked_for() -> None:
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    names = {each.split(">")[0] for each in declared if ";" not in each}
+    assert names <= set(found())
+    assert {"click", "jinja2", "rich"} <= names

@@ -159,7 +159,7 @@ def test_without_a_renderer_a_strict_run_does_not_begin(
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("changes", [{"assistant": "none"}, {"cameras": False}])
+@pytest.mark.parametrize("changes", [{"assistant": "none"}, {"cameras": False, "renderer": "auto"}])
 def test_no_picture_is_drawn_that_nobody_looks_at(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict[str, object]
 ) -> None:

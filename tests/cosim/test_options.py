@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import airhilt
 from airhilt.cli.run_flags import run_flags
+from airhilt.cosim.observer import Observer
+from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
+from airhilt.cosim.setup import set_up
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
@@ -24,6 +28,29 @@ def test_a_wrong_name_is_answered_with_the_nearest_right_one() -> None:
 def test_a_wrong_value_is_named_with_its_option() -> None:
     with pytest.raises(AirhiltError, match="option snr_db"):
         airhilt.run("s02a_headon", snr_db=1000.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"scenario": 5}, "scenario 5: expected an airhilt.Scenario, its name, or a file"),
+        ({"scenario": {"name": "x"}}, "expected an airhilt.Scenario, its name, or a file"),
+        ({"observer": 5}, "observer 5: expected an airhilt.Observer"),
+        ({"workers": "abc"}, "workers 'abc': expected a list of workers"),
+        ({"workers": Observer()}, "expected a list of workers"),
+    ],
+)
+def test_an_argument_of_another_type_is_named(given: dict[str, Any], words: str) -> None:
+    with pytest.raises(TypeError, match=words):
+        airhilt.run(**{"scenario": "s02a_headon", **given})
+    with pytest.raises(TypeError, match="scenario 5: expected its name, or a file"):
+        airhilt.load(5)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["a*", "#", "a/b", "../x", "", "$run", "a?", "a b", "x" * 81])
+def test_a_run_is_not_named_by_what_is_no_part_of_a_key(name: str) -> None:
+    with pytest.raises(AirhiltError, match=r"option run_name: found .*expected at most 80 letters"):
+        airhilt.run("s02a_headon", run_name=name)
 
 
 def test_a_former_name_is_still_understood() -> None:
@@ -81,3 +108,57 @@ def test_a_run_of_an_earlier_version_is_not_replayed(encounter: Scenario, tmp_pa
     (folder / "run.json").write_text(json.dumps(record))
     with pytest.raises(RunFolderError, match=r"recorded by AIRHILT 0\.4\.0"):
         replay(folder)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"wording": "tmplate"}, "wording 'tmplate': there is none of that"),
+        ({"wording": "tmplate", "assistant": "none"}, "'tmplate' would do nothing with --assist"),
+        ({"asr": "typo", "assistant": "none"}, "'typo' would do nothing with --assistant none"),
+        ({"detector": "typo", "cameras": False}, "'typo' would do nothing with --no-cameras"),
+        ({"detector": "typo"}, "detector 'typo': there is none of that name"),
+        ({"tts": "typo"}, "voice 'typo': there is none of that name"),
+        ({"asr": "folder/none.onnx"}, "there is none of that name"),
+        ({"assistant": "typo"}, "'typo': there is none of that name; expected .*, or external"),
+    ],
+)
+def test_a_run_begins_with_no_engine_that_is_not_there(
+    given: dict[str, Any], told: str, encounter: Scenario, tmp_path: Path
+) -> None:
+    with pytest.raises(AirhiltError, match=told):
+        airhilt.run(encounter, out=tmp_path / "run", **given)
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"detector": "yolo:FILE", "cameras": False}, "--detector 'yolo:FILE' .* --no-cameras"),
+        ({"detector": "yolo:FILE", "assistant": "none"}, "would do nothing with --assistant none"),
+        ({"asr": "whisper:FOLDER", "speech": False}, "would do nothing with --no-speech"),
+        ({"asr": "whisper:FOLDER", "assistant": "none"}, "would do nothing with --assistant none"),
+        ({"video": True, "cameras": False}, "^--video would do nothing with --no-cameras"),
+    ],
+)
+def test_an_option_that_does_nothing_is_refused_from_python_too(
+    given: dict[str, Any], told: str, encounter: Scenario
+) -> None:
+    with pytest.raises(AirhiltError, match=told):
+        set_up(encounter, options_of(given), Recorded())
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"asr": "whisper:FOLDER", "assistant": "none", "topology": "asr_first"},
+        {"detector": "embedded", "cameras": False},
+        {"asr": "http://127.0.0.1:1/asr"},
+        {"detector": "none"},
+        {"assistant": "external", "asr": "whisper:FOLDER"},
+    ],
+)
+def test_an_option_that_does_something_or_nothing_new_is_taken(
+    given: dict[str, Any], encounter: Scenario
+) -> None:
+    assert set_up(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)

@@ -54,6 +54,16 @@ def test_a_radar_of_the_scenario_with_that_name_stays() -> None:
     assert len(with_requested_sensors(own, "en_route", cockpit=False).radars) == 2
 
 
+def test_a_radar_of_another_kind_with_that_name_does_not_stand_in_for_it() -> None:
+    scenario, _ = requested("s02a_headon", "terminal")
+    misnamed = scenario.radars[0].model_copy(update={"kind": "en_route"})
+    own = scenario.model_copy(update={"radars": (misnamed,)})
+    radars = with_requested_sensors(own, "terminal", cockpit=False).radars
+    assert [(radar.name, radar.kind) for radar in radars] == [
+        ("terminal", "en_route"), ("terminal_2", "terminal"),
+    ]  # fmt: skip
+
+
 def test_all_aircraft_and_nothing_else_show_their_instruments() -> None:
     scenario = with_requested_sensors(load("s01c_deer_delayed_warning"), None, cockpit=True)
     assert scenario.cockpits == ("AAL123",)

@@ -15,6 +15,8 @@ from airhilt.errors import WorkerError
 from airhilt.messages import Advisory, Evidence, InputSpec, Severity, WorkerDescription
 from airhilt.record import RunFolder, read_log
 
+DESCRIPTORS = Path("/proc/self/fd")
+
 
 class WarnsOnce:
     """Warns one crew, as soon as it hears of an aircraft."""
@@ -77,14 +79,74 @@ def test_a_worker_with_a_name_that_the_log_gives_to_others_is_refused(
 
 
 def test_what_is_no_worker_is_refused(encounter: Scenario, tmp_path: Path) -> None:
-    with pytest.raises(WorkerError, match="expected a WorkerDescription"):
+    with pytest.raises(WorkerError, match=r"expected an airhilt\.messages\.WorkerDescription"):
         airhilt.run(encounter, out=tmp_path / "run", workers=[object()])  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize(
+    ("parts", "words"),
+    [
+        (((), 0.33e9 + 0.5), "worker 'warner' returned a Step with wake_ns 330000000.5"),
+        ((("x",),), "worker 'warner' returned 'x' among its outputs"),
+    ],
+)
+def test_a_step_with_a_part_of_another_type_ends_the_run_and_its_folder_is_complete(
+    encounter: Scenario, tmp_path: Path, parts: tuple[Any, ...], words: str
+) -> None:
+    class Odd(WarnsOnce):
+        def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+            return Step(*parts)
+
+    with pytest.raises(WorkerError, match=words):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[Odd()], speech=False, cameras=False)
+    folder = RunFolder(tmp_path / "run")
+    assert folder.info().phase == "stopped"
+    assert words in (folder.summary() or {})["outcome"]
 
 
 def test_the_summary_says_who_really_decided(encounter: Scenario, tmp_path: Path) -> None:
     short = encounter.model_copy(update={"duration_s": 2.0})
     options: Any = {"speech": False, "cameras": False, "workers": [WarnsOnce()]}
-    result = airhilt.run(short, out=tmp_path / "run", assistant="reference", **options)
+    result = airhilt.run(short, out=tmp_path / "run", assistant="external", **options)
     assert result.summary.assistant == "external"
-    with pytest.raises(WorkerError, match="but a worker of yours decides"):
-        airhilt.run(short, out=tmp_path / "other", assistant="none", **options)
+
+
+@pytest.mark.parametrize("assistant", ["none", "reference"])
+def test_another_assistant_beside_a_worker_that_decides_is_refused(
+    encounter: Scenario, tmp_path: Path, assistant: str
+) -> None:
+    with pytest.raises(
+        WorkerError, match=f"assistant '{assistant}', but a worker of yours decides; expected one"
+    ):
+        airhilt.run(encounter, out=tmp_path / "run", assistant=assistant, workers=[WarnsOnce()])
+    assert not (tmp_path / "run").exists()
+
+
+def test_an_assistant_that_is_not_there_is_refused_beside_a_worker_that_decides_too(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    with pytest.raises(airhilt.AirhiltError, match="assistant 'typo': there is none of that name"):
+        airhilt.run(encounter, out=tmp_path / "run", assistant="typo", workers=[WarnsOnce()])
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.skipif(not DESCRIPTORS.is_dir(), reason="open files are listed on Linux only")
+def test_a_run_that_refuses_a_worker_leaves_no_file_open(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    class Cheat(WarnsOnce):
+        description = WorkerDescription(
+            name="cheat", modality="decision", inputs=(InputSpec(key="truth/*", policy="batch"),)
+        )
+
+    # The error keeps the frames of the run alive, so nothing is closed by chance.
+    with pytest.raises(WorkerError, match="truth never reaches a worker") as refused:
+        airhilt.run(encounter, out=tmp_path / "run", workers=[Cheat()], speech=False, cameras=False)
+    assert (tmp_path / "run" / "latency.jsonl").is_file()
+    assert [path for path in open_files() if path.is_relative_to(tmp_path)] == []
+    del refused
+
+
+def open_files() -> list[Path]:
+    """Return what the descriptors of this process lead to."""
+    return [link.readlink() for link in list(DESCRIPTORS.iterdir()) if link.is_symlink()]

@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 from airhilt.messages import Event
-from airhilt.record import LogWriter
 from airhilt.report import sounds, write_report
 from airhilt.report.sections import radio as radio_section
 from radio_folder import RadioFolder, busy_radio
@@ -142,11 +141,9 @@ def test_hostile_words_stay_data(radio: RadioFolder) -> None:
     assert (call["who"], call["said"]) == (HOSTILE, HOSTILE)
 
 
-def test_a_log_of_another_version_is_shown_up_to_what_is_not_understood(
-    radio: RadioFolder,
-) -> None:
-    folder = radio.call("one", 1.0, "Roger").close()
-    log = LogWriter(folder / "log.mcap")
-    log.write("asr/119100", "run", Event, 0, b'{"id": "one", "slots": {}}')
-    log.close()
-    assert any("not as this version writes it" in note for note in shown(folder)["notes"])
+def test_a_transcript_of_another_version_costs_itself_alone(radio: RadioFolder) -> None:
+    radio.write("asr/119100", Event(t_ns=0, kind="finished", subject="", text=""))
+    page = shown(radio.call("one", 1.0, "Roger", "roger").close())
+    assert any("not as this version writes it" in note for note in page["notes"])
+    (call,) = page["sections"]["radio"]["calls"]
+    assert len(call["transcripts"]) == 1

@@ -27,7 +27,7 @@ from airhilt.messages import (
     Severity,
 )
 from airhilt.options import Options
-from airhilt.record import LogWriter, RunFolder
+from airhilt.record import Logged, LogWriter, RunFolder
 from airhilt.report import write_report
 from airhilt.report.intervals import Intervals
 from airhilt.report.page import embeddable
@@ -182,7 +182,7 @@ def test_latencies_count_every_finished_step_once(folder: Path) -> None:
 # --- at an airport --------------------------------------------------------------------------
 
 THRESHOLD_01, THRESHOLD_19 = (38.8423996, -77.0367966), (38.8611984, -77.0386963)
-"""Of runway 01/19 of KDCA, which is 2096 m long."""
+"""Thresholds of runway 01/19 of KDCA, which is 2096 m long."""
 
 
 def along_01(part: float) -> dict[str, float]:
@@ -400,6 +400,48 @@ def test_a_summary_of_another_version_is_left_out_and_said(folder: Path) -> None
     assert any("summary.json" in note for note in data["notes"])
 
 
+@pytest.mark.parametrize(
+    ("key", "data"),
+    [
+        ("truth/event", b'{"kind": "of another version"}'),
+        ("truth/conflict", b'{"runway": 1, "actors": 2}'),
+        ("advisory/ATC", b"[]"),
+        ("status/asr", b"not JSON"),
+        ("truth/runway/01-19", b'{"runway": 1}'),
+        ("truth/state/AAL123", b'{"t_ns": 0, "latitude_deg": null, "phase": "\\x"}'),
+        ("truth/state/UAL9", b"{}"),
+        ("radio/119100/tx", b"{}"),
+        ("asr/119100", b'{"id": "one", "slots": {}}'),
+    ],
+)
+def test_a_message_of_another_version_costs_itself_alone(
+    folder: Path, key: str, data: bytes
+) -> None:
+    at_airport(folder)
+    with closing(LogWriter(folder / "log.mcap")) as log:
+        log.write(key, "test", Event, 0, data)
+        for other, message in landing():
+            content = message.model_dump_json().encode()
+            log.write(other, "test", type(message), message.t_ns, content)
+    page = shown(write_report(folder))
+    (note,) = (note for note in page["notes"] if "not as this version writes it" in note)
+    assert note.startswith("One message")
+    assert f"{key} at 0.0 s" in note
+    assert [len(track["t"]) for track in page["tracks"]] == [21, 21]
+    assert len(page["sections"]["runways"]) == 1
+    assert page["sections"]["radio"] == {"calls": [], "advisories": []}
+
+
+def test_messages_of_another_version_are_counted(folder: Path) -> None:
+    with closing(LogWriter(folder / "log.mcap")) as log:
+        for t_s in range(3):
+            log.write("asr/119100", "test", Event, t_s * SECOND_NS, b"{}")
+    notes = shown(write_report(folder))["notes"]
+    (note,) = (note for note in notes if "not as this version writes them" in note)
+    assert note.startswith("3 messages of the log")
+    assert "asr/119100 at 0.0 s" in note
+
+
 def test_a_stopped_run_says_why(folder: Path) -> None:
     info = RunFolder(folder).info()
     info.phase, info.cause = "stopped", "worker 'ears' is gone"
@@ -486,8 +528,8 @@ def test_the_same_folder_gives_the_same_bytes(folder: Path, tmp_path: Path) -> N
 def test_a_track_is_thinned_out_evenly_and_keeps_its_ends() -> None:
     thinned = ThinnedStates(most=50)
     for tick in range(1234):
-        thinned.add(truth("AAL123", tick / 5).model_dump_json().encode())
-    times = [state.t_ns for state in thinned.states()]
+        thinned.add(Logged("truth/state/AAL123", "run", round(tick / 5 * SECOND_NS), b""))
+    times = [logged.t_ns for logged in thinned.messages()]
     assert 25 <= len(times) <= 51
     assert (times[0], times[-1]) == (0, round(1233 / 5 * SECOND_NS))
     steps = {after - before for before, after in itertools.pairwise(times[:-1])}

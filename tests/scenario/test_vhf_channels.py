@@ -1,4 +1,4 @@
-"""Which frequencies there are."""
+"""A frequency is the name of a channel of 25 or 8.33 kHz."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ import airhilt
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError, SensorError, WorkerError
 from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
-from airhilt.record import read_log
+from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.base import FAMILY, RESERVED, load_sensor_types, sensor_messages
 from airhilt.sim.worker import Input
@@ -183,6 +183,14 @@ def test_no_assistant_names_truth_as_an_input(
         decide_by(cheating, installed, scenario, tmp_path / "run")
 
 
+def test_run_json_names_the_package_of_the_sensor(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    go(scenario, tmp_path / "run")
+    info = RunFolder(tmp_path / "run").info()
+    assert info.other_packages == {"sensor loop": "my-package 1.0"}
+
+
 def test_it_comes_again_in_a_replay(installed: Path, scenario: Scenario, tmp_path: Path) -> None:
     assert go(scenario, tmp_path / "run")
     assert replay(tmp_path / "run").identical
@@ -222,6 +230,66 @@ def test_a_sensor_publishes_on_no_key_but_its_own(
     source.write_text(source.read_text().replace('publish("loop/1"', 'publish("truth/1"'))
     with pytest.raises(SensorError, match="'loop' published on 'truth/1'"):
         go(scenario, tmp_path / "run")
+
+
+def replace_in(installed: Path, old: str, new: str) -> None:
+    """Change the source of the sensor."""
+    source = installed / "loop.py"
+    assert old in source.read_text()
+    source.write_text(source.read_text().replace(old, new))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("else Loop(context)", "else object()", "what it makes, <object .* has no start, unfinis"),
+        (
+            "    def start(self):\n",
+            "    def start(self):\n        {}['gain']\n",
+            r"'loop' does not start: KeyError: 'gain' \(loop.py, line 2\d\)",
+        ),
+        (
+            "    def measure(self):\n",
+            "    def measure(self):\n        self.context.director.now_ns >= 2e9 and {}['gain']\n",
+            r"'loop' failed at 2\.0 s: KeyError: 'gain' \(loop.py, line 2\d\)",
+        ),
+        (
+            "return ()",
+            "return {}['gain']",
+            "'loop' cannot say what is unfinished: KeyError: 'gain'",
+        ),
+        ("return ()", "return None", "'loop' cannot say what is unfinished: TypeError"),
+        ("return ()", "return [42]", "'loop' returns 42 as unfinished; expected a StepRecord"),
+    ],
+)
+def test_a_sensor_that_fails_is_named_and_the_run_folder_is_whole(
+    installed: Path, scenario: Scenario, tmp_path: Path, old: str, new: str, told: str
+) -> None:
+    replace_in(installed, old, new)
+    with pytest.raises(SensorError, match=told):
+        go(scenario, tmp_path / "run")
+    folder = RunFolder(tmp_path / "run")
+    info, summary = folder.info(), folder.summary()
+    assert (info.phase, list(info.hashes)) == ("stopped", ["log.mcap"])
+    assert "'loop'" in info.cause
+    assert summary is not None
+    assert summary["outcome"] == f"stopped: {info.cause}"
+    assert folder.report_path.exists()
+
+
+def test_a_sensor_that_fails_twice_is_told_twice(
+    installed: Path, scenario: Scenario, tmp_path: Path
+) -> None:
+    replace_in(installed, "    def measure(self):\n", "    def measure(self):\n        1 / 0\n")
+    replace_in(installed, "return ()", "return {}['gain']")
+    observer = Listening()
+    with pytest.raises(SensorError, match=r"'loop' failed at 0\.0 s: ZeroDivisionError"):
+        airhilt.run(
+            scenario, out=tmp_path / "run", latency="fixed", cameras=False, speech=False,
+            observer=observer,
+        )  # fmt: skip
+    assert "failed as well, when the run was finished: sensor 'loop'" in observer.notices[-1]
+    assert "ZeroDivisionError" in RunFolder(tmp_path / "run").info().cause
 
 
 def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(

@@ -19,6 +19,7 @@ from airhilt.messages import (
     RunwayBriefing,
     Severity,
     Transcript,
+    TransmissionOpened,
     VisibleClass,
 )
 from airhilt.sim import Input
@@ -275,6 +276,10 @@ class Airfield:
     told: list[tuple[float, Advisory]] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     briefing: Briefing = BRIEFING
+    openings_are_heard: bool = False
+    """True if the worker is told when a transmission begins, 3 s before its end."""
+    recognition_s: float = 0.0
+    """Time from the end of a call to its words."""
 
     def run(self, seconds: float) -> Airfield:
         station = Receiver("field", State(*FIELD.origin, 20.0), 1e6, ground_m=ELEVATION_M)
@@ -287,7 +292,7 @@ class Airfield:
                 if mover.equipped
                 for made in self._report(station, mover, t_ns, step)
             ]
-            self._step(t_ns, inputs + self._transcripts(t_ns))
+            self._step(t_ns, inputs + self._openings(t_ns) + self._transcripts(t_ns))
             seen = [
                 item
                 for camera in self.cameras
@@ -317,13 +322,26 @@ class Airfield:
         payload = decoded.report(t_ns).model_dump_json().encode()
         return [Input(f"adsb/{mover.icao24}", t_ns, payload)]
 
+    def _openings(self, t_ns: int) -> list[Input]:
+        return [
+            Input(
+                "radio/119100/audio", t_ns, b"",
+                TransmissionOpened(
+                    id=str(number), frequency_khz=119100, t_tx_ns=t_ns
+                ).model_dump(mode="json"),
+            )
+            for number, (end_s, _) in enumerate(self.calls)
+            if self.openings_are_heard and round((end_s - 3.0) * SECOND_NS) == t_ns
+        ]  # fmt: skip
+
     def _transcripts(self, t_ns: int) -> list[Input]:
         inputs = []
         for number, (end_s, text) in enumerate(self.calls):
-            if round(end_s * SECOND_NS) == t_ns:
+            if round((end_s + self.recognition_s) * SECOND_NS) == t_ns:
+                end_ns = round(end_s * SECOND_NS)
                 transcript = Transcript(
-                    id=str(number), frequency_khz=119100, t_tx_ns=t_ns - 3 * SECOND_NS,
-                    t_end_ns=t_ns, text=text, confidence=1.0, engine="text",
+                    id=str(number), frequency_khz=119100, t_tx_ns=end_ns - 3 * SECOND_NS,
+                    t_end_ns=end_ns, text=text, confidence=1.0, engine="text",
                 )  # fmt: skip
                 inputs.append(Input("asr/119100", t_ns, transcript.model_dump_json().encode()))
         return inputs

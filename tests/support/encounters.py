@@ -138,6 +138,8 @@ class Encounter:
     obey: Callable[[Advisory], bool] = lambda _: False
     silent_after_s: float = math.inf
     """From when on no report is received."""
+    late_s: float = 0.0
+    """Time from when reports are received until they arrive."""
     least: dict[tuple[str, str], float] = field(default_factory=dict)
     """Least distance of each pair in units of 5 NM and 1000 ft."""
     cameras: list[Camera] = field(default_factory=list)
@@ -146,11 +148,12 @@ class Encounter:
         station = Receiver("all", State(CENTRE[0] * DEGREE, CENTRE[1] * DEGREE, 1e4), 1e6)
         begun = self._reports(station, 0, -2)  # an even and an odd position before the start
         assert not begun
+        underway: list[list[Input]] = [[] for _ in range(round(2 * self.late_s))]
         for step in range(round(2 * self.seconds)):
             t_ns = step * HALF_SECOND_NS
             heard = t_ns < self.silent_after_s * SECOND_NS
-            inputs = self._reports(station, t_ns, step) if heard else []
-            inputs += self._transcripts(t_ns)
+            underway.append(self._reports(station, t_ns, step) if heard else [])
+            inputs = underway.pop(0) + self._transcripts(t_ns)
             for flight in self.flights:
                 flight.advance(0.5)
             self._measure(t_ns)

@@ -220,7 +220,7 @@ def test_a_surface_pair_alone_leaves_90_degrees_open() -> None:
 
 
 def test_published_surface_messages_decode_to_where_they_are_published_to_be() -> None:
-    """Of pyModeS's test data: 8C4841753AAB238733C8CD4020B1 and 8C4841753A8A35323FAEBDAC702D."""
+    """The messages are pyModeS's: 8C4841753AAB238733C8CD4020B1, 8C4841753A8A35323FAEBDAC702D."""
     even = cpr.CprPosition(115609, 116941, odd=False, surface=True)
     odd = cpr.CprPosition(39199, 110269, odd=True, surface=True)
     near = (51.990, 4.375)

@@ -25,7 +25,7 @@ from services import answering, nobody, service
 
 CHANNEL = DATA / "channels" / "echo.onnx"
 FIELD_THAT_NOBODY_KNOWS = b"\xa2\x06\x01x"
-"""Of a protocol buffer, number 100."""
+"""Field 100 of a protocol buffer."""
 
 
 class Voices:

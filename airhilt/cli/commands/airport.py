@@ -109,7 +109,7 @@ Examples:
 @click.option(
     "--frequencies", required=True, type=FILE, help="airport-frequencies.csv of OurAirports."
 )
-@click.option("--name", help="Of the airport, which those files leave out.  [default: IDENT]")
+@click.option("--name", help="Name of the airport, which those files leave out.  [default: IDENT]")
 @click.option(
     "--variation",
     "variation_deg",
@@ -122,7 +122,7 @@ Examples:
     type=float,
     default=2025.0,
     show_default=True,
-    help="For which the magnetic variation holds.",
+    help="Year of the magnetic variation.",
 )
 @click.option("--out", type=FILE, metavar="FILE", help="[default: IDENT.json, in lower case]")
 @click.option("--overwrite", is_flag=True, help="Replace the file.")

@@ -35,7 +35,8 @@ Examples:
     "airports",
     multiple=True,
     metavar="ICAO",
-    help="Of random scenes, or en_route for open country; may be given again.  [default: all]",
+    help="Place of random scenes, or en_route for open country; may be given again.  "
+    "[default: all]",
 )
 @click.option(
     "--scenario",

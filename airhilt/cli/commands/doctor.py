@@ -17,9 +17,9 @@ Examples:
 )
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
 def doctor(as_json: bool) -> None:
-    """Say what is installed, what is missing, and how to get it.
+    """Say what is installed, what is missing or broken, and how to get it.
 
-    Exit code 1 if something is missing that every run needs.
+    Exit code 1 if something is missing that every run needs, or something installed is broken.
     """
     from airhilt.cli.doctor import examine
 
@@ -29,7 +29,7 @@ def doctor(as_json: bool) -> None:
     else:
         for finding in findings:
             click.echo(str(finding))
-    if any(finding.needed and not finding.found for finding in findings):
+    if any(finding.is_broken or (finding.needed and not finding.found) for finding in findings):
         sys.exit(1)
 
 

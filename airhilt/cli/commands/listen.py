@@ -22,7 +22,7 @@ Examples:
     "frequency_khz",
     type=int,
     metavar="KHZ",
-    help="Which one, such as 118300.  [default: the run's only one]",
+    help="Frequency in kHz, such as 118300.  [default: the run's only one]",
 )
 @click.option(
     "--out",

@@ -50,7 +50,14 @@ class Content:
         self.folder = folder
 
     def take(self, logged: Logged) -> None:
-        """Receive the next message with one of the section's keys."""
+        """Receive the next message with one of the section's keys.
+
+        Raises
+        ------
+        ValidationError
+            The message is not as this version writes it: the page leaves it out, and says so. Any
+            other exception costs the section.
+        """
 
     def as_json(self, run: RunData) -> Any:
         """Return the section's data, once the log has been read."""

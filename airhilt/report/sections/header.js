@@ -28,6 +28,7 @@ function drawHeader() {
   byId("notes").append(
     ...losses.map((event) => html("p", { class: "note loud", role: "alert" }, `${event.who} was lost at ${seconds(event.t)}${event.text ? `: ${event.text}` : ""}`)),
     ...notEvaluated.map((event) => html("p", { class: "note" }, `${event.who} is not evaluated${event.text ? `: ${event.text}` : ""}`)),
+    ...(summary && summary.unassisted_as_declared === false ? [html("p", { class: "note" }, "Nobody was warned, and yet the outcome that the scenario declares did not come about: this run is no baseline.")] : []),
     ...run.notes.map((note) => html("p", { class: "note" }, note)));
   for (const [name, value] of about()) byId("about").append(html("dt", {}, name), html("dd", {}, value));
 }

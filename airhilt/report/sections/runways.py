@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from airhilt.messages import RunwayTruth
 from airhilt.record import Logged, RunFolder
 from airhilt.report.intervals import Interval, Intervals
 from airhilt.report.sections import Content, Section
@@ -34,11 +34,11 @@ class RunwayTimeline:
         self._occupants: Intervals[str] = Intervals()
         self._approaches: Intervals[Approach] = Intervals()
 
-    def update(self, t_ns: int, truth: Json) -> None:
-        """Add the next `RunwayTruth`."""
-        self._occupants.update(t_ns, truth["occupants"])
+    def update(self, t_ns: int, truth: RunwayTruth) -> None:
+        """Add the next state of the runway."""
+        self._occupants.update(t_ns, truth.occupants)
         self._approaches.update(
-            t_ns, (Approach(arrival["actor"], arrival["runway"]) for arrival in truth["arrivals"])
+            t_ns, (Approach(arrival.actor, arrival.runway) for arrival in truth.arrivals)
         )
 
     def as_json(self, run: RunData) -> Json:
@@ -70,8 +70,8 @@ class Runways(Content):
 
     def take(self, logged: Logged) -> None:
         """Receive a `RunwayTruth`."""
-        truth = json.loads(logged.data)
-        name = runway_name(truth["runway"])
+        truth = RunwayTruth.model_validate_json(logged.data)
+        name = runway_name(truth.runway)
         self._timelines.setdefault(name, RunwayTimeline(name)).update(logged.t_ns, truth)
 
     def as_json(self, run: RunData) -> list[Json]:

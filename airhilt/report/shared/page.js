@@ -17,9 +17,14 @@ const page = {
       return call();
     } catch (error) {
       console.error(`section ${name}:`, error);
-      byId("notes").append(html("p", { class: "note" }, `The section ${name} cannot be drawn: ${error.message}`));
+      this.note(`The section ${name} cannot be drawn: ${error.message}`);
       return null;
     }
+  },
+
+  /** Adds a sentence on what is missing. */
+  note(text) {
+    (byId("notes") || document.querySelector("main")).append(html("p", { class: "note" }, text));
   },
 
   /** Draws all sections, and those that fit themselves to the window again whenever its width changes. */
@@ -39,3 +44,10 @@ const page = {
     new ResizeObserver(redraw).observe(document.documentElement);
   },
 };
+
+/** What `attempt` does not see: the script of a section that cannot be parsed, and errors after the page was drawn. */
+window.addEventListener("error", ({ error, message }) => {
+  if (!error) return; // no exception, but the notice of a ResizeObserver that goes on in the next frame
+  const name = document.currentScript?.dataset.section;
+  page.note(name ? `The section ${name} cannot be drawn: ${message}` : `A script of this page failed: ${message}`);
+});

@@ -13,7 +13,6 @@ from _ctypes import dlclose
 from importlib.metadata import version as installed_version
 
 import numpy as np
-from scipy.signal import resample_poly
 
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
@@ -117,6 +116,8 @@ class Espeak:
             library.espeak_Synchronize()
         finally:
             library.espeak_Terminate()
+        from scipy.signal import resample_poly  # half a second; nobody has spoken until here
+
         pcm = np.frombuffer(b"".join(blocks), np.int16).astype(np.float32) / 32768.0
         return np.asarray(resample_poly(pcm, 320, 441), np.float32)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from airhilt.commands import Command
-from airhilt.messages import Advisory, EmitterCategory
+from airhilt.messages import Advisory, EmitterCategory, Recommendation
 from airhilt.scenario.models import ActorSpec
 from airhilt.world.mover import Mover
 
@@ -66,6 +66,9 @@ class Actor(Protocol):
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the reaction to an advisory; None if there is none."""
+
+    def follows(self, recommendation: Recommendation) -> bool:
+        """Return whether the actor follows recommendations of this kind in any situation."""
 
     def attend(self) -> None:
         """Go on with what waits for its moment; called several times a second."""

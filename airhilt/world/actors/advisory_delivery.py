@@ -13,6 +13,19 @@ from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.reactions import FOLLOWED_FROM
 
 
+def by_address(actors: Mapping[str, Actor]) -> dict[str, Actor]:
+    """Return the actors by all names under which an advisory may reach them.
+
+    A crew may be reached by its 24-bit address, before its callsign is known.
+    """
+    addresses = {
+        actor.spec.icao24: actor
+        for actor in actors.values()
+        if not isinstance(actor.spec, WildlifeSpec)
+    }
+    return {**addresses, **actors}
+
+
 class AdvisoryDelivery:
     """Delivers advisories to actors, and schedules the reactions.
 
@@ -39,13 +52,7 @@ class AdvisoryDelivery:
         self._director = director
         self._event = event
         self._is_voiced = is_voiced
-        addresses = {
-            actor.spec.icao24: actor
-            for actor in actors.values()
-            if not isinstance(actor.spec, WildlifeSpec)
-        }
-        self._by_address: dict[str, Actor] = {**addresses, **actors}
-        """An advisory may reach a crew by its 24-bit address, before its callsign is known."""
+        self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
 

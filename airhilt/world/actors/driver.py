@@ -7,7 +7,7 @@ from typing import Literal
 
 from airhilt.commands import Command
 from airhilt.errors import ScenarioError
-from airhilt.messages import Advisory, EmitterCategory, HoldPosition
+from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import VehicleSpec
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
@@ -80,6 +80,10 @@ class Driver:
             lambda: self._carry_out(command),
             does,
         )
+
+    def follows(self, recommendation: Recommendation) -> bool:
+        """Return whether drivers of its kind have a command for such a recommendation."""
+        return self.kind.command_for(recommendation) is not None
 
     def attend(self) -> None:
         """Do nothing: nothing of a driver waits for its moment."""

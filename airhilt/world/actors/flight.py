@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from airhilt.commands import Command
-from airhilt.messages import Advisory, EmitterCategory
+from airhilt.messages import Advisory, EmitterCategory, Recommendation
 from airhilt.scenario.models import AircraftSpec
 from airhilt.world.actors.actor import Reaction
 from airhilt.world.actors.crew import Crew
@@ -59,6 +59,10 @@ class Flight:
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the crew's reaction to an advisory; None if there is none."""
         return self.crew.hear(advisory)
+
+    def follows(self, recommendation: Recommendation) -> bool:  # noqa: ARG002
+        """Return True: a crew follows every kind of recommendation."""
+        return True
 
     def attend(self) -> None:
         """Let the crew go on with what waits for its moment."""

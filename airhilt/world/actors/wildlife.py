@@ -9,7 +9,7 @@ from typing import Literal
 from airhilt.commands import Command
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import relative
-from airhilt.messages import Advisory, EmitterCategory
+from airhilt.messages import Advisory, EmitterCategory, Recommendation
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.mover import Creature
@@ -57,6 +57,10 @@ class Animal:
     def hear(self, advisory: Advisory) -> Reaction | None:  # noqa: ARG002
         """Return None: animals get no advisories."""
         return None
+
+    def follows(self, recommendation: Recommendation) -> bool:  # noqa: ARG002
+        """Return False: animals follow no recommendation."""
+        return False
 
     def attend(self) -> None:
         """Flee from what has come too near and moves."""

@@ -28,7 +28,7 @@ class Aircraft:
     kind
         Type of the aircraft.
     initial
-        Where it begins and how it flies there.
+        Place where it begins, and its flight there.
     seed
         Seed of its turbulence. The same seed and commands give the same flight, bit by bit.
     atmosphere

@@ -19,7 +19,7 @@ class FlightControl:
     systems
         Airframe, autopilot and ground law.
     initial
-        Where the aircraft begins.
+        Place where the aircraft begins.
     terrain_elevation_m
         Elevation of the flat ground above WGS84.
 

@@ -121,7 +121,7 @@ class GroundLaw:
         course_rad
             True course of the line.
         slipping
-            Whether the nose may point off the track, as a crosswind makes it on wheels that carry
+            True if the nose may point off the track, as a crosswind makes it on wheels that carry
             little weight. After a touchdown in a crab it must not: the crab would be kept.
         """
         speed = max(state.ground_speed_m_s, LEAST_SPEED_M_S)

@@ -54,9 +54,9 @@ class Guard:
         state
             State of the aircraft now.
         may_touch
-            Whether the wheels may touch the ground.
+            True if the wheels may touch the ground.
         on_ground
-            Whether a wheel carries weight.
+            True if a wheel carries weight.
         """
         # Infinity and NaN survive every sum.
         if not math.isfinite(sum(state)):

@@ -67,7 +67,7 @@ def aligned(
     Parameters
     ----------
     start, heading_rad
-        Where the path begins, and in which direction.
+        Place where the path begins, and its direction there.
     points
         The polyline from there on.
     radius_m

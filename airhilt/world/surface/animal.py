@@ -62,7 +62,7 @@ class AnimalBody:
     kind
         Its kind, which says what it can do.
     place, heading_rad
-        Where its middle is, and its true heading.
+        Place of its middle, and its true heading.
     ground_m
         Height of the ground above WGS84.
     tick_s

@@ -53,7 +53,7 @@ class AnimalKind(CreatureKind, BaseModel):
     Attributes
     ----------
     source
-        Where the numbers come from, and which of them are estimates.
+        Source of the numbers, and which of them are estimates.
     label
         Class that it has in pictures.
     count

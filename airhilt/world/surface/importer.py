@@ -58,14 +58,9 @@ def import_airport(
     ident = ident.upper()
     read = read_runways(runways, ident)
     reference = _centre(read.runways)
-    if variation_deg is None:
-        variation, variation_source = magnetic_variation(reference.place, year), MAGNETIC_SOURCE
-    else:
-        variation = MagneticVariation(east_deg=variation_deg, epoch=year)
-        variation_source = Source(text="Stated by the user")
+    variation, variation_source = _variation(reference, year, variation_deg)
     plan = TaxiwayPlan(reference, read.runways)
-    apron = plan.apron
-    latitude, longitude = plan.draft.degrees(apron.point(0.0, 130.0))
+    latitude, longitude = plan.draft.degrees(plan.apron.point(0.0, 130.0))
     return Airport(
         icao=ident,
         name=name or ident,
@@ -76,13 +71,26 @@ def import_airport(
         taxiways=plan.draft.taxiways,
         holds=tuple(plan.draft.holds),
         tower=Tower(lat_deg=latitude, lon_deg=longitude, height_m=TOWER_HEIGHT_M),
-        buildings=(
-            Building(name="Terminal", footprint=plan.draft.corners(*apron.terminal), height_m=15.0),
-        ),
+        buildings=(_terminal(plan),),
         frequencies=read_frequencies(frequencies, ident),
         cameras=plan.cameras(TOWER_HEIGHT_M),
         sources=_sources(variation_source, read.notes),
     )
+
+
+def _terminal(plan: TaxiwayPlan) -> Building:
+    footprint = plan.draft.corners(*plan.apron.terminal)
+    return Building(name="Terminal", footprint=footprint, height_m=15.0)
+
+
+def _variation(
+    reference: ReferencePoint, year: float, stated_deg: float | None
+) -> tuple[MagneticVariation, Source]:
+    """Return the magnetic variation and its source: the user, or the World Magnetic Model."""
+    if stated_deg is None:
+        return magnetic_variation(reference.place, year), MAGNETIC_SOURCE
+    variation = MagneticVariation(east_deg=stated_deg, epoch=year)
+    return variation, Source(text="Stated by the user")
 
 
 def _sources(variation: Source, notes: tuple[str, ...]) -> dict[Block, Source]:

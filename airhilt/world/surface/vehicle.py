@@ -47,7 +47,7 @@ class Vehicle:
     kind
         Its kind, which says what it can do.
     place, heading_rad
-        Where its middle stands, and its true heading.
+        Place of its middle, and its true heading.
     ground_m
         Height of the ground above WGS84.
     tick_s

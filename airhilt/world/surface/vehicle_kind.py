@@ -22,7 +22,7 @@ class VehicleKind(DrivenKind, BaseModel):
     Attributes
     ----------
     source
-        Where the numbers come from, and which of them are estimates.
+        Source of the numbers, and which of them are estimates.
     mesh
         Makes its mesh, in its size.
     label

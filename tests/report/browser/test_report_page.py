@@ -471,6 +471,31 @@ def test_a_section_that_fails_is_named_and_the_others_are_drawn(
     page.complaints.clear()
 
 
+@pytest.mark.parametrize("syntax", ["const = 1;", "return { draw() {", "}", "}); }"])
+def test_a_script_that_cannot_be_parsed_is_named_and_the_others_are_drawn(
+    page: Page, report: Path, tmp_path: Path, syntax: str
+) -> None:
+    broken = tmp_path / "page.html"
+    broken.write_text(
+        report.read_text().replace("function drawRadio() {", f"{syntax} function drawRadio() {{")
+    )
+    page.open(broken)
+    notes = page.evaluate("document.getElementById('notes').textContent")
+    assert "The section radio cannot be drawn: Uncaught SyntaxError" in notes
+    assert page.evaluate("document.querySelectorAll('#timeline tr').length") > 5
+    assert len(page.complaints) == 1
+    assert "SyntaxError" in page.complaints.pop()
+
+
+def test_a_script_that_fails_later_leaves_a_note(page: Page, report: Path) -> None:
+    page.open(report)
+    page.evaluate("new Promise((done) => { setTimeout(() => nothing()); setTimeout(done, 50); })")
+    notes = page.evaluate("document.getElementById('notes').textContent")
+    assert "A script of this page failed: Uncaught ReferenceError: nothing" in notes
+    assert len(page.complaints) == 1
+    page.complaints.clear()
+
+
 @pytest.mark.parametrize("size", [0, 9000])
 def test_a_killed_run_is_drawn_as_far_as_it_goes(
     page: Page, folder: Path, tmp_path: Path, size: int

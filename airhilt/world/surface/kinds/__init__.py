@@ -14,6 +14,7 @@ from airhilt.errors import ScenarioError
 from airhilt.messages import VisibleClass
 from airhilt.plugins import Family
 from airhilt.world.mover import Creature, Driven
+from airhilt.world.surface.guarded_kind import GuardedKind
 from airhilt.world.surface.kind import Category, Kind
 
 FAMILY = Family("kind", "airhilt.kinds", __name__, "KIND", Kind, ScenarioError)
@@ -26,7 +27,7 @@ def load_kind(name: str, category: Literal["vehicle"]) -> Kind[Driven]: ...
 @overload
 def load_kind(name: str, category: Literal["wildlife"]) -> Kind[Creature]: ...
 def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
-    """Return the kind of that name, such as ``follow_me``.
+    """Return the kind of that name, such as ``follow_me``; one of another package is guarded.
 
     Parameters
     ----------
@@ -42,7 +43,8 @@ def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
     kind: Kind[Any] = FAMILY.load(name)
     if category is not None and kind.category != category:
         raise ScenarioError(f"{name!r} is a kind of {kind.category}; expected one of {category}")
-    return kind
+    is_own = any(point.name == name for point in FAMILY.own())
+    return kind if is_own else GuardedKind(kind)
 
 
 def animal_labels(more: Iterable[str] = ()) -> tuple[VisibleClass, ...]:

@@ -13,7 +13,7 @@ import pytest
 
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.simulation import run
-from airhilt.errors import ScenarioError
+from airhilt.errors import AirhiltError, ScenarioError
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -26,7 +26,7 @@ from airhilt.messages import (
     Severity,
 )
 from airhilt.options import Options
-from airhilt.record import read_log
+from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.dataset.coco import export, scenario_pictures
 from airhilt.sensors.cameras.scene.bodies import kind_model
@@ -78,7 +78,7 @@ def document(**drone: Any) -> dict[str, Any]:
                 "horizontal_fov_deg": 60.0, "mount": mount}  # fmt: skip
 
     return {
-        "name": "foreign", "title": "A moose and a drone", "family": "S01C",
+        "name": "other_packages", "title": "A moose and a drone", "family": "S01C",
         "scene": {"type": "airport", "airport": "KDCA"}, "duration_s": 3.0,
         "actors": [
             {"type": "wildlife", "callsign": "MOOSE1", "kind": "moose",
@@ -138,6 +138,9 @@ def test_a_run_labels_them_and_hears_them_as_their_files_say(tmp_path: Path) -> 
     ]
     assert {report.emitter_category for report in reports} <= {None, "B6"}
     assert reports
+    assert RunFolder(tmp_path / "run").info().other_packages == {
+        "kind moose": "my-package 1.0", "kind drone": "my-package 1.0",
+    }  # fmt: skip
 
 
 @pytest.mark.usefixtures("other_package")
@@ -201,3 +204,70 @@ def test_a_briefing_from_before_knows_the_animals_of_airhilt(encounter: Scenario
     now = briefing_of(encounter, ScenarioSite.of(encounter))
     before = now.model_dump(exclude={"animals"})
     assert Briefing.model_validate(before) == now
+
+
+def broken_drone(folder: Path, method: str, body: str) -> None:
+    """Give the drone of the other package a method that fails."""
+    source = folder / "path" / "my_package" / "drone.py"
+    text = source.read_text()
+    defined = re.search(rf"    def {method}\(.*?\):\n", text, flags=re.DOTALL)
+    if defined is None:
+        owner = "class DroneKind(DrivenKind):\n"
+        assert owner in text
+        text = text.replace(owner, f"{owner}    def {method}(self, *_):\n        {body}\n\n")
+    else:
+        text = text.replace(defined[0], f"{defined[0]}        {body}\n", 1)
+    source.write_text(text)
+
+
+@pytest.mark.usefixtures("other_package")
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("{}['gain']", r"actors/UAV1: .* kind 'drone': create failed: KeyError: 'gain' \(drone.py"),
+        ("return None", "kind 'drone': create returned None, which has no drive, stop, resume, .*"),
+        ("raise ValueError('too windy')", "actors/UAV1: cannot begin like that: too windy"),
+    ],
+)
+def test_a_kind_that_makes_no_body_is_named(tmp_path: Path, body: str, told: str) -> None:
+    broken_drone(tmp_path, "create", body)
+    with pytest.raises(ScenarioError, match=told):
+        actors(scenario())
+
+
+@pytest.mark.usefixtures("other_package")
+def test_a_kind_that_fails_at_a_command_is_named_and_not_unable(tmp_path: Path) -> None:
+    broken_drone(tmp_path, "carry_out", "{}['gain']")
+    with pytest.raises(AirhiltError, match="kind 'drone': carry_out failed: KeyError: 'gain'"):
+        actors(scenario(commands=[{"action": "altitude", "altitude_ft": 500.0}]))
+
+
+@pytest.mark.usefixtures("other_package")
+@pytest.mark.parametrize(
+    ("method", "body", "told"),
+    [
+        ("advance", "1 / 0", r"actor 'UAV1' cannot move on at 0\.05 s: ZeroDivisionError"),
+        ("mesh_of", "1 / 0", "kind 'drone': mesh_of failed: ZeroDivisionError"),
+    ],
+)
+def test_a_kind_that_fails_in_a_run_stops_it_with_its_name(
+    tmp_path: Path, method: str, body: str, told: str
+) -> None:
+    broken_drone(tmp_path, method, body)
+    options = Options(out=tmp_path / "run", latency="fixed", speech=False, renderer="embree")
+    with pytest.raises(AirhiltError, match=told):
+        run(scenario(), options)
+
+
+@pytest.mark.usefixtures("other_package")
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("1 / 0", "kind 'drone': appearance failed: ZeroDivisionError"),
+        ("return 42", "kind 'drone': appearance returned 42; expected an Appearance"),
+    ],
+)
+def test_a_kind_that_cannot_say_how_it_looks_is_named(tmp_path: Path, body: str, told: str) -> None:
+    broken_drone(tmp_path, "appearance", body)
+    with pytest.raises(AirhiltError, match=told):
+        kind_model("drone")

@@ -32,7 +32,7 @@ CAUSE = "command 'broken' cannot be loaded from outside_broken:ENGINE: RuntimeEr
 
 
 @pytest.fixture
-def foreign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def other_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Packages outside of AIRHILT with a command that works and one that does not."""
     with (
         installed(tmp_path, monkeypatch, "airhilt.commands", "greet", GOOD),
@@ -41,13 +41,13 @@ def foreign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         yield
 
 
-@pytest.mark.usefixtures("foreign")
+@pytest.mark.usefixtures("other_packages")
 def test_a_command_of_another_package_is_called_and_has_its_row(airhilt_command: Any) -> None:
     assert airhilt_command("greet", "Ada").stdout == "hello Ada\n"
     assert "Greet somebody." in airhilt_command("--help").stdout
 
 
-@pytest.mark.usefixtures("foreign")
+@pytest.mark.usefixtures("other_packages")
 def test_help_goes_on_without_a_broken_command_and_gives_the_cause(airhilt_command: Any) -> None:
     done = airhilt_command("--help")
     assert done.returncode == 0
@@ -55,7 +55,7 @@ def test_help_goes_on_without_a_broken_command_and_gives_the_cause(airhilt_comma
     assert CAUSE in " ".join(done.stdout.split())
 
 
-@pytest.mark.usefixtures("foreign")
+@pytest.mark.usefixtures("other_packages")
 def test_completion_goes_on_without_a_broken_command() -> None:
     bash = get_completion_class("bash")
     assert bash is not None
@@ -65,7 +65,7 @@ def test_completion_goes_on_without_a_broken_command() -> None:
 
 
 @pytest.mark.parametrize("arguments", [(), ("--help",), ("one", "--two", "-x")])
-@pytest.mark.usefixtures("foreign")
+@pytest.mark.usefixtures("other_packages")
 def test_calling_a_broken_command_is_an_error(
     airhilt_command: Any, arguments: tuple[str, ...]
 ) -> None:

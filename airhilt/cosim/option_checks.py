@@ -1,0 +1,62 @@
+"""Checks of the options of a run, wherever they come from: the command line or Python."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, NO_DETECTOR, families
+from airhilt.errors import AirhiltError
+from airhilt.options import Options, flag_of
+from airhilt.scenario import Scenario
+
+
+def check_options(options: Options, scenario: Scenario) -> None:
+    """Check that engines are known, used or not, and that no option is given that does nothing.
+
+    Raises
+    ------
+    AirhiltError
+        An option names an engine that is not there, or does nothing because of another option.
+    """
+    topology = options.topology or scenario.radio.topology
+    for name in sorted(options.model_fields_set):
+        field = Options.model_fields[name]
+        flag, value = flag_of(field), getattr(options, name)
+        if flag is None or value == field.default:
+            continue
+        if name == "asr" and options.speech and topology == "asr_first":
+            continue  # Crews get the transcript, whoever decides.
+        for other in _against(options, name, flag.needs):
+            shown = flag.name if value is True else f"{flag.name} {value!r}"
+            raise AirhiltError(
+                f"{shown} would do nothing with {other}; expected only one of the two"
+            )
+    _require_known_engines(options)
+
+
+def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
+    """Yield the options, as the command line spells them, that leave out what an option needs."""
+    for need in needs:
+        flag = flag_of(Options.model_fields[need])
+        spelling = need if flag is None else flag.name
+        if need != "assistant":
+            if not getattr(options, need):
+                yield spelling
+        elif options.assistant == NO_ASSISTANT or (
+            options.assistant == EXTERNAL and name == "wording"
+        ):
+            yield f"{spelling} {options.assistant}"
+
+
+def _require_known_engines(options: Options) -> None:
+    named = {
+        "airhilt.asr": (options.asr, ()),
+        "airhilt.tts": (options.tts, ()),
+        "airhilt.detectors": (options.detector, (NO_DETECTOR,)),
+        "airhilt.assistants": (options.assistant, (NO_ASSISTANT, EXTERNAL)),
+        "airhilt.wording": (options.wording, ()),
+    }
+    for family in families():
+        text, also = named[family.group]
+        if text is not None:
+            family.require_known(text, also)

@@ -1,0 +1,62 @@
+"""A session that cannot be opened says why."""
+
+from __future__ import annotations
+
+import re
+import time
+from contextlib import closing
+from typing import Never
+
+import pytest
+import zenoh
+
+from airhilt.bus.session import Bus, connect_client, free_endpoint
+from airhilt.errors import BusError
+
+NO_MEMORY = "Unable to create POSIX shm segment: OS error 30 at /build/zenoh-shm/src/segment.rs:85."
+
+
+@pytest.fixture
+def _no_shared_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Zenoh fail as it does where /dev/shm is read-only."""
+
+    def refuse(_: zenoh.Config) -> Never:
+        raise zenoh.ZError(NO_MEMORY)
+
+    monkeypatch.setattr(zenoh, "open", refuse)
+
+
+def test_a_port_in_use_is_named_with_the_words_of_zenoh() -> None:
+    with (
+        closing(Bus("first")) as first,
+        pytest.raises(BusError, match="cannot listen on") as error,
+    ):
+        Bus("second", first.endpoint)
+    message = str(error.value)
+    assert "Address already in use (os error 98)" in message
+    assert "another program has the port" in message
+    assert ".rs:" not in message
+
+
+def test_an_address_of_another_machine_is_not_called_a_port_in_use() -> None:
+    endpoint = "tcp/192.0.2.1:7447"  # for documentation only: RFC 5737
+    with pytest.raises(BusError, match=re.escape(endpoint)) as error:
+        Bus("run", endpoint)
+    assert "expected a free port of this machine" in str(error.value)
+    assert "in use" not in str(error.value)
+
+
+@pytest.mark.usefixtures("_no_shared_memory")
+def test_shared_memory_that_cannot_be_made_is_the_cause_and_not_the_port() -> None:
+    with pytest.raises(BusError, match="/dev/shm must be writable") as error:
+        Bus("run")
+    assert "Unable to create POSIX shm segment: OS error 30;" in str(error.value)
+    assert "port" not in str(error.value)
+
+
+@pytest.mark.usefixtures("_no_shared_memory")
+def test_a_client_without_shared_memory_does_not_wait_for_the_run() -> None:
+    begun = time.monotonic()
+    with pytest.raises(BusError, match="/dev/shm must be writable"):
+        connect_client(free_endpoint(), patience_s=60.0)
+    assert time.monotonic() - begun < 30.0

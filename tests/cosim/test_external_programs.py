@@ -1,0 +1,65 @@
+"""A program that takes no grants is heard; what does not count is refused with a notice."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import pytest
+
+from airhilt.cosim.external_programs import ExternalPrograms
+from airhilt.cosim.observer import Observer
+from airhilt.errors import WorkerError
+from airhilt.sim import Director, Virtual
+
+
+class Notices(Observer):
+    """Keeps all notices."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+
+    def notice(self, text: str) -> None:
+        self.texts.append(text)
+
+
+def programs(notices: Notices, events: list[Any], *, is_strict: bool = False) -> ExternalPrograms:
+    return ExternalPrograms(
+        Director(Virtual()),
+        cast(Any, None),
+        cast(Any, lambda *event: events.append(event)),
+        cast(Any, None),
+        notices,
+        obey=lambda *_: None,
+        has_decision=False,
+        is_strict=is_strict,
+    )
+
+
+def test_a_voice_without_a_grant_is_refused_and_noticed_once() -> None:
+    notices, events = Notices(), list[Any]()
+    heard = programs(notices, events)
+    heard.take("tts/a-1", b"\0\0")
+    heard.take("tts/a-2", b"\0\0")
+    (text,) = notices.texts
+    assert text.startswith("a program published on 'tts/*' without a grant; expected a voice that")
+    assert [event[:2] for event in events] == [
+        ("unregistered", "tts/a-1"), ("refused", "tts/a-1"), ("refused", "tts/a-2"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("key", "words"),
+    [
+        (
+            "advisory/ATC",
+            "a program published on 'advisory/ATC' something that is no Advisory: id:",
+        ),
+        ("command/AAL123", "a program published on 'command/AAL123' something that is no ActorCom"),
+    ],
+)
+def test_a_refused_message_is_said_to_be_of_a_program(key: str, words: str) -> None:
+    notices = Notices()
+    programs(notices, []).take(key, b"{}")
+    assert notices.texts[0].startswith(words)
+    with pytest.raises(WorkerError, match=words):
+        programs(notices, [], is_strict=True).take(key, b"{}")
