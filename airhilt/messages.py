@@ -510,8 +510,18 @@ class HoldPosition(Part):
     runway: str
 
 
+class Confirm(Part):
+    """Ask for, or say again, what was heard with too little confidence."""
+
+    action: Literal["confirm"] = "confirm"
+    callsign: str = Field(description="callsign of the aircraft or vehicle that the call concerns")
+    slot: str = Field(
+        description="part of the call that is in doubt", examples=["callsign", "runway", "altitude"]
+    )
+
+
 Recommendation = Annotated[
-    Climb | Turn | MaintainLevel | GoAround | CancelTakeoff | HoldPosition,
+    Climb | Turn | MaintainLevel | GoAround | CancelTakeoff | HoldPosition | Confirm,
     Field(discriminator="action"),
 ]
 
@@ -531,7 +541,25 @@ class Evidence(Part):
         default=None, description="time until the user of the runway reaches the obstacle"
     )
     note: str = ""
+    radio_ids: tuple[str, ...] = Field(default=(), description="ids of transmissions")
+    camera_ids: tuple[str, ...] = Field(default=(), description="names of cameras")
+    tracks: tuple[str, ...] = Field(
+        default=(), description="icao24 of ADS-B tracks, and names of other tracks"
+    )
+    rules: tuple[str, ...] = Field(
+        default=(), description="names of the rules that were triggered", examples=[["occupancy"]]
+    )
+    shares: dict[str, Confidence] = Field(
+        default_factory=dict,
+        description="share of each modality in the judgement, by its name in `sources`; they add "
+        "up to 1; empty: not told",
+    )
 
+
+AdvisoryKind = Literal[
+    "loss_of_separation", "readback_mismatch", "runway_conflict", "clarification"
+]
+"""Kind of conflict, or ``clarification`` of a call that was heard with too little confidence."""
 
 CONTROLLER = "ATC"
 """Recipient of the advisories to the controller."""
@@ -552,7 +580,7 @@ class Advisory(Message):
         description="ATC, a callsign, or an icao24 while there is no callsign",
     )
     recipients: tuple[str, ...]
-    kind: Literal["loss_of_separation", "readback_mismatch", "runway_conflict"]
+    kind: AdvisoryKind
     severity: Severity
     active: bool = True
     traffic: tuple[str, ...] = Field(description="callsigns (or icao24) of those in conflict")

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 from airhilt.assistant.decision.findings import Finding
-from airhilt.messages import Evidence, Recommendation, Severity
-
-AdvisoryKind = Literal["loss_of_separation", "readback_mismatch", "runway_conflict"]
-"""Kind of an `airhilt.messages.Advisory`."""
+from airhilt.messages import AdvisoryKind, Evidence, Recommendation, Severity
 
 
 @dataclass(frozen=True)
