@@ -21,6 +21,7 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     Advisory,
     CancelTakeoff,
+    Confirm,
     Climb,
     GoAround,
     HoldPosition,
@@ -162,6 +163,8 @@ class Crew:
                     return self.runway_operations.hold_position()
                 case Climb() | MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
+                case Confirm():
+                    return False
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
 
