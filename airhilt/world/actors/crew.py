@@ -21,8 +21,8 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     Advisory,
     CancelTakeoff,
-    Confirm,
     Climb,
+    Confirm,
     GoAround,
     HoldPosition,
     MaintainLevel,
