@@ -41,6 +41,12 @@ class Participants:
         return any(worker.description.modality == modality for worker in self.workers)
 
     @property
+    def subscribed(self) -> frozenset[str]:
+        """First chunks of the keys that workers with grants subscribe to."""
+        inputs = (wanted for worker in self.workers for wanted in worker.description.inputs)
+        return frozenset(wanted.key.partition("/")[0] for wanted in inputs)
+
+    @property
     def attached(self) -> tuple[str, ...]:
         """Names of all that run in other processes, with grants or without."""
         remote = [w.description.name for w in self.workers if w.where == "attached"]

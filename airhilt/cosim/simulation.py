@@ -246,6 +246,7 @@ class Simulation:
             state_at_ns=lambda: self._world.ticked_ns,
             publish=self._router.publish,
             step_done=self._latency_log.step,
+            subscribed=self._participants.subscribed,
         )
 
     def _schedule(self) -> None:

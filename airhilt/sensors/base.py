@@ -62,6 +62,9 @@ class SensorContext:
         Publishes a message on a key below the sensor type's name, now.
     step_done
         Called with the latency record of each finished measurement, for sensors that have any.
+    subscribed
+        First chunks of the keys that workers of the run subscribe to. A sensor that is not in every
+        run is in this one if its name is among them.
     settings
         Settings of this sensor type in the scenario's ``sensors``; None if it has none there.
     """
@@ -75,6 +78,7 @@ class SensorContext:
     state_at_ns: Callable[[], int]
     publish: Publish
     step_done: Callable[[StepRecord], None]
+    subscribed: frozenset[str] = frozenset()
     settings: Mapping[str, Any] | None = None
 
 

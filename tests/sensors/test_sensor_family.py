@@ -203,6 +203,21 @@ def test_it_rests_where_the_scenario_does_not_ask_for_it(
     assert go(short, tmp_path / "run") == []
 
 
+def test_a_sensor_may_be_there_because_a_worker_subscribes_to_its_keys(
+    installed: Path, encounter: Scenario, tmp_path: Path
+) -> None:
+    needed = "Loop(context) if self.name in context.subscribed else None"
+    replace_in(installed, "None if context.settings is None else Loop(context)", needed)
+    replace_in(installed, "any(self.carries(actor.body) for actor in", "not any(False for _ in")
+    replace_in(installed, "[math.radians(context.settings[name])", "[name")
+    short = encounter.model_copy(update={"duration_s": 2.0})
+    assert go(short, tmp_path / "alone") == []
+    worker = Subscriber()
+    assert len(go(short, tmp_path / "asked for", worker)) == 3
+    assert len(worker.inputs) >= 2
+    assert replay(tmp_path / "asked for").identical
+
+
 def test_its_messages_are_among_the_schemas(installed: Path) -> None:
     assert sensor_messages(load_sensor_types()[0])["loop/{name}"].__name__ == "LoopState"
 
