@@ -1,0 +1,1 @@
+"""Comparison of assistants over scenarios and seeds."""
