@@ -1,7 +1,7 @@
 """Runs scenarios with several assistants, and compares what became of them.
 
     python tools/compare_assistants.py --assistants reference,adsb_only --seeds 3 --out runs/rows
-    python tools/compare_assistants.py --scenarios "s01a_*" --assistants paper --speech --out runs/rows
+    python tools/compare_assistants.py --scenarios "s01a_*" --assistants paper --out runs/rows
 
 Each scenario is run with `none` first: only runs that end badly without an assistant can be
 avoided. Latencies are fixed, so a run gives the same row again. Rows that the folder has already
