@@ -303,6 +303,39 @@ class RadarPlot(Message):
     )
 
 
+class SurfaceTrack(Message):
+    """``surface/<airport>``: one target of an airport's surface surveillance, once a second.
+
+    Radar and multilateration are fused. Only a transponder gives a target a name, tells whether it
+    is in the air, and how high.
+    """
+
+    airport: str = Field(description="ICAO designator")
+    track: int = Field(ge=1, description="number of the track; the same until the target is lost")
+    kind: PlotKind = Field(
+        description="primary: detected by radar alone; secondary: by multilateration alone; "
+        "combined: by both"
+    )
+    t_track_ns: Nanoseconds = Field(description="the target was measured")
+    latitude_deg: float = Field(ge=-90.0, le=90.0)
+    longitude_deg: float = Field(ge=-180.0, le=180.0)
+    accuracy_m: float = Field(gt=0.0, description="95 % position error")
+    altitude_ft: float | None = Field(
+        default=None,
+        description="pressure altitude in steps of 25 ft; null on the ground, or without a "
+        "transponder",
+    )
+    on_ground: bool | None = Field(default=None, description="null without a transponder")
+    ground_speed_kt: float = Field(ge=0.0, description="0 at a standstill")
+    track_deg: float | None = Field(
+        default=None, ge=0.0, lt=360.0, description="over the ground; null at a standstill"
+    )
+    icao24: str | None = Field(
+        default=None, pattern=r"^[0-9a-f]{6}$", description="null without a transponder"
+    )
+    callsign: str | None = Field(default=None, description="null without a transponder")
+
+
 class CockpitInstruments(Message):
     """``cockpit/<callsign>``: what the instruments of an aircraft show its own crew.
 
@@ -849,6 +882,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "adsb/{icao24}": AdsbReport,
     "radar/{site}/info": RadarInfo,
     "radar/{site}": RadarPlot,
+    "surface/{airport}": SurfaceTrack,
     "cockpit/{callsign}": CockpitInstruments,
     "asr/{frequency_khz}": Transcript,
     "vision/{camera}": Detections,

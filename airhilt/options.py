@@ -242,6 +242,14 @@ class Options(BaseModel):
             default="those of the scenario",
         ),
     ] = None
+    surface_surveillance: Annotated[
+        bool,
+        Flag(
+            "--surface-surveillance",
+            "Add radar and multilateration of the airport's surface; an assistant that reads their "
+            "tracks has them anyway.",
+        ),
+    ] = False
     cockpit: Annotated[
         bool, Flag("--cockpit", "Publish what the instruments of all aircraft show.")
     ] = False

@@ -91,6 +91,11 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "site": "KDCA", "kind": "combined", "t_plot_ns": 1, "range_m": 9000.5,
         "azimuth_deg": 359.5, "mode_a": "1200", "mode_c_ft": -100,
     },
+    "SurfaceTrack": {
+        "airport": "KDCA", "track": 3, "kind": "combined", "t_track_ns": 1, "latitude_deg": 38.9,
+        "longitude_deg": -77.0, "accuracy_m": 7.5, "altitude_ft": None, "on_ground": True,
+        "ground_speed_kt": 14.0, "track_deg": 85.0, "icao24": "a0f001", "callsign": "OPS1",
+    },
     "CockpitInstruments": {
         "callsign": "AAL1", "airspeed_kt": 280.5, "mach": 0.78, "altitude_ft": 35000,
         "vertical_speed_fpm": -700, "north": "magnetic", "heading_deg": 359.5, "track_deg": 1.0,

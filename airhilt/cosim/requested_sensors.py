@@ -5,10 +5,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 
+from airhilt.errors import AirhiltError
 from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import RadarKind
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import AircraftSpec, AirportScene, Radar
+from airhilt.scenario.models import AircraftSpec, AirportScene, Radar, SurfaceSurveillance
 
 AWAY_NM = 40.0
 """Distance of a requested radar west of the scene's centre, in NM, if it is not an airport's own.
@@ -18,7 +19,9 @@ cone of silence, which reaches out to 10 NM at FL350.
 """
 
 
-def with_requested_sensors(scenario: Scenario, radar: RadarKind | None, cockpit: bool) -> Scenario:
+def with_requested_sensors(
+    scenario: Scenario, radar: RadarKind | None, cockpit: bool, surface: bool = False
+) -> Scenario:
     """Return a scenario with the sensors that the options ask for.
 
     Parameters
@@ -29,6 +32,13 @@ def with_requested_sensors(scenario: Scenario, radar: RadarKind | None, cockpit:
         stands at the airport.
     cockpit
         True if all aircraft publish their instruments.
+    surface
+        True if the airport has surface surveillance.
+
+    Raises
+    ------
+    AirhiltError
+        There is no airport to have surface surveillance.
     """
     changes: dict[str, object] = {}
     declared = {each.name: each.kind for each in scenario.radars}
@@ -43,6 +53,13 @@ def with_requested_sensors(scenario: Scenario, radar: RadarKind | None, cockpit:
         changes["cockpits"] = tuple(
             actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)
         )
+    if surface and not isinstance(scenario.scene, AirportScene):
+        raise AirhiltError(
+            f"--surface-surveillance: {scenario.name!r} is en route; expected a scenario at an "
+            "airport"
+        )
+    if surface and scenario.surface_surveillance is None:
+        changes["surface_surveillance"] = SurfaceSurveillance()
     return scenario.model_copy(update=changes)
 
 

@@ -113,7 +113,9 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         check_options(options, given)
     scenario, draws = draw(given, options.seed)
     scenario = _with_radio_of(options, scenario)
-    scenario = with_requested_sensors(scenario, options.radar, options.cockpit)
+    scenario = with_requested_sensors(
+        scenario, options.radar, options.cockpit, options.surface_surveillance
+    )
     latency = recorded.latency or _latency(options.latency, given, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{given.name}-{options.seed}"

@@ -191,7 +191,7 @@ class TurningRadar:
         return RadarPlot(
             t_ns=self._director.now_ns,
             site=self._site,
-            kind=_kind(has_echo, has_reply),
+            kind=plot_kind(has_echo, has_reply),
             t_plot_ns=t_plot_ns,
             range_m=quantise(line.range_m + accuracy.range_m * range_error, RANGE_STEP_M),
             azimuth_deg=quantise(
@@ -248,7 +248,8 @@ def _squawk(actor: Actor) -> str | None:
     return actor.spec.transponder.squawk or discrete_code(actor.spec.icao24)
 
 
-def _kind(has_echo: bool, has_reply: bool) -> PlotKind:
+def plot_kind(has_echo: bool, has_reply: bool) -> PlotKind:
+    """Return the kind of a detection by an echo, a reply, or both."""
     if has_echo and has_reply:
         return "combined"
     return "secondary" if has_reply else "primary"

@@ -58,6 +58,7 @@ from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, Topology
 from airhilt.scenario.models.scenario import Scenario
 from airhilt.scenario.models.scene import AirportScene, EnRouteScene, Scene
+from airhilt.scenario.models.surface import SurfaceSurveillance
 from airhilt.scenario.models.weather import Daylight, Turbulence, Weather, Wind
 
 __all__ = [
@@ -120,6 +121,7 @@ __all__ = [
     "SpeedAbove",
     "Standing",
     "StuckMicrophone",
+    "SurfaceSurveillance",
     "ThresholdWithin",
     "TimeReached",
     "Topology",

@@ -17,6 +17,7 @@ from airhilt.scenario.models.perturbations import Perturbation
 from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio
 from airhilt.scenario.models.scene import Scene
+from airhilt.scenario.models.surface import SurfaceSurveillance
 from airhilt.scenario.models.weather import Daylight, Weather
 
 
@@ -40,6 +41,11 @@ class Scenario(Model):
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = ()
     radars: tuple[Radar, ...] = Field(default=(), max_length=20)
+    surface_surveillance: SurfaceSurveillance | None = Field(
+        default=None,
+        description="radar and multilateration of the airport's surface; null: only if an "
+        "assistant needs them",
+    )
     cockpits: tuple[Callsign, ...] = Field(
         default=(), max_length=500, description="aircraft whose instruments are published"
     )

@@ -12,7 +12,7 @@ from airhilt.world.checks.commands import misdirected_commands
 from airhilt.world.checks.duplicates import shared_names
 from airhilt.world.checks.failures import idle_failures
 from airhilt.world.checks.perturbations import misplaced_perturbations
-from airhilt.world.checks.places import unknown_places
+from airhilt.world.checks.places import missing_airport, unknown_places
 from airhilt.world.checks.radio_lines import impossible_lines
 from airhilt.world.checks.references import dangling_references
 from airhilt.world.checks.taxi_ways import missing_ways
@@ -52,6 +52,7 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
         return
     yield from unfit_actors(scenario, site)
     yield from unknown_places(scenario, site)
+    yield from missing_airport(scenario, site)
     yield from dangling_references(scenario)
     yield from impossible_lines(scenario)
     yield from misdirected_commands(scenario)

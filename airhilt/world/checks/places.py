@@ -16,6 +16,14 @@ GREATEST_SURFACE_DISTANCE_M = 10_000.0
 """Greatest distance of what stands on the ground from the airport's reference point, in m."""
 
 
+def missing_airport(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
+    """Yield surface surveillance where there is no airport."""
+    if scenario.surface_surveillance is not None and site.layout is None:
+        yield Problem(
+            "surface_surveillance", "the scene is en route; expected a scene of type 'airport'"
+        )
+
+
 def unknown_places(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
     """Yield what refers to a runway, a hold-short position or a node that does not exist."""
     for path, model in models_of(scenario, ""):
