@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from airhilt.assistant.decision.clearance_conflicts import clearance_conflicts
 from airhilt.assistant.decision.flight_path import in_flight_path
@@ -26,11 +26,16 @@ def threats_now(situation: Situation, config: RunwayConfig, t_ns: int) -> Iterat
 
 
 def worst_threats(
-    situation: Situation, config: RunwayConfig, t_ns: int
+    config: RunwayConfig, situation: Situation, t_ns: int
 ) -> dict[tuple[str, ...], Threat]:
     """Return the most severe threat of each key."""
+    return worst(threats_now(situation, config, t_ns))
+
+
+def worst(found: Iterable[Threat]) -> dict[tuple[str, ...], Threat]:
+    """Return the most severe of some threats with the same key, for each key."""
     threats: dict[tuple[str, ...], Threat] = {}
-    for threat in threats_now(situation, config, t_ns):
+    for threat in found:
         known = threats.setdefault(threat.key, threat)
         if threat.severity.rank > known.severity.rank:
             threats[threat.key] = threat

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.clearances import Discrepancy, Unanswered
 from airhilt.assistant.decision.findings import NotReadBack, OpposedClearances, RunwayMisread
-from airhilt.assistant.decision.threats import Outlook, Threat
+from airhilt.assistant.decision.threats import Outlook, Snapshot, Threat
 from airhilt.messages import Severity
 from airhilt.phraseology import Instruction
 
@@ -16,16 +16,16 @@ from airhilt.phraseology import Instruction
 def clearance_conflicts(outlook: Outlook) -> Iterator[Threat]:
     """Yield wrong readbacks, and clearances that oppose each other."""
     for discrepancy in outlook.situation.clearances.discrepancies(outlook.t_ns):
-        yield from _misread(outlook, discrepancy)
+        yield from misread(outlook, discrepancy)
     for unanswered in outlook.situation.clearances.unanswered(outlook.t_ns):
         yield from _not_read_back(outlook, unanswered)
     yield from _opposed(outlook)
 
 
-def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
+def misread(outlook: Snapshot, discrepancy: Discrepancy) -> Iterator[Threat]:
     """Yield the threat of a readback that is wrong, or somebody else's, for an active runway."""
     said = (discrepancy.read, discrepancy.given)
-    strip, activity = _activity(outlook, discrepancy.callsign, said)
+    strip, activity = activity_of(outlook, discrepancy.callsign, said)
     if strip is None or not activity:
         return
     parties = tuple(dict.fromkeys((discrepancy.callsign, discrepancy.addressed)))
@@ -45,13 +45,14 @@ def _misread(outlook: Outlook, discrepancy: Discrepancy) -> Iterator[Threat]:
         ),
         sources=("radio", "adsb"),
         kind="readback_mismatch",
+        rules=("readback_mismatch" if len(parties) == 1 else "recipient_ambiguity",),
     )
 
 
 def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]:
     """Yield the threat that somebody does not know to keep off an active runway."""
     callsign, given = unanswered.callsign, unanswered.given
-    strip, activity = _activity(outlook, callsign, (given,))
+    strip, activity = activity_of(outlook, callsign, (given,))
     if strip is None or not activity:
         return
     yield Threat(
@@ -67,10 +68,10 @@ def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]
     )
 
 
-def _activity(
-    outlook: Outlook, callsign: str, said: tuple[Instruction | None, ...]
+def activity_of(
+    outlook: Snapshot, callsign: str | None, said: tuple[Instruction | None, ...]
 ) -> tuple[Strip | None, list[str]]:
-    """Return the runway that an instruction is about, and who else uses it."""
+    """Return the runway that an instruction is about, and who else than a callsign uses it."""
     aerodrome = outlook.situation.aerodrome
     named = [each.runway for each in said if each]
     strips = [strip for ident in named if (strip := aerodrome.strip_of(ident)) is not None]
@@ -81,7 +82,7 @@ def _activity(
     return None, []
 
 
-def _active(outlook: Outlook, strip: Strip) -> Iterator[str]:
+def _active(outlook: Snapshot, strip: Strip) -> Iterator[str]:
     """Yield who is on a runway, uses it or one that crosses it, or was cleared on to it."""
     for obstacle in outlook.situation.obstacles(strip):
         if obstacle.is_inside:

@@ -155,6 +155,40 @@ class NotReadBack:
 
 
 @dataclass(frozen=True, slots=True)
+class RecipientUnclear:
+    """A call about a runway in use names a callsign that may be one of several.
+
+    Attributes
+    ----------
+    callsigns
+        Callsigns that it may be.
+    traffic
+        Callsign of somebody who uses the runway.
+    """
+
+    callsigns: tuple[str, ...]
+    said: Instruction
+    traffic: str
+
+    def statement(self) -> str:
+        """Return the finding in a few words."""
+        who = " or ".join(self.callsigns)
+        return f"{_instruction(self.said)} may be for {who}, traffic {self.traffic}"
+
+
+@dataclass(frozen=True, slots=True)
+class Occupied:
+    """Somebody or something is on a runway that nobody is known to use."""
+
+    what: str
+    runway: str
+
+    def statement(self) -> str:
+        """Return the finding in a few words."""
+        return f"{self.what} is on runway {self.runway}"
+
+
+@dataclass(frozen=True, slots=True)
 class Obstruction:
     """Somebody or something is, or will be, in the way of the user of a runway.
 
@@ -239,6 +273,8 @@ Finding = (
     | LevelMisread
     | RunwayMisread
     | NotReadBack
+    | RecipientUnclear
+    | Occupied
     | Obstruction
     | OpposedClearances
     | Intruder

@@ -44,10 +44,18 @@ class SeenOnGround(NamedTuple):
     is_animal: bool
     fix: GroundFix
     belief: float
-    is_established: bool
-    track: VisualTrack
-    """The visual track with the highest belief."""
-    t_ns: int
+    tracks: tuple[VisualTrack, ...]
+    """Its visual tracks, the one with the highest belief first."""
+
+    @property
+    def is_established(self) -> bool:
+        """True if cameras show it surely enough to say that it is there."""
+        return is_established(self.tracks)
+
+    @property
+    def t_ns(self) -> int:
+        """Time of the last picture that shows it."""
+        return max(track.last.t_ns for track in self.tracks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,9 +120,7 @@ def seen_on_ground(
             is_animal,
             fix,
             belief_in(together),
-            is_established(together),
-            first,
-            max(track.last.t_ns for track in together),
+            tuple(together),
         )
 
 
@@ -133,7 +139,7 @@ def _place(view: CameraView, aerodrome: Aerodrome) -> Vector:
 
 def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:
     """Return the velocity of something on the ground, in m/s; 0 unless it clearly moves."""
-    track = thing.track
+    track = thing.tracks[0]
     last_ns = track.last.t_ns
     places = [
         ((observation.t_ns - last_ns) / SECOND_NS, fix)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
-from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.assessment import worst_threats
 from airhilt.assistant.decision.escalation import Escalation
-from airhilt.assistant.decision.findings import NotReadBack
-from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
+from airhilt.assistant.decision.runway_advice import advice
 from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
@@ -17,18 +17,16 @@ from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
     Briefing,
-    CancelTakeoff,
     Evidence,
-    GoAround,
-    HoldPosition,
     Recommendation,
     Severity,
     Transcript,
     TransmissionOpened,
 )
+from airhilt.phraseology import Call
 
-FIRM_BRAKING_M_S2 = 2.5
-"""Deceleration, in m/s2, within which somebody who can stop short of the pavement is told to."""
+Rules = Callable[[Situation, int], Mapping[tuple[str, ...], Threat]]
+"""Rules of an engine: the threats on the runways at a time, each by its key."""
 
 
 @dataclass(slots=True)
@@ -42,10 +40,19 @@ class _Ongoing:
 
 
 class RunwayWatch:
-    """Watches the runways of the airport in the briefing; without one it has nothing to do."""
+    """Watches the runways of the airport in the briefing; without one it has nothing to do.
 
-    def __init__(self, config: RunwayConfig, visual_tracks: VisualTracks) -> None:
+    Parameters
+    ----------
+    rules
+        Rules that find threats; None: those of the reference engine.
+    """
+
+    def __init__(
+        self, config: RunwayConfig, visual_tracks: VisualTracks, rules: Rules | None = None
+    ) -> None:
         self.config = config
+        self._rules = rules or partial(worst_threats, config)
         self._visual_tracks = visual_tracks
         self._situation: Situation | None = None
         self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
@@ -78,10 +85,9 @@ class RunwayWatch:
         if self._situation is not None:
             self._situation.take_opening(opened)
 
-    def take_transcript(self, transcript: Transcript) -> None:
-        """Update clearances with a call."""
-        if self._situation is not None:
-            self._situation.take_transcript(transcript)
+    def take_transcript(self, transcript: Transcript) -> Call | None:
+        """Update clearances with a call, and return its meaning; None without an airport."""
+        return None if self._situation is None else self._situation.take_transcript(transcript)
 
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
@@ -90,7 +96,7 @@ class RunwayWatch:
             return []
         situation.forget(t_ns)
         situation.look(self._visual_tracks)
-        threats = worst_threats(situation, self.config, t_ns)
+        threats = self._rules(situation, t_ns)
         alerts: list[Alert] = []
         for threat in threats.values():
             alerts += self._raise(t_ns, threat, situation)
@@ -113,13 +119,14 @@ class RunwayWatch:
         if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):
             return []
         severity = ongoing.escalation.severity or threat.severity
-        advice = {
+        recommendations = {
             callsign: recommended
             for callsign in threat.parties
             if (mobile := situation.mobile(callsign)) is not None
-            and (recommended := self._advice(mobile, threat, severity, situation)) is not None
+            and (recommended := advice(mobile, threat, severity, situation, self.config))
+            is not None
         }
-        return [self._alert(ongoing, severity, advice)]
+        return [self._alert(ongoing, severity, recommendations)]
 
     def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
         ongoing = self._ongoing[key]
@@ -131,33 +138,11 @@ class RunwayWatch:
         del self._ongoing[key]
         return [self._alert(ongoing, Severity.INFO, {}, active=False)]
 
-    # --- what to do about it ----------------------------------------------------------------
-
-    def _advice(
-        self, mobile: Mobile, threat: Threat, severity: Severity, situation: Situation
-    ) -> Recommendation | None:
-        """Return what a mobile should do to stay clear.
-
-        On final and while rolling, something is recommended for a WARNING only; on final also if a
-        readback was wrong and time is short, and to whoever was told so and has not answered.
-        """
-        use = situation.use(mobile)
-        if use is None:
-            return _stop(mobile, threat.strip, threat.runway)
-        is_urgent = severity is Severity.WARNING or isinstance(threat.finding, NotReadBack)
-        if use.kind == "arrival":
-            time_to_go_s = use.time_to_threshold_s(mobile.t_ns)
-            misread = threat.kind == "readback_mismatch" and time_to_go_s <= self.config.caution_s
-            return GoAround(runway=use.direction.ident) if is_urgent or misread else None
-        if use.kind == "departure" and mobile.on_ground and is_urgent:
-            return CancelTakeoff(runway=use.direction.ident)
-        return None
-
     def _alert(
         self,
         ongoing: _Ongoing,
         severity: Severity,
-        advice: dict[str, Recommendation],
+        recommendations: dict[str, Recommendation],
         active: bool = True,
     ) -> Alert:
         """Return the alert about a threat; crews and drivers are told from CAUTION on."""
@@ -175,26 +160,12 @@ class RunwayWatch:
                 runway=threat.runway,
                 time_to_go_s=threat.time_to_go_s,
                 note=threat.finding.statement(),
+                rules=threat.rules,
+                shares=dict(threat.shares),
             ),
             finding=threat.finding,
-            recommendations=advice,
+            recommendations=recommendations,
             active=active,
         )
         ongoing.revision += 1
         return alert
-
-
-def _stop(mobile: Mobile, strip: Strip, runway: str) -> Recommendation | None:
-    """Return what a mobile on the ground should do that does not use a runway yet.
-
-    One that is on the pavement already, or leaves it, should go on: None.
-    """
-    if not mobile.on_ground:
-        return None
-    lined_up = lined_up_on(mobile, strip)
-    if lined_up is not None:
-        return CancelTakeoff(runway=lined_up.ident)
-    braking_m = mobile.speed_m_s**2 / (2.0 * FIRM_BRAKING_M_S2)
-    if strip.room_m(mobile.point, mobile.heading_rad) > braking_m:
-        return HoldPosition(runway=runway)
-    return None

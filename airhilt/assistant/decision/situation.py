@@ -53,8 +53,8 @@ class SeenObstacle(NamedTuple):
     ----------
     exit_m
         Distance straight on to where it leaves the area, in m.
-    weight
-        Probability that it is there and in the area.
+    chance
+        Probability that it is in the area, if it is there.
     is_certain
         True if both count as certain.
     """
@@ -62,8 +62,13 @@ class SeenObstacle(NamedTuple):
     thing: SeenOnGround
     speed_m_s: float
     exit_m: float
-    weight: float
+    chance: float
     is_certain: bool
+
+    @property
+    def weight(self) -> float:
+        """Probability that it is there and in the area."""
+        return self.thing.belief * self.chance
 
     @property
     def clear_s(self) -> float | None:
@@ -142,7 +147,7 @@ class Situation:
             thing,
             speed_m_s=math.hypot(east, north),
             exit_m=0.0 if ahead is None else ahead.exit_m,
-            weight=thing.belief * chance,
+            chance=chance,
             is_certain=thing.is_established and chance >= CERTAIN_CHANCE,
         )
 
@@ -200,10 +205,15 @@ class Situation:
         """Note that somebody has begun to transmit."""
         self.clearances.take_opening(opened)
 
-    def take_transcript(self, transcript: Transcript) -> None:
-        """Update clearances and reports of wildlife with a call."""
+    @property
+    def callsigns(self) -> list[str]:
+        """Callsigns of all who are expected or known by ADS-B, in order."""
         known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
-        call = parse_call(transcript.text, sorted(known))
+        return sorted(known)
+
+    def take_transcript(self, transcript: Transcript) -> Call:
+        """Update clearances and reports of wildlife with a call, and return its meaning."""
+        call = parse_call(transcript.text, self.callsigns)
         for said in call.instructions:
             if said.action == "wildlife":
                 for strip in self._reported_on(said.runway, call):
@@ -212,6 +222,7 @@ class Situation:
                 for strip in self._reported_on(said.runway, call):
                     self._wildlife_ns.pop(strip.name, None)
         self.clearances.take(call, transcript)
+        return call
 
     def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
         """Return the runway named, else the one that the caller uses, else all."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 from airhilt.assistant.decision.aerodrome import Strip, Vector
@@ -13,7 +13,9 @@ from airhilt.assistant.decision.findings import (
     NotReadBack,
     Obstruction,
     Obstructs,
+    Occupied,
     OpposedClearances,
+    RecipientUnclear,
     RunwayMisread,
 )
 from airhilt.assistant.decision.mobiles import BRAKING_M_S2, Use
@@ -31,6 +33,12 @@ WILDLIFE = "wildlife"
 """The other party where it is an animal."""
 UNIDENTIFIED = "unidentified"
 """The other party where only cameras show it."""
+
+
+RunwayFinding = (
+    Obstruction | RunwayMisread | NotReadBack | OpposedClearances | RecipientUnclear | Occupied
+)
+"""Findings about runways."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +82,10 @@ class Threat:
         The parties, and what else is in the way.
     sources
         Modalities that it rests on, the decisive one first.
+    rules
+        Names of the rules that were triggered.
+    shares
+        Share of each modality in the judgement; empty where it cannot be told.
     """
 
     key: tuple[str, ...]
@@ -82,32 +94,31 @@ class Threat:
     runway: str
     parties: tuple[str, ...]
     traffic: tuple[str, ...]
-    finding: Obstruction | RunwayMisread | NotReadBack | OpposedClearances
+    finding: RunwayFinding
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
+    rules: tuple[str, ...] = ()
+    shares: Mapping[str, float] = field(default_factory=dict)
 
 
-class Outlook:
+class Snapshot:
     """The situation at one instant, with who is cleared where and who will be where when."""
 
-    def __init__(self, situation: Situation, config: RunwayConfig, t_ns: int) -> None:
+    def __init__(self, situation: Situation, t_ns: int) -> None:
         self.situation = situation
-        self.config = config
         self.t_ns = t_ns
         self.in_force = tuple(situation.clearances.in_force(t_ns))
 
-    def coming(self, use: Use, point: Vector) -> tuple[Severity, float] | None:
-        """Return how severe it is that something is where a runway's user goes, and its time to go.
+    def time_to_point_s(self, use: Use, point: Vector) -> float | None:
+        """Return the time until a runway's user is where something is, in s.
 
-        None if the user does not come there, or not soon.
+        None if the user does not come there; infinite if it stops before.
         """
         along_m = use.direction.along_m(point)
         if use.is_climbing or along_m < use.along_m - BEHIND_M:
             return None
-        time_to_go_s = self.time_to_go_s(use, along_m)
-        severity = self.urgency(use, time_to_go_s)
-        return None if severity is None else (severity, time_to_go_s)
+        return self.time_to_go_s(use, along_m)
 
     def time_to_go_s(self, use: Use, along_m: float) -> float:
         """Return the time until a runway's user is there; infinite if it stops before.
@@ -124,14 +135,6 @@ class Outlook:
         time_s = use.time_to_s(max(along_m, use.along_m), self.t_ns)
         return math.inf if time_s is None else time_s
 
-    def urgency(self, use: Use, time_to_go_s: float) -> Severity | None:
-        """Return how severe it is that the runway's user finds it occupied."""
-        if math.isinf(time_to_go_s):
-            return None
-        if use.kind != "arrival" or time_to_go_s <= self.config.warning_s:
-            return Severity.WARNING
-        return Severity.CAUTION if time_to_go_s <= self.config.caution_s else None
-
     def cleared_on(self, strip: Strip) -> Iterator[Clearance]:
         """Yield the clearances in force on to a runway."""
         for clearance in self.in_force:
@@ -141,6 +144,31 @@ class Outlook:
     def cleared_to(self, callsign: str | None, strip: Strip) -> set[Action]:
         """Return what somebody is cleared to do on a runway."""
         return {c.action for c in self.cleared_on(strip) if c.callsign == callsign}
+
+
+class Outlook(Snapshot):
+    """The situation at one instant, judged by the thresholds of the reference engine."""
+
+    def __init__(self, situation: Situation, config: RunwayConfig, t_ns: int) -> None:
+        super().__init__(situation, t_ns)
+        self.config = config
+
+    def coming(self, use: Use, point: Vector) -> tuple[Severity, float] | None:
+        """Return how severe it is that something is where a runway's user goes, and its time to go.
+
+        None if the user does not come there, or not soon.
+        """
+        time_to_go_s = self.time_to_point_s(use, point)
+        severity = None if time_to_go_s is None else self.urgency(use, time_to_go_s)
+        return None if severity is None or time_to_go_s is None else (severity, time_to_go_s)
+
+    def urgency(self, use: Use, time_to_go_s: float) -> Severity | None:
+        """Return how severe it is that the runway's user finds it occupied."""
+        if math.isinf(time_to_go_s):
+            return None
+        if use.kind != "arrival" or time_to_go_s <= self.config.warning_s:
+            return Severity.WARNING
+        return Severity.CAUTION if time_to_go_s <= self.config.caution_s else None
 
 
 def obstruction(
@@ -153,6 +181,7 @@ def obstruction(
     *,
     unnamed: str | None = None,
     where: str | None = None,
+    rules: tuple[str, ...] = (),
 ) -> Threat:
     """Return the threat that somebody or something is in the way of a runway's user.
 
@@ -164,6 +193,8 @@ def obstruction(
         `WILDLIFE` or `UNIDENTIFIED` for what has no callsign.
     where
         Runway on which it is; None: the one that is used.
+    rules
+        Names of the rules that were triggered.
     """
     own, other, runway = use.mobile.callsign, unnamed or what, use.direction.ident
     return Threat(
@@ -176,4 +207,5 @@ def obstruction(
         finding=Obstruction(own, use.kind, runway, how, what, where or runway),
         time_to_go_s=time_to_go_s,
         sources=sources,
+        rules=rules,
     )

@@ -15,6 +15,8 @@ from airhilt.units import FOOT, SECOND_NS
 
 TAU_VIS = 0.7
 """Least belief with which something is there: tau_vis of the paper's ladder (arXiv 2511.18718)."""
+AGREEING_CAMERAS = 2
+"""Number of cameras that suffice if they show the same thing."""
 PERSISTENCE_NS = SECOND_NS
 """Time for which one camera alone must show something, in ns."""
 LOOK_NS = SECOND_NS // 2
@@ -175,12 +177,18 @@ class VisualTrack:
         self._looks[-1].pictures += 1
 
 
-def is_established(tracks: Iterable[VisualTrack]) -> bool:
-    """Return whether something is there: two cameras agree, or one has shown it long enough."""
+def is_established(
+    tracks: Iterable[VisualTrack],
+    tau_vis: float = TAU_VIS,
+    cameras: int = AGREEING_CAMERAS,
+    persistence_ns: int = PERSISTENCE_NS,
+) -> bool:
+    """Return whether something is there: enough cameras agree, or one has shown it long enough."""
     together = list(tracks)
-    if belief_in(together) < TAU_VIS:
+    if not together or belief_in(together) < tau_vis:
         return False
-    return len(together) > 1 or together[0].age_ns >= PERSISTENCE_NS
+    seen_by = {track.camera for track in together}
+    return len(seen_by) >= cameras or max(t.age_ns for t in together) >= persistence_ns
 
 
 def belief_in(tracks: Iterable[VisualTrack]) -> float:

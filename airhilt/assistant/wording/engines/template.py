@@ -9,12 +9,16 @@ from airhilt.assistant.decision.findings import (
     LossOfSeparation,
     NotReadBack,
     Obstruction,
+    Occupied,
+    RecipientUnclear,
     RunwayMisread,
 )
 from airhilt.engines import Engine
 from airhilt.messages import CONTROLLER, Climb, GoAround, MaintainLevel, Recommendation, Turn
 
 OVER = "clear of conflict"
+SELF_CONTAINED = (RunwayMisread, NotReadBack, RecipientUnclear, Occupied)
+"""Findings whose statement says of whom it is."""
 
 
 class Template:
@@ -79,8 +83,8 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
     when = "" if left_s is None else f", {left_s:.0f} s to go"
     if recipient == CONTROLLER:
         actions = [f"{name} {_action(each)}" for name, each in alert.recommendations.items()]
-        is_misread = isinstance(alert.finding, RunwayMisread | NotReadBack)
-        user = "" if is_misread or not alert.traffic else f"{alert.traffic[0]}, "
+        has_subject = isinstance(alert.finding, SELF_CONTAINED)
+        user = "" if has_subject or not alert.traffic else f"{alert.traffic[0]}, "
         return "; ".join([f"{user}{statement}{when}", *actions])
     recommended = alert.recommendations.get(recipient)
     action = "" if recommended is None else f" {_action(recommended)},"

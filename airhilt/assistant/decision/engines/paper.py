@@ -1,0 +1,65 @@
+"""The decision ladder of the AIRHILT paper (arXiv 2511.18718), for conflicts on runways."""
+
+from __future__ import annotations
+
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
+from airhilt.assistant.decision.paper.config import PaperConfig
+from airhilt.assistant.decision.paper.ladder import Ladder
+from airhilt.assistant.decision.runway import RunwayWatch
+from airhilt.assistant.decision.threats import RunwayConfig
+from airhilt.assistant.decision.visual_tracks import VisualTracks
+from airhilt.engines import Engine
+from airhilt.messages import AdsbReport, Briefing, Detections, Message, Transcript
+from airhilt.units import SECOND_NS
+
+AGAIN_NS = SECOND_NS
+"""Time between two looks at an open conflict without news, in ns."""
+
+
+class PaperEngine:
+    """Implements `airhilt.assistant.decision.engine.DecisionEngine` by the paper's ladder.
+
+    It perceives as the reference engine does: the same positions, visual tracks and clearances. It
+    judges by the paper's rungs, again whenever anything arrives.
+    """
+
+    name = "paper"
+    reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
+
+    def __init__(self, config: PaperConfig | None = None) -> None:
+        config = config or PaperConfig()
+        self.visual_tracks = VisualTracks()
+        self.ambiguous = AmbiguousCalls()
+        ladder = Ladder(config, self.visual_tracks, self.ambiguous)
+        timing = RunwayConfig(persistence_s=0.0, release_s=config.release_s)
+        self.runways = RunwayWatch(timing, self.visual_tracks, ladder.threats)
+
+    def receive(self, received: Received) -> None:
+        """Update positions, visual tracks and clearances with one message."""
+        match received.message:
+            case AdsbReport() as report:
+                self.runways.take_report(report, received.t_ns)
+                self.visual_tracks.take_report(report, received.t_ns)
+            case Detections() as detections:
+                self.visual_tracks.take_detections(detections, received.t_ns)
+            case Transcript() as transcript:
+                call = self.runways.take_transcript(transcript)
+                if call is not None:
+                    self.ambiguous.take(call, transcript)
+            case Briefing() as briefing:
+                self.runways.take_briefing(briefing)
+                self.visual_tracks.take_briefing(briefing)
+
+    def decide(self, t_ns: int) -> Decision:
+        """Return the alerts that are new, have risen, or are over."""
+        self.visual_tracks.forget(t_ns)
+        alerts = self.runways.judge(t_ns)
+        return Decision(alerts, again_ns=t_ns + AGAIN_NS if self.runways.has_conflict else None)
+
+
+ENGINE = Engine(
+    name="paper",
+    summary="the decision ladder of the AIRHILT paper, for conflicts on runways",
+    create=lambda _: PaperEngine(),
+)
