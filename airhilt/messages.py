@@ -364,8 +364,48 @@ class CockpitInstruments(Message):
         description="what autopilot and guidance do",
         examples=["en_route", "glide", "go_around", "takeoff_roll"],
     )
+    radio_height_ft: int | None = Field(
+        default=None,
+        description="height of the wheels above the ground by the radio altimeter; null above "
+        "2,500 ft, where it shows none",
+    )
     selected_altitude_ft: int = Field(description="altitude that is flown to, or held")
     selected_airspeed_kt: int = Field(description="calibrated airspeed that is flown to, or held")
+
+
+TransponderMode = Literal["S", "C"]
+"""Mode S, or Modes A and C alone."""
+
+
+class TcasReply(Message):
+    """``tcas/<callsign>``: reply of one transponder to the TCAS II of an aircraft.
+
+    There is one a second from each transponder in reach, unless it is lost. A Mode C reply does not
+    say whose it is: two of them are connected by nothing but range and altitude.
+    """
+
+    callsign: str = Field(description="of the aircraft that interrogates")
+    own_icao24: str = Field(
+        pattern=r"^[0-9a-f]{6}$", description="of the aircraft that interrogates"
+    )
+    mode: TransponderMode
+    icao24: str | None = Field(
+        default=None,
+        pattern=r"^[0-9a-f]{6}$",
+        description="of the aircraft that replies; null in a Mode C reply",
+    )
+    range_m: float = Field(ge=0.0, description="slant range")
+    bearing_deg: float = Field(
+        ge=0.0, lt=360.0, description="from the own nose, clockwise; its error is large"
+    )
+    altitude_ft: int = Field(
+        description="pressure altitude in steps of 25 ft, of 100 ft in a Mode C reply"
+    )
+    on_ground: bool = Field(default=False, description="vertical status of a Mode S reply")
+    has_tcas: bool = Field(
+        default=False,
+        description="it has TCAS II as well, and coordinates (field RI of a Mode S reply)",
+    )
 
 
 Box = tuple[float, float, float, float]
@@ -884,6 +924,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "radar/{site}": RadarPlot,
     "surface/{airport}": SurfaceTrack,
     "cockpit/{callsign}": CockpitInstruments,
+    "tcas/{callsign}": TcasReply,
     "asr/{frequency_khz}": Transcript,
     "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,

@@ -103,6 +103,10 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "on_ground": False, "mode": "en_route", "selected_altitude_ft": 33000,
         "selected_airspeed_kt": 280,
     },
+    "TcasReply": {
+        "callsign": "AAL1", "own_icao24": "a1b2c3", "mode": "S", "icao24": "a4d5e6",
+        "range_m": 9260.5, "bearing_deg": 359.9, "altitude_ft": 35025, "has_tcas": True,
+    },
     "Transcript": {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "text": "climb",
         "confidence": 0.9, "engine": "text",

@@ -405,7 +405,7 @@ class Simulation:
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does
         is_equipped = any(
-            not isinstance(spec, WildlifeSpec) and spec.transponder.equipped
+            not isinstance(spec, WildlifeSpec) and spec.transponder.has_adsb
             for spec in scenario.actors
         )
         self._modalities.set("adsb", "on" if is_equipped else "off")

@@ -91,7 +91,7 @@ class AdsbSensor:
         self._sources = [
             _Source(actor, spec, context.seed)
             for actor in context.actors.values()
-            if not isinstance(spec := actor.spec, WildlifeSpec) and spec.transponder.equipped
+            if not isinstance(spec := actor.spec, WildlifeSpec) and spec.transponder.has_adsb
         ]
 
     @property

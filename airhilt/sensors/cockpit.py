@@ -1,13 +1,14 @@
 """Cockpit instruments in a run: what an aircraft shows its own crew, and nothing of others.
 
 They are published five times a second, as often as the truth that a viewer compares them with. They
-are there only for the aircraft that the scenario names: two airliners for five minutes are 3,000
-messages, as many as everything else together, and few assistants sit in a cockpit.
+are there for the aircraft that the scenario names, and for all if a worker subscribes to them: two
+airliners for five minutes are 3,000 messages, as many as everything else together, and few
+assistants sit in a cockpit.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from airhilt.messages import CockpitInstruments, Message
 from airhilt.sensors.base import SensorContext
@@ -18,17 +19,24 @@ from airhilt.world.site import ScenarioSite
 
 PERIOD_NS = SECOND_NS // 5
 """Period of the messages, in ns."""
+RADIO_ALTIMETER_FT = 2500
+"""Height above which a radio altimeter shows nothing, in ft (ARINC 707)."""
 
 
 class CockpitType:
-    """The instruments of the aircraft that a scenario lists in ``cockpits``."""
+    """The instruments of the aircraft that a scenario lists in ``cockpits``.
+
+    All aircraft show them if a worker subscribes to instruments.
+    """
 
     name = "cockpit"
     messages: Mapping[str, type[Message]] = {"cockpit/{callsign}": CockpitInstruments}
 
     def create(self, context: SensorContext) -> Cockpits | None:
-        """Return the instruments of a run; None if the scenario names no aircraft."""
-        return Cockpits(context) if context.scenario.cockpits else None
+        """Return the instruments of a run; None if nobody asks for any."""
+        if self.name in context.subscribed:
+            return Cockpits(tuple(context.actors), context)
+        return Cockpits(context.scenario.cockpits, context) if context.scenario.cockpits else None
 
 
 SENSOR = CockpitType()
@@ -39,15 +47,17 @@ class Cockpits:
 
     Parameters
     ----------
+    callsigns
+        Callsigns of the actors that show them if they are aircraft.
     context
         Parts of the run that the sensor uses.
     """
 
-    def __init__(self, context: SensorContext) -> None:
+    def __init__(self, callsigns: Sequence[str], context: SensorContext) -> None:
         self._director = context.director
         self._publish = context.publish
         self._variation_deg = _variation_deg(context.site)
-        bodies = {name: context.actors[name].body for name in context.scenario.cockpits}
+        bodies = {name: context.actors[name].body for name in callsigns}
         self._aircraft = {
             callsign: body for callsign, body in bodies.items() if isinstance(body, Aircraft)
         }
@@ -95,9 +105,15 @@ def instruments_of(
         flaps=round(aircraft.flaps, 2),
         on_ground=aircraft.on_ground,
         mode=aircraft.phase,
+        radio_height_ft=_radio_height_ft(state.height_agl_m),
         selected_altitude_ft=round(aircraft.target_altitude_m / FOOT),
         selected_airspeed_kt=round(aircraft.target_speed_m_s / KNOT),
     )
+
+
+def _radio_height_ft(height_m: float) -> int | None:
+    height_ft = round(height_m / FOOT)
+    return height_ft if height_ft <= RADIO_ALTIMETER_FT else None
 
 
 def _bearing_deg(true_rad: float, variation_deg: float) -> float:

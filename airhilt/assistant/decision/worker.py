@@ -25,6 +25,7 @@ from airhilt.messages import (
     RadarPlot,
     Status,
     SurfaceTrack,
+    TcasReply,
     Transcript,
     Transmission,
     WorkerDescription,
@@ -42,6 +43,7 @@ KEYS: dict[type[Message], str] = {
     RadarPlot: "radar/*",
     SurfaceTrack: "surface/*",
     CockpitInstruments: "cockpit/*",
+    TcasReply: "tcas/*",
     Transmission: "radio/*/tx",
     Status: "status/*",
 }

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from airhilt.commands import AircraftCommand, Command
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
+from airhilt.messages import TransponderMode
 from airhilt.scenario.models.base import Callsign, Model
 from airhilt.scenario.models.conditions import Condition
 
@@ -77,9 +78,12 @@ class Reactions(Model):
 
 
 class Transponder(Model):
-    """Transponder of an actor: it answers radars, and it transmits ADS-B."""
+    """Transponder of an actor: it answers radars and TCAS, and it transmits ADS-B."""
 
     equipped: bool = True
+    mode: TransponderMode = Field(
+        default="S", description="S: with ADS-B; C: Modes A and C alone, which transmit no ADS-B"
+    )
     nacp: int = Field(default=9, ge=0, le=11, description="ADS-B accuracy category for position")
     nacv: int = Field(default=2, ge=0, le=4, description="ADS-B accuracy category for velocity")
     squawk: str | None = Field(
@@ -87,6 +91,11 @@ class Transponder(Model):
         pattern=r"^[0-7]{4}$",
         description="Mode A code, octal; null: a discrete code made from the icao24",
     )
+
+    @property
+    def has_adsb(self) -> bool:
+        """True if it transmits ADS-B."""
+        return self.equipped and self.mode == "S"
 
 
 AircraftAction = Annotated[AircraftCommand, Field(discriminator="action")]

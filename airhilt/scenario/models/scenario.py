@@ -49,6 +49,11 @@ class Scenario(Model):
     cockpits: tuple[Callsign, ...] = Field(
         default=(), max_length=500, description="aircraft whose instruments are published"
     )
+    tcas: tuple[Callsign, ...] = Field(
+        default=(),
+        max_length=500,
+        description="aircraft whose TCAS II interrogates others; the replies are published",
+    )
     sensors: dict[Identifier, dict[str, JsonValue]] = Field(
         default={}, description="settings of sensors from other packages, by the sensor's name"
     )

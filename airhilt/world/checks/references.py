@@ -27,16 +27,29 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
         if pair is not None and pair[0] == pair[1]:
             yield Problem(f"{path}/actors", f"found {pair[0]!r} twice; expected two actors")
     for index, callsign in enumerate(scenario.cockpits):
-        yield from _no_cockpit(scenario, f"cockpits/{index}", callsign)
+        yield from _no_aircraft(scenario, f"cockpits/{index}", callsign)
+    for index, callsign in enumerate(scenario.tcas):
+        yield from _no_tcas(scenario, f"tcas/{index}", callsign)
     if scenario.conflict is not None and len(set(scenario.conflict.actors)) < 2:
         yield Problem("conflict/actors", "found one actor twice; expected two actors")
 
 
-def _no_cockpit(scenario: Scenario, path: str, callsign: str) -> Iterator[Problem]:
-    """Yield a problem if the scenario has no aircraft with the cockpit's callsign."""
+def _no_aircraft(scenario: Scenario, path: str, callsign: str) -> Iterator[Problem]:
+    """Yield a problem if the scenario has no aircraft with a callsign."""
     aircraft = [actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)]
     if callsign not in aircraft:
         yield Problem(path, f"no aircraft {callsign!r}{library.nearest(callsign, aircraft)}")
+
+
+def _no_tcas(scenario: Scenario, path: str, callsign: str) -> Iterator[Problem]:
+    """Yield a problem if the scenario has no aircraft with a callsign that can carry TCAS II."""
+    yield from _no_aircraft(scenario, path, callsign)
+    for actor in scenario.actors:
+        if not isinstance(actor, AircraftSpec) or actor.callsign != callsign:
+            continue
+        if not actor.transponder.has_adsb:
+            found = f"{callsign!r} has no Mode S transponder"
+            yield Problem(path, f"{found}; expected one: TCAS II coordinates by it")
 
 
 def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
