@@ -81,6 +81,10 @@ class VisionError(AirhiltError):
     """A detector, its model or its service does not do what it must."""
 
 
+class LanguageModelError(AirhiltError):
+    """A language model does not answer, refuses, or is not at the address that was given."""
+
+
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
     first = error.errors()[0]

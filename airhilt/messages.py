@@ -663,6 +663,29 @@ class Advisory(Message):
     t_ready_ns: Nanoseconds = Field(description="arrival of the last input that it rests on")
 
 
+class Rejection(Part):
+    """Part of the answer of a language model that was not used."""
+
+    subject: str = Field(description="what it is about, such as an advisory and its recipient")
+    answered: str = Field(description="what the model answered")
+    reason: str
+
+
+class ModelExchange(Message):
+    """``llm/<worker>``: what a language model was asked and answered, and what became of it.
+
+    Where an answer is missing or rejected, the rule's own advisory or text was published.
+    """
+
+    model: str = Field(description="its name at the endpoint")
+    task: Literal["wording", "decision"]
+    advisories: tuple[str, ...] = Field(default=(), description="ids of the advisories concerned")
+    question: str = Field(description="JSON that the model was given")
+    answer: str | None = Field(description="text that it answered; null if none came")
+    failure: str = Field(default="", description="why nothing of it was used; empty if it was read")
+    rejections: tuple[Rejection, ...] = ()
+
+
 class AdvisoryAudio(Header):
     """``tts/<advisory id>``: attachment to the audio of an advisory, PCM 16 kHz mono.
 
@@ -929,6 +952,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,
     "tts/{id}": AdvisoryAudio,
+    "llm/{worker}": ModelExchange,
     "command/{actor}": ActorCommand,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
@@ -952,6 +976,7 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
     "vision": Detections,
     "advisory": Advisory,
     "tts": AdvisoryAudio,
+    "llm": ModelExchange,
 }
 """Messages that a worker may publish, by the first part of the key; never sensors or truth."""
 

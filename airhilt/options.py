@@ -223,6 +223,30 @@ class Options(BaseModel):
         str,
         Flag("--wording", "What turns an advisory into words.", "NAME", needs=("assistant",)),
     ] = WORDING
+    llm: Annotated[
+        str | None,
+        Flag(
+            "--llm",
+            "Address of an OpenAI-compatible endpoint, such as http://127.0.0.1:11434/v1; its key, "
+            "if it needs one, in AIRHILT_LLM_KEY.",
+            "URL",
+            default="no language model",
+            needs=("assistant",),
+        ),
+    ] = None
+    llm_model: Annotated[
+        str,
+        Flag("--llm-model", "Name of the language model there.", "NAME", needs=("llm",)),
+    ] = "gpt-oss:20b"
+    llm_deadline_s: Annotated[
+        Seconds,
+        Flag(
+            "--llm-deadline",
+            "Wall time after which the rules do without its answer.",
+            "SECONDS",
+            needs=("llm",),
+        ),
+    ] = 3.0
     topology: Annotated[
         Topology | None,
         Flag(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ipaddress
 import threading
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -63,8 +65,15 @@ class HttpService:
         self._maximum_bytes = maximum_bytes
         self._failure = failure
 
-    def post(self, body: bytes, content_type: str) -> bytes:
+    def post(
+        self, body: bytes, content_type: str, headers: Mapping[str, str] | None = None
+    ) -> bytes:
         """Return the answer to a request.
+
+        Parameters
+        ----------
+        headers
+            Further headers of the request, such as one with a key; no error shows them.
 
         Raises
         ------
@@ -75,7 +84,8 @@ class HttpService:
 
         try:
             with self._client() as client:
-                return _Request(self, client, body, content_type).within(self._timeout_s)
+                request = {**(headers or {}), "Content-Type": content_type}
+                return _Request(self, client, body, request).within(self._timeout_s)
         except (TimeoutError, httpx.TimeoutException):
             raise self.error(
                 f"has not answered for {self._timeout_s:g} s",
@@ -99,7 +109,7 @@ class HttpService:
             headers={"Accept-Encoding": "identity"},
         )
 
-    def ask(self, client: httpx.Client, body: bytes, content_type: str) -> bytes:
+    def ask(self, client: httpx.Client, body: bytes, headers: Mapping[str, str]) -> bytes:
         """Return what the service answers to one request.
 
         Raises
@@ -107,7 +117,6 @@ class HttpService:
         AirhiltError
             The service says that it failed, or answers too much.
         """
-        headers = {"Content-Type": content_type}
         with client.stream("POST", self.url, content=body, headers=headers) as answer:
             if answer.status_code != 200:
                 quoted = self._read(answer)[:QUOTED_BYTES].decode("utf-8", "replace").strip()
@@ -136,6 +145,17 @@ class HttpService:
         return self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
 
 
+def is_elsewhere(url: str) -> bool:
+    """Return whether an address is not that of this machine (RFC 1122, 3.2.1.3 g)."""
+    import httpx
+
+    host = httpx.URL(url).host
+    try:
+        return not ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host != "localhost"
+
+
 def _is_address(url: str) -> bool:
     import httpx
 
@@ -154,12 +174,12 @@ class _Request(threading.Thread):
     """
 
     def __init__(
-        self, service: HttpService, client: httpx.Client, body: bytes, content_type: str
+        self, service: HttpService, client: httpx.Client, body: bytes, headers: Mapping[str, str]
     ) -> None:
         super().__init__(name=service.subject, daemon=True)
         self._service = service
         self._client = client
-        self._request = (body, content_type)
+        self._request = (body, headers)
         self._answer = b""
         self._failure: Exception | None = None
 

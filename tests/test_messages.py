@@ -125,6 +125,11 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "id": "s-1", "revision": 2, "recipient": "AAL1", "text": "traffic", "t_dec_ns": 5,
         "engine": "espeak", "samples": 3, "sha256": "ab",
     },
+    "ModelExchange": {
+        "model": "gpt-oss:20b", "task": "wording", "advisories": ["s-1"], "question": "{}",
+        "answer": "{}", "failure": "",
+        "rejections": [{"subject": "s-1 to ATC", "answered": "all clear", "reason": "no"}],
+    },
     "ActorCommand": {"command": {"action": "turn", "degrees": -30.0}},
     "ActorTruth": {
         "actor": "AAL1", "category": "aircraft", "icao24": "a1b2c3", "phase": "glide",

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
 from airhilt.engines import ASR, ASSISTANT, DETECTOR, TTS, WORDING, EngineFamily
-from airhilt.errors import WorkerError
+from airhilt.errors import LanguageModelError, WorkerError
 from airhilt.messages import Modality
 from airhilt.phraseology.numbers import Style
 from airhilt.workers.protocol import Worker
+
+if TYPE_CHECKING:
+    from airhilt.assistant.decision.engine import DecisionEngine
+    from airhilt.assistant.wording.engine import AdvisoryWording
 
 DEFAULTS = {
     "airhilt.asr": ASR,
@@ -34,6 +39,7 @@ class Engines(NamedTuple):
     tts: str | None = None
     detector: str | None = None
     wording: str = WORDING
+    llm: LanguageModelSettings | None = None
 
 
 class RadioSetup(Protocol):
@@ -71,7 +77,7 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
-    asr, tts, detector, wording = engines
+    asr, tts, detector, wording, llm = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
     if tts is not None and "tts" not in taken and is_assisted:
@@ -81,7 +87,7 @@ def reference_workers(
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
         also = (NO_ASSISTANT, EXTERNAL)
-        workers.append(decision_worker(assistant, wording, is_gated=is_gated, also=also))
+        workers.append(decision_worker(assistant, wording, is_gated=is_gated, also=also, llm=llm))
     return workers
 
 
@@ -92,6 +98,7 @@ def decision_worker(
     is_gated: bool = False,
     name: str = "decision",
     also: Sequence[str] = (),
+    llm: LanguageModelSettings | None = None,
 ) -> Worker:
     """Return the worker around a decision engine.
 
@@ -99,19 +106,49 @@ def decision_worker(
     ----------
     also
         Words that the caller takes in the place of an engine, such as ``none``, for error messages.
+    llm
+        Language model for an engine or a wording that asks one; None: there is none.
 
     Raises
     ------
     AirhiltError
-        The engine or the wording cannot be loaded.
+        The engine or the wording cannot be loaded, or just one of the two is there: a language
+        model, and somebody who asks it.
     """
     from airhilt.assistant.decision.engines import decision_engine
     from airhilt.assistant.decision.worker import DecisionWorker
     from airhilt.assistant.wording.engines import advisory_wording
 
-    return DecisionWorker(
-        decision_engine(engine, also), advisory_wording(wording), is_gated=is_gated, name=name
-    )
+    parts = decision_engine(engine, also), advisory_wording(wording)
+    _connect_language_model(parts, llm)
+    return DecisionWorker(*parts, is_gated=is_gated, name=name)
+
+
+def _connect_language_model(
+    parts: tuple[DecisionEngine, AdvisoryWording], llm: LanguageModelSettings | None
+) -> None:
+    """Give the language model to an engine and a wording that ask one.
+
+    Raises
+    ------
+    LanguageModelError
+        One asks a language model and there is none, or the other way round.
+    """
+    asking = [part for part in parts if isinstance(part, UsesLanguageModel)]
+    if llm is None:
+        if asking:
+            raise LanguageModelError(
+                f"{asking[0].name!r} asks a language model; expected --llm URL, the address of an "
+                "OpenAI-compatible endpoint"
+            )
+        return
+    if not asking:
+        raise LanguageModelError(
+            f"--llm {llm.url}: nobody asks the language model; expected --assistant llm, "
+            "--wording llm, or both"
+        )
+    for part in asking:
+        part.use(llm)
 
 
 def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
@@ -122,7 +159,7 @@ def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     AirhiltError
         There is no engine of such a name here.
     """
-    asr, tts, detector, wording = engines
+    asr, tts, detector, wording, _ = engines
     names = {
         "airhilt.asr": ("asr", asr),
         "airhilt.tts": ("tts", tts),

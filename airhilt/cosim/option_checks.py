@@ -28,24 +28,24 @@ def check_options(options: Options, scenario: Scenario) -> None:
             continue  # Crews get the transcript, whoever decides.
         for other in _against(options, name, flag.needs):
             shown = flag.name if value is True else f"{flag.name} {value!r}"
-            raise AirhiltError(
-                f"{shown} would do nothing with {other}; expected only one of the two"
-            )
+            raise AirhiltError(f"{shown} would do nothing {other}")
     _require_known_engines(options)
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
-    """Yield the options, as the command line spells them, that leave out what an option needs."""
+    """Yield in words what leaves out, or does not bring, what an option needs."""
     for need in needs:
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name
         if need != "assistant":
-            if not getattr(options, need):
-                yield spelling
+            if getattr(options, need) is None:
+                yield f"without {spelling}; expected both or none"
+            elif not getattr(options, need):
+                yield f"with {spelling}; expected only one of the two"
         elif options.assistant == NO_ASSISTANT or (
-            options.assistant == EXTERNAL and name == "wording"
+            options.assistant == EXTERNAL and name in ("wording", "llm")
         ):
-            yield f"{spelling} {options.assistant}"
+            yield f"with {spelling} {options.assistant}; expected only one of the two"
 
 
 def _require_known_engines(options: Options) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import EXTERNAL, NO_DETECTOR, Engines, reference_workers
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
+from airhilt.cosim.other_machines import other_machines
 from airhilt.cosim.recorded import Recorded
 from airhilt.engines import ASSISTANT
 from airhilt.errors import WorkerError
@@ -97,6 +99,9 @@ def connect(
         may_decide = "decision" in taken or bool(programs)
         assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
     engines = _engines(options, scenario)
+    if not recorded.is_replay:
+        for sentence in other_machines(assistant, engines):
+            notice(sentence)
     reference = reference_workers(assistant, scenario.radio, taken, engines)
     workers += [_participant(worker, "in process") for worker in reference]
     _require_different_names(workers, programs)
@@ -141,6 +146,15 @@ def _engines(options: Options, scenario: Scenario) -> Engines:
         tts=options.tts if options.speech else None,
         detector=_detector(options, scenario),
         wording=options.wording,
+        llm=_language_model(options),
+    )
+
+
+def _language_model(options: Options) -> LanguageModelSettings | None:
+    if options.llm is None:
+        return None
+    return LanguageModelSettings(
+        options.llm, options.llm_model, options.llm_deadline_s, options.seed
     )
 
 

@@ -19,6 +19,7 @@ from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderer
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.external_programs import ExternalPrograms
+from airhilt.cosim.language_model_notices import LanguageModelNotices
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer, Result, Snapshot
 from airhilt.cosim.participants import Participants, connect
@@ -204,13 +205,14 @@ class Simulation:
         )
 
     def _connect_hints(self) -> None:
-        """Tell authors of warnings on which nobody acts; a replay tells nothing again."""
+        """Tell of warnings on which nobody acts, and of a language model; not in a replay."""
         if self._setup.recorded.is_replay:
             return
         descriptions = [worker.description for worker in self._participants.workers]
         exempt = [each.name for each in descriptions if is_reference(each)]
         hints = AdvisoryHints(self._setup.actors, exempt, self._observer.notice)
         self._router.attribute(hints.take)
+        self._router.attribute(LanguageModelNotices(self._observer.notice).take)
 
     def _connect_radio(self) -> RunRadio:
         radio = RunRadio(

@@ -20,6 +20,7 @@ from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
 from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.first_warning import FirstWarning
+from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.plans import Plans
@@ -88,6 +89,7 @@ class Collector:
         self._latencies = StageLatencies()
         self._calls = CallRecords()
         self._detections = DetectionScores()
+        self._language_model = LanguageModelRecords()
         self._advisories = AdvisoryRecords(
             callsigns_of(scenario), pair, monitor, self._detections.was_seen
         )
@@ -113,6 +115,7 @@ class Collector:
         self._latencies.take(message)
         self._calls.take(message)
         self._detections.take(message)
+        self._language_model.take(message)
 
     def step(self, record: StepRecord) -> None:
         """Receive a finished step of a worker."""
@@ -144,6 +147,7 @@ class Collector:
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
             vision=self._detections.statistics(run["inputs_dropped"]),
+            language_model=self._language_model.statistics(),
             latencies=self._latencies.statistics(),
             modalities={**self.modalities},
             ended_actors=self.ended_actors,

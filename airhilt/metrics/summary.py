@@ -188,6 +188,21 @@ class VisionStatistics(DetectionStatistics):
     first_detections: list[FirstDetection]
 
 
+class LanguageModelStatistics(BaseModel):
+    """The language model that an engine or a wording has asked."""
+
+    model_config = ConfigDict(frozen=True)
+    model: str
+    questions: int
+    failures: int = Field(
+        description="questions without a usable answer: none in time, a refusal, or no JSON of the "
+        "schema"
+    )
+    rejections: int = Field(
+        description="messages or advisories in answers that were refused by the rules"
+    )
+
+
 class Summary(BaseModel):
     """``summary.json``; null where a number does not apply."""
 
@@ -252,6 +267,9 @@ class Summary(BaseModel):
     advisories: list[AdvisorySummary]
     radio: RadioStatistics
     vision: VisionStatistics
+    language_model: LanguageModelStatistics | None = Field(
+        default=None, description="null: none was asked"
+    )
     latencies: dict[Stage, LatencyStatistics]
     inputs_dropped: dict[str, int]
     modalities: dict[str, ModalityState]

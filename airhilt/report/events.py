@@ -67,6 +67,8 @@ def _row(logged: Logged) -> Json | None:
     if make is None:
         return None
     row = make(json.loads(logged.data), logged)
+    if row is None:
+        return None
     short = {name: cut(value) if isinstance(value, str) else value for name, value in row.items()}
     return {"t": logged.t_ns / SECOND_NS, **short}
 
@@ -91,6 +93,15 @@ def _advisory(message: Json, _: Logged) -> Json:
         "traffic": message["traffic"],
         "recommendation": message["recommendation"],
     }
+
+
+def _exchange(message: Json, logged: Logged) -> Json | None:
+    """Return the row of an answer of a language model that was not used, or not as a whole."""
+    rejected = [f"{each['subject']}: {each['reason']}" for each in message["rejections"]]
+    reasons = [message["failure"]] if message["failure"] else rejected
+    if not reasons:
+        return None
+    return {"kind": "llm", "who": logged.publisher, "text": "; ".join(reasons)}
 
 
 def _transcript(message: Json, logged: Logged) -> Json:
@@ -163,6 +174,7 @@ def _command_text(command: Json) -> str:
 MAKERS = {
     "advisory": _advisory,
     "asr": _transcript,
+    "llm": _exchange,
     "status": _status,
     "command": _command,
     "truth/radio": _call,

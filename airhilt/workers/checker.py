@@ -28,13 +28,13 @@ PUBLISHED = sorted(
     }
 )
 """Keys on which AIRHILT publishes something that a worker may want."""
-OUTPUTS: dict[Modality, str] = {
-    "asr": "asr",
-    "tts": "tts",
-    "vision": "vision",
-    "decision": "advisory",
+OUTPUTS: dict[Modality, tuple[str, ...]] = {
+    "asr": ("asr",),
+    "tts": ("tts",),
+    "vision": ("vision",),
+    "decision": ("advisory", "llm"),
 }
-"""First part of the keys on which a worker of each modality publishes."""
+"""First parts of the keys on which a worker of each modality publishes."""
 PATIENCE_S = 5.0
 """Longest wall time of one step, in s: after it, a run gives an attached worker up."""
 STEPS_AT_S = (1, 2, 30)
@@ -186,10 +186,10 @@ def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> 
         yield str(error)
         return
     expected = OUTPUTS.get(description.modality)
-    if expected is not None and output.key.split("/")[0] != expected:
+    if expected is not None and output.key.split("/")[0] not in expected:
         yield (
             f"worker {name!r} of modality {description.modality} published on {output.key!r}; "
-            f"expected {expected}/..., or another modality in its description"
+            f"expected {expected[0]}/..., or another modality in its description"
         )
     if isinstance(message, Advisory) and not message.id.startswith(name):
         yield (

@@ -21,6 +21,7 @@ from airhilt.messages import (
     Detections,
     Header,
     Message,
+    ModelExchange,
     Transcript,
     WorkerDescription,
 )
@@ -212,12 +213,15 @@ def parse_output(
         )
     if isinstance(message, AdvisoryAudio):
         _check_audio(who, key, message, payload)
-    _check_key(who, key, message)
+    _check_key(who, worker, key, message)
     return message
 
 
-def _check_key(who: str, key: str, message: Message) -> None:
-    """Complain about a message of another frequency, camera or recipient than its key names."""
+def _check_key(who: str, worker: str, key: str, message: Message) -> None:
+    """Complain about a message that is not that of its key.
+
+    A key names the frequency, the camera, the recipient, or the worker itself.
+    """
     match message:
         case Transcript() if key != f"asr/{message.frequency_khz}":
             what, part = f"a transcript of {message.frequency_khz} kHz", "frequency"
@@ -225,6 +229,8 @@ def _check_key(who: str, key: str, message: Message) -> None:
             what, part = f"what is in a picture of camera {message.camera!r}", "camera"
         case Advisory() if key != f"advisory/{message.recipient}":
             what, part = f"an advisory for {message.recipient!r}", "recipient"
+        case ModelExchange() if key != f"llm/{worker}":
+            what, part = "answers of a language model", "worker's own name"
         case _:
             return
     raise WorkerError(f"{who} published on {key!r} {what}; expected the {part} in the key")

@@ -289,5 +289,5 @@ def test_a_voice_at_another_rate_is_refused() -> None:
 
 
 def test_a_worker_may_not_speak_on_the_radio() -> None:
-    with pytest.raises(WorkerError, match="expected a key under advisory, asr, tts"):
+    with pytest.raises(WorkerError, match="expected a key under advisory, asr, llm"):
         parse_output("w", "radio/134325/tx", PCM, 10, RECEIVED.model_dump(mode="json"))

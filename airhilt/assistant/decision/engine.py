@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.messages import Message
+from airhilt.messages import Message, ModelExchange
 
 
 class Received(NamedTuple):
@@ -39,10 +39,13 @@ class Decision(NamedTuple):
     ----------
     again_ns
         Time to ask it again even if nothing more arrives; None: not before something does.
+    exchanges
+        Questions to a language model, with their answers, that the alerts rest on.
     """
 
     alerts: Sequence[Alert] = ()
     again_ns: int | None = None
+    exchanges: Sequence[ModelExchange] = ()
 
 
 @runtime_checkable

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -10,7 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import DecisionEngine, NamesInputs, Received
 from airhilt.assistant.decision.fusion import FusionGate
-from airhilt.assistant.wording.engine import AdvisoryWording
+from airhilt.assistant.wording.engine import AdvisoryWording, words
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
     AdsbReport,
@@ -21,6 +21,7 @@ from airhilt.messages import (
     Detections,
     InputSpec,
     Message,
+    ModelExchange,
     RadarInfo,
     RadarPlot,
     Status,
@@ -118,11 +119,19 @@ class DecisionWorker:
                 return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         decision = self._engine.decide(t_ns)
+        worded = words(self._wording, decision.alerts)
+        advisories = (
+            advisory
+            for alert in decision.alerts
+            for advisory in self._advisories(alert, worded.messages, t_ready_ns)
+        )
         return Step(
-            tuple(
-                Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
-                for alert in decision.alerts
-                for advisory in self._advisories(alert, t_ready_ns)
+            (
+                *(
+                    Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
+                    for advisory in advisories
+                ),
+                *self._answers([*decision.exchanges, *worded.exchanges]),
             ),
             wake_ns=decision.again_ns,
         )
@@ -137,7 +146,16 @@ class DecisionWorker:
             raw = b"" if item.attachment is None else item.payload
             self._engine.receive(Received(message, item.t_in_ns, t_ns, raw))
 
-    def _advisories(self, alert: Alert, t_ready_ns: int) -> Iterator[Advisory]:
+    def _answers(self, exchanges: Sequence[ModelExchange]) -> Iterator[Output]:
+        """Yield what a language model was asked and answered, under the ids of the advisories."""
+        for exchange in exchanges:
+            ids = tuple(f"{self._name}-{each}" for each in exchange.advisories)
+            named = exchange.model_copy(update={"advisories": ids})
+            yield Output(f"llm/{self._name}", named.model_dump_json().encode())
+
+    def _advisories(
+        self, alert: Alert, messages: Mapping[tuple[str, str], str], t_ready_ns: int
+    ) -> Iterator[Advisory]:
         """Yield the advisory for each recipient."""
         for recipient in alert.recipients:
             yield Advisory(
@@ -149,7 +167,7 @@ class DecisionWorker:
                 severity=alert.severity,
                 active=alert.active,
                 traffic=alert.traffic,
-                message=self._wording.message(alert, recipient),
+                message=messages[alert.id, recipient],
                 recommendation=alert.recommendations.get(recipient),
                 evidence=alert.evidence,
                 t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.decision.alerts import Alert
+from airhilt.messages import ModelExchange
 
 
 @runtime_checkable
@@ -19,3 +21,40 @@ class AdvisoryWording(Protocol):
     def message(self, alert: Alert, recipient: str) -> str:
         """Return what one recipient of an alert is told."""
         ...
+
+
+class Worded(NamedTuple):
+    """The messages of all alerts of one step.
+
+    Attributes
+    ----------
+    messages
+        Text by the id of the alert and the recipient.
+    exchanges
+        Questions to a language model, with their answers, that the texts come from.
+    """
+
+    messages: Mapping[tuple[str, str], str]
+    exchanges: tuple[ModelExchange, ...] = ()
+
+
+@runtime_checkable
+class WordsTogether(Protocol):
+    """Part that a wording may have besides: it words all alerts of a step with one question."""
+
+    def words(self, alerts: Sequence[Alert]) -> Worded:
+        """Return what all recipients of some alerts are told."""
+        ...
+
+
+def words(wording: AdvisoryWording, alerts: Sequence[Alert]) -> Worded:
+    """Return what all recipients of some alerts are told."""
+    if alerts and isinstance(wording, WordsTogether):
+        return wording.words(alerts)
+    return Worded(
+        {
+            (alert.id, recipient): wording.message(alert, recipient)
+            for alert in alerts
+            for recipient in alert.recipients
+        }
+    )

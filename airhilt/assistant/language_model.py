@@ -1,0 +1,202 @@
+"""A language model behind an OpenAI-compatible endpoint: one question, one answer in JSON.
+
+Ollama, vLLM and llama.cpp have such endpoints, and so have services. One POST request is all that
+is needed, so `airhilt.services.HttpService` makes it: it has a deadline for the whole answer,
+follows no redirects and no proxies, and reads nothing from the environment. The client library
+``openai`` would add retries, which break the deadline, and addresses from the environment.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from airhilt.errors import LanguageModelError, first_problem
+from airhilt.services import HttpService
+
+KEY_VARIABLE = "AIRHILT_LLM_KEY"
+"""Environment variable with the key of the endpoint; it is sent, and written nowhere."""
+MAXIMUM_BYTES = 1_000_000
+"""Size of the largest answer."""
+MOST_TOKENS = 1_024
+"""Length of the longest answer, in tokens, with what a model thinks before it answers."""
+MOST_FAILURES = 3
+"""Number of questions in a row without an answer after which the model is not asked any more."""
+_PATH = "/chat/completions"
+
+
+@dataclass(frozen=True)
+class LanguageModelSettings:
+    """Language model of a run.
+
+    Attributes
+    ----------
+    url
+        Base of the endpoint, such as ``http://127.0.0.1:11434/v1``.
+    model
+        Name that the endpoint has for the model.
+    deadline_s
+        Wall time after which an answer is not waited for any more.
+    seed
+        Seed of sampling, which is sent with temperature 0.
+    """
+
+    url: str
+    model: str
+    deadline_s: float
+    seed: int = 0
+
+
+@runtime_checkable
+class UsesLanguageModel(Protocol):
+    """Part that an engine or a wording has which asks the language model of the run."""
+
+    @property
+    def name(self) -> str:
+        """Short name, such as ``llm``."""
+        ...
+
+    def use(self, settings: LanguageModelSettings) -> None:
+        """Ask this language model."""
+        ...
+
+
+class _Message(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    content: str | None = None
+    refusal: str | None = None
+
+
+class _Choice(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    message: _Message
+    finish_reason: str | None = None
+
+
+class _Completion(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    choices: tuple[_Choice, ...] = Field(min_length=1)
+
+
+class LanguageModel:
+    """Asks one language model, and stops asking one that does not answer.
+
+    Raises
+    ------
+    LanguageModelError
+        The address is none, or contains a password or a query, or the key can be none.
+    """
+
+    def __init__(self, settings: LanguageModelSettings) -> None:
+        self.name = settings.model
+        self._settings = settings
+        url = endpoint(settings.url)
+        self._service = HttpService(
+            "language model", url, settings.deadline_s, MAXIMUM_BYTES, LanguageModelError
+        )
+        self._key = _key()
+        self._failures = 0
+
+    def ask(self, instructions: str, question: str, schema: Mapping[str, Any]) -> str:
+        """Return the answer: a text that should be JSON of a schema; the caller checks that.
+
+        Raises
+        ------
+        LanguageModelError
+            There is no answer in time, it is a refusal, or it was cut off.
+        """
+        if self._failures >= MOST_FAILURES:
+            raise LanguageModelError(
+                f"language model {self.name!r} is not asked any more: {MOST_FAILURES} questions "
+                "in a row had no answer"
+            )
+        headers = {"Authorization": f"Bearer {self._key}"} if self._key else {}
+        body = json.dumps(self._request(instructions, question, schema)).encode()
+        self._failures += 1
+        try:
+            data = self._service.post(body, "application/json", headers)
+        except LanguageModelError as error:
+            raise LanguageModelError(self._without_key(str(error))) from None
+        self._failures = 0
+        return self._content(data)
+
+    def _request(
+        self, instructions: str, question: str, schema: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        return {
+            "model": self._settings.model,
+            "messages": [
+                {"role": "system", "content": instructions},
+                {"role": "user", "content": question},
+            ],
+            "temperature": 0,
+            "seed": self._settings.seed,
+            "max_tokens": MOST_TOKENS,
+            "response_format": {
+                "type": "json_schema",
+                "json_schema": {"name": "answer", "strict": True, "schema": schema},
+            },
+        }
+
+    def _content(self, data: bytes) -> str:
+        """Return the text of a completion."""
+        try:
+            choice = _Completion.model_validate_json(data).choices[0]
+        except ValidationError as error:
+            shown = self._without_key(repr(data[:60]))
+            raise self._service.error(
+                f"answered {shown}: {first_problem(error)}", "a chat completion"
+            ) from None
+        if choice.message.refusal or not choice.message.content:
+            why = self._without_key(choice.message.refusal or "an empty answer")[:200]
+            raise self._service.error(f"refused: {why!r}", "an answer")
+        if choice.finish_reason == "length":
+            raise self._service.error(
+                f"answered more than {MOST_TOKENS} tokens", "no more than that"
+            )
+        return self._without_key(choice.message.content)
+
+    def _without_key(self, text: str) -> str:
+        """Return a text without the key, which an endpoint may quote."""
+        return text.replace(self._key, "***") if self._key else text
+
+
+def endpoint(url: str) -> str:
+    """Return the address of chat completions below a base.
+
+    Raises
+    ------
+    LanguageModelError
+        It contains a user, a password or a query, which ``run.json`` would keep.
+    """
+    authority = url.partition("://")[2].partition("/")[0]
+    if "@" in authority or "?" in url or "#" in url:
+        base = f"{url.partition('://')[0]}://{authority.rpartition('@')[2].partition('?')[0]}"
+        raise LanguageModelError(
+            f"language model: the address at {base} contains a user, a password, a query or a "
+            f"fragment; expected none, and the key in the environment as {KEY_VARIABLE}"
+        )
+    base = url.rstrip("/")
+    return base if base.endswith(_PATH) else base + _PATH
+
+
+def _key() -> str:
+    """Return the key of the endpoint; empty if there is none.
+
+    Raises
+    ------
+    LanguageModelError
+        It has characters that a header cannot have; the error does not show it.
+    """
+    key = os.environ.get(KEY_VARIABLE, "").strip()
+    if not all("!" <= character <= "~" for character in key):
+        raise LanguageModelError(
+            f"language model: the key in {KEY_VARIABLE} has blanks or letters that are not ASCII; "
+            "expected a key in one word"
+        )
+    return key

@@ -1,0 +1,251 @@
+"""Checks that a reworded message still says what the rule's message says.
+
+Both texts are read by the project's own phraseology, and what is read is compared. A word that is
+neither in the rule's message nor in `ADDED` is refused, so that no wording can deny, soften or
+extend a message in a way that the phraseology does not know.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from airhilt.messages import CONTROLLER, Severity
+from airhilt.phraseology import parse_call, tokens
+from airhilt.phraseology.callsigns import Naming, roster_of
+from airhilt.phraseology.slots import NAMED_RUNWAY, designator
+
+LONGEST = 200
+"""Length of the longest reworded message, in characters."""
+SHAPE = re.compile(rf"[A-Za-z0-9 ,.;:'/-]{{1,{LONGEST}}}")
+"""Characters of a message."""
+ADDED = frozenset(
+    {"a", "an", "the", "is", "are", "you", "your", "in", "at", "on", "and", "with", "it", "its",
+     "immediately", "now", "traffic", "second", "seconds", "feet", "foot", "per", "minute", "min",
+     "degrees", "will", "lose", "loss", "separation", "conflict", "due"}
+)  # fmt: skip
+"""Words that a wording may add: they order nothing and deny nothing."""
+DENYING = frozenset(
+    {
+        "no",
+        "not",
+        "nothing",
+        "never",
+        "without",
+        "cancel",
+        "cancelled",
+        "unidentified",
+        "negative",
+        "disregard",
+        "until",
+        "unless",
+        "if",
+    }
+)
+"""Words of a message that a wording may not leave out either."""
+ROLES = frozenset({"for", "by", "of", "from", "to", "behind", "after", "with"})
+"""Words before a callsign that say what it has to do with the rest."""
+UNITS = {"s": "second", "seconds": "second", "second": "second", "feet": "feet", "foot": "feet",
+         "degrees": "degrees", "nm": "nm"}  # fmt: skip
+"""Units after a number, by their spellings."""
+_CLAUSES = re.compile(r"[;,:]|\.(?![0-9])")
+_CALLSIGN = re.compile(r"\b(?=[A-Z0-9]*[0-9])[A-Z][A-Z0-9]{2,6}\b")
+_ADDRESS = re.compile(r"\b(?=[a-f]*[0-9])[0-9a-f]{6}\b")
+"""An icao24, which stands for a callsign that is not known."""
+_NUMBER = re.compile(r"[0-9]+")
+
+
+class Mention(NamedTuple):
+    """A callsign in a message, with the word before it if that is one of `ROLES`."""
+
+    callsign: str
+    role: str
+
+
+class Told(NamedTuple):
+    """An action in a message, and who is told to do it."""
+
+    callsign: str
+    action: str
+    sense: str | None
+    altitude_ft: float | None
+    turn: str | None
+    heading_deg: float | None
+    condition: str | None
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a message says, as far as it must not change.
+
+    Attributes
+    ----------
+    addressed
+        Callsign with which it begins; None if it begins with none.
+    runways
+        Designators, in their order.
+    actions
+        Actions, in an order of their own.
+    quantities
+        Numbers, each with its unit.
+    words
+        All other words.
+    """
+
+    addressed: str | None
+    mentions: tuple[Mention, ...]
+    runways: tuple[str, ...]
+    actions: tuple[Told, ...]
+    quantities: Counter[tuple[str, str]]
+    words: Counter[str]
+
+
+def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:
+    """Return what a message to a recipient says.
+
+    Parameters
+    ----------
+    callsigns
+        Callsigns that it may name.
+    """
+    known = tuple(sorted(callsigns))
+    words = tokens(text)
+    naming = roster_of(known).naming(words)
+    mentions, rest = _without_callsigns(words, naming)
+    runways, rest = _without_runways(rest)
+    quantities = Counter(
+        (word, UNITS.get(after, ""))
+        for word, after in zip(rest, [*rest[1:], ""], strict=True)
+        if _NUMBER.fullmatch(word)
+    )
+    return Reading(
+        addressed=naming.match.callsign if naming.addressed_first else None,
+        mentions=mentions,
+        runways=runways,
+        actions=_actions(text, recipient, known),
+        quantities=quantities,
+        words=Counter(word for word in rest if not _NUMBER.fullmatch(word)),
+    )
+
+
+def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
+    """Return what a reworded message changes of the rule's message; empty if nothing.
+
+    Parameters
+    ----------
+    rule, reworded
+        Text of the rule, and what a wording has made of it.
+    recipient
+        Callsign or `airhilt.messages.CONTROLLER`.
+    severity
+        Severity of the alert: its word may be in the message, that of another not.
+    """
+    if not SHAPE.fullmatch(reworded):
+        return f"it has other characters than those of a message, or more than {LONGEST}"
+    names = {each: f"ICAO{n}" for n, each in enumerate(sorted(set(_ADDRESS.findall(rule))), 1)}
+    rule, reworded, recipient = (_named(text, names) for text in (rule, reworded, recipient))
+    callsigns = set(_CALLSIGN.findall(rule)) | ({recipient} - {CONTROLLER})
+    was = reading(rule, recipient, callsigns)
+    now = reading(reworded, recipient, callsigns)
+    if now.addressed != was.addressed:
+        return (
+            f"it begins with {now.addressed or 'no callsign'}; expected {was.addressed or 'none'}"
+        )
+    if now.mentions != was.mentions:
+        return (
+            f"it changes the callsigns: {_listed(now.mentions)}; expected {_listed(was.mentions)}"
+        )
+    if now.runways != was.runways:
+        return f"it changes the runways: {', '.join(now.runways) or 'none'}; expected " + (
+            ", ".join(was.runways) or "none"
+        )
+    if now.actions != was.actions:
+        return f"it changes the actions: {_acts(now.actions)}; expected {_acts(was.actions)}"
+    if now.quantities != was.quantities:
+        return f"it changes the numbers: {_amounts(now)}; expected {_amounts(was)}"
+    return _changed_words(was, now, severity)
+
+
+def _changed_words(was: Reading, now: Reading, severity: Severity) -> str:
+    """Return which words are not allowed, or are missing."""
+    others = sorted({each.value.lower() for each in Severity} - {severity.value.lower()})
+    wrong = [word for word in others if now.words[word] > was.words[word]]
+    if wrong:
+        return f"it changes the severity: {', '.join(wrong)}; expected {severity.value.lower()}"
+    allowed = ADDED | set(was.words) | {severity.value.lower()}
+    strange = sorted(set(now.words) - allowed)
+    if strange:
+        return (
+            f"it has words of its own: {', '.join(strange[:5])}; expected those of the rule's "
+            "message, and some that order and deny nothing"
+        )
+    denying = [word for word in sorted(DENYING) if now.words[word] != was.words[word]]
+    if denying:
+        return f"it has another number of {', '.join(map(repr, denying))} than the rule's message"
+    return ""
+
+
+def _without_callsigns(words: list[str], naming: Naming) -> tuple[tuple[Mention, ...], list[str]]:
+    """Return the callsigns of a message, in their order, and its other words."""
+    found = [naming.hit, *naming.again, *naming.others]
+    mentions: list[Mention] = []
+    rest: list[str] = []
+    at = 0
+    for hit in sorted(hit for hit in found if hit is not None):
+        if hit.start < at:
+            continue
+        rest += words[at : hit.start]
+        before = words[hit.start - 1] if hit.start > at else ""
+        mentions.append(Mention(hit.callsign, before if before in ROLES else ""))
+        at = hit.end
+    return tuple(mentions), rest + words[at:]
+
+
+def _without_runways(words: list[str]) -> tuple[tuple[str, ...], list[str]]:
+    """Return the runways of a message, in their order, and its other words."""
+    text = " ".join(words)
+    found = tuple(designator(each[1], each[2]) for each in NAMED_RUNWAY.finditer(text))
+    return found, NAMED_RUNWAY.sub(" ", text).split()
+
+
+def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Told, ...]:
+    """Return who is told to do what: whom a clause begins with, or else the recipient."""
+    told: list[Told] = []
+    for clause in _CLAUSES.split(text):
+        if not clause.strip():
+            continue
+        call = parse_call(clause, callsigns)
+        whom = call.match.callsign if call.addressed_first else None
+        told += (
+            Told(
+                whom or recipient,
+                each.action,
+                each.sense,
+                each.altitude_ft,
+                each.turn,
+                each.heading_deg,
+                each.condition,
+            )
+            for each in call.instructions
+        )
+    return tuple(sorted(told, key=repr))
+
+
+def _named(text: str, names: Mapping[str, str]) -> str:
+    """Return a text in which callsigns stand for addresses, which no phraseology reads."""
+    return _ADDRESS.sub(lambda found: names.get(found[0], found[0]), text)
+
+
+def _listed(mentions: tuple[Mention, ...]) -> str:
+    return ", ".join(f"{each.role} {each.callsign}".strip() for each in mentions) or "none"
+
+
+def _acts(actions: tuple[Told, ...]) -> str:
+    return ", ".join(" ".join(str(part) for part in each if part) for each in actions) or "none"
+
+
+def _amounts(read: Reading) -> str:
+    return ", ".join(f"{n} {unit}".strip() for n, unit in sorted(read.quantities)) or "none"
