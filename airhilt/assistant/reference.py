@@ -151,6 +151,13 @@ def _connect_language_model(
         part.use(llm)
 
 
+def is_own_engine(name: str) -> bool:
+    """Return whether a decision engine of that name comes with AIRHILT; empty names none."""
+    from airhilt.assistant.decision.engines import FAMILY
+
+    return any(point.name == name for point in FAMILY.own())
+
+
 def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     """Return whether the reference worker of a modality asks a program elsewhere.
 

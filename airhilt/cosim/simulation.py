@@ -13,6 +13,7 @@ from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
+from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.session import Bus
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
@@ -45,7 +46,6 @@ from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
-from airhilt.workers.hints import is_reference
 from airhilt.workers.pool import WorkerPool
 from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
@@ -205,11 +205,14 @@ class Simulation:
         )
 
     def _connect_hints(self) -> None:
-        """Tell of warnings on which nobody acts, and of a language model; not in a replay."""
+        """Tell of warnings on which nobody acts, and of a language model; not in a replay.
+
+        AIRHILT's own engines have no author to tell: a traffic advisory of TCAS is only to look.
+        """
         if self._setup.recorded.is_replay:
             return
         descriptions = [worker.description for worker in self._participants.workers]
-        exempt = [each.name for each in descriptions if is_reference(each)]
+        exempt = [each.name for each in descriptions if is_own_engine(each.engine)]
         hints = AdvisoryHints(self._setup.actors, exempt, self._observer.notice)
         self._router.attribute(hints.take)
         self._router.attribute(LanguageModelNotices(self._observer.notice).take)

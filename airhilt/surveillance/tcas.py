@@ -1,10 +1,10 @@
-"""Alerts of TCAS II: its published thresholds, applied to true states.
+"""Alerts of TCAS II: its published thresholds, and the tests by range and altitude.
 
 The thresholds are those of FAA, Introduction to TCAS II Version 7.1 (2011), table 2 and the section
 on inhibits. Modified tau is that of RTCA DO-185B and of Munoz, Narkawicz, Chamberlain, "A TCAS-II
 Resolution Advisory Detection Algorithm" (AIAA 2013-4622). The horizontal miss distance filter is
-left out, so the times are the earliest at which TCAS would give an alert. Both aircraft are assumed
-to be equipped.
+left out of `alert` and `project`, so their times are the earliest at which TCAS would give an
+alert. `project` assumes that both aircraft are equipped.
 """
 
 from __future__ import annotations
@@ -33,26 +33,44 @@ class Thresholds(NamedTuple):
 
 
 class SensitivityLevel(NamedTuple):
-    """One row of table 2; ``resolution`` is None where no resolution advisory is given."""
+    """One row of table 2; ``resolution`` is None where no resolution advisory is given.
+
+    ``alim_m`` is the vertical separation at the closest approach that an advisory aims at.
+    """
 
     level: int
     traffic: Thresholds
     resolution: Thresholds | None
+    alim_m: float
 
 
 def _thresholds(tau_s: float, dmod_nm: float, zthr_ft: float) -> Thresholds:
     return Thresholds(tau_s, dmod_nm * NAUTICAL_MILE, zthr_ft * FOOT)
 
 
-_LEVEL_2 = SensitivityLevel(2, _thresholds(20, 0.30, 850), None)
-_LEVEL_3 = SensitivityLevel(3, _thresholds(25, 0.33, 850), _thresholds(15, 0.20, 600))
+def _row(
+    level: int,
+    traffic: tuple[float, float, float],
+    resolution: tuple[float, float, float] | None,
+    alim_ft: float,
+) -> SensitivityLevel:
+    return SensitivityLevel(
+        level,
+        _thresholds(*traffic),
+        None if resolution is None else _thresholds(*resolution),
+        alim_ft * FOOT,
+    )
+
+
+_LEVEL_2 = _row(2, (20, 0.30, 850), None, 300)
+_LEVEL_3 = _row(3, (25, 0.33, 850), (15, 0.20, 600), 300)
 _BY_ALTITUDE_FT = (
-    (5_000, SensitivityLevel(4, _thresholds(30, 0.48, 850), _thresholds(20, 0.35, 600))),
-    (10_000, SensitivityLevel(5, _thresholds(40, 0.75, 850), _thresholds(25, 0.55, 600))),
-    (20_000, SensitivityLevel(6, _thresholds(45, 1.00, 850), _thresholds(30, 0.80, 600))),
-    (42_000, SensitivityLevel(7, _thresholds(48, 1.30, 850), _thresholds(35, 1.10, 700))),
+    (5_000, _row(4, (30, 0.48, 850), (20, 0.35, 600), 300)),
+    (10_000, _row(5, (40, 0.75, 850), (25, 0.55, 600), 350)),
+    (20_000, _row(6, (45, 1.00, 850), (30, 0.80, 600), 400)),
+    (42_000, _row(7, (48, 1.30, 850), (35, 1.10, 700), 600)),
 )
-_ABOVE = SensitivityLevel(7, _thresholds(48, 1.30, 1200), _thresholds(35, 1.10, 800))
+_ABOVE = _row(7, (48, 1.30, 1200), (35, 1.10, 800), 700)
 
 TRAFFIC_INHIBITED_BELOW_M = 500 * FOOT
 """Height below which the traffic advisory is not announced, in m."""
@@ -73,14 +91,29 @@ def sensitivity_level(altitude_m: float, height_m: float) -> SensitivityLevel:
     return next((row for limit_ft, row in _BY_ALTITUDE_FT if altitude_m < limit_ft * FOOT), _ABOVE)
 
 
-def _range_test(motion: Relative, thresholds: Thresholds) -> bool:
+class RangeMotion(NamedTuple):
+    """Distance to the intruder, and its rate of change."""
+
+    range_m: float
+    rate_m_s: float
+
+    @classmethod
+    def of(cls, motion: Relative) -> RangeMotion:
+        """Return the horizontal distance and its rate."""
+        distance = motion.distance_m
+        if distance == 0.0:
+            return cls(0.0, 0.0)
+        product = (
+            motion.north_m * motion.velocity_north_m_s + motion.east_m * motion.velocity_east_m_s
+        )
+        return cls(distance, product / distance)
+
+
+def range_test(motion: RangeMotion, thresholds: Thresholds) -> bool:
     """Return whether the pair is within DMOD or closes with a modified tau within the limit."""
-    distance = motion.distance_m
+    distance, rate = motion
     if distance <= thresholds.dmod_m:
         return True
-    rate = (
-        motion.north_m * motion.velocity_north_m_s + motion.east_m * motion.velocity_east_m_s
-    ) / distance
     if rate >= 0.0:
         return False
     return (thresholds.dmod_m**2 - distance**2) / (distance * rate) <= thresholds.tau_s
@@ -102,12 +135,17 @@ class Own(NamedTuple):
 
 
 def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
+    """Return the alert that TCAS II gives at this instant by true states; see `alert_at`."""
+    return alert_at(RangeMotion.of(motion), gap_m, gap_rate_m_s, own)
+
+
+def alert_at(motion: RangeMotion, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
     """Return the alert that TCAS II on the own aircraft gives at this instant; None if none.
 
     Parameters
     ----------
     motion
-        The intruder relative to the own aircraft.
+        Range of the intruder.
     gap_m, gap_rate_m_s
         The intruder's altitude less the own one, and its rate of change.
     """
@@ -121,7 +159,7 @@ def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Aler
             continue
         if name == "tcas_ra" and own.height_m < RESOLUTION_INHIBITED_BELOW_M:
             continue
-        if _range_test(motion, thresholds) and _altitude_test(gap_m, gap_rate_m_s, thresholds):
+        if range_test(motion, thresholds) and _altitude_test(gap_m, gap_rate_m_s, thresholds):
             return "tcas_ra" if name == "tcas_ra" else "tcas_ta"
     return None
 

@@ -268,6 +268,23 @@ class Intruder:
         return f"{who} {self.where}{unseen}, closing"
 
 
+@dataclass(frozen=True, slots=True)
+class TcasAdvisory:
+    """TCAS II has an advisory, which it announces.
+
+    Attributes
+    ----------
+    aural
+        Announcement, such as ``climb, climb``.
+    """
+
+    aural: str
+
+    def statement(self) -> str:
+        """Return the announcement."""
+        return self.aural
+
+
 Finding = (
     LossOfSeparation
     | LevelMisread
@@ -278,6 +295,7 @@ Finding = (
     | Obstruction
     | OpposedClearances
     | Intruder
+    | TcasAdvisory
 )
 
 

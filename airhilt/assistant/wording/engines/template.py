@@ -12,6 +12,7 @@ from airhilt.assistant.decision.findings import (
     Occupied,
     RecipientUnclear,
     RunwayMisread,
+    TcasAdvisory,
 )
 from airhilt.engines import Engine
 from airhilt.messages import CONTROLLER, Climb, GoAround, MaintainLevel, Recommendation, Turn
@@ -37,6 +38,8 @@ class Template:
                 return f"{misread.callsign} {misread.statement()}"
             case Intruder() as intruder:
                 return _intruder(alert, intruder, recipient)
+            case TcasAdvisory(aural=aural):
+                return aural
             case None:
                 return _on_ground(alert, recipient, alert.evidence.note or _kind(alert))
             case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
