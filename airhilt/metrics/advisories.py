@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from airhilt.messages import CONTROLLER, SPEAK_MIN_LEVEL, Advisory, AdvisoryAudio, Severity
+from airhilt.messages import (
+    CONTROLLER,
+    SPEAK_MIN_LEVEL,
+    Advisory,
+    AdvisoryAudio,
+    AdvisoryKind,
+    Severity,
+)
 from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion, severest
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
@@ -14,6 +21,9 @@ JUSTIFIED_WITHIN_S = 300.0
 """An alert is no nuisance if its traffic will really lose separation within this time, in s."""
 SEEN_WITHIN_NS = 10 * SECOND_NS
 """Time before an advisory, in ns, in which a camera must have shown what it is about."""
+
+
+CLARIFICATION: AdvisoryKind = "clarification"
 
 
 @dataclass
@@ -90,6 +100,7 @@ class AdvisoryRecords:
         reaches_somebody = advisory.recipient == CONTROLLER or advisory.recipient in self._callsigns
         return (
             advisory.active
+            and advisory.kind != CLARIFICATION
             and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank
             and reaches_somebody
             and self._concerns_conflict(advisory)
@@ -103,6 +114,10 @@ class AdvisoryRecords:
             and self._is_nuisance(record, involved)
             for record in self._records.values()
         )
+
+    def clarifications(self) -> int:
+        """Return the number of questions for what was heard in doubt."""
+        return sum(record.first.kind == CLARIFICATION for record in self._records.values())
 
     def summaries(self, incursions: Iterable[RunwayIncursion]) -> list[AdvisorySummary]:
         """Return each advisory with its course."""
@@ -157,8 +172,9 @@ class AdvisoryRecords:
         """Return true if the traffic is in no conflict, annotated or real.
 
         In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
+        A question for what was heard in doubt tells of no conflict, and is none.
         """
-        if record.concerns_conflict:
+        if record.concerns_conflict or record.first.kind == CLARIFICATION:
             return False
         if record.first.kind == "loss_of_separation":
             return self._pair is None or not record.loses_separation

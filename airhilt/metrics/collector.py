@@ -141,6 +141,7 @@ class Collector:
             **self._outcome_fields(),
             unassisted_as_declared=self._as_declared(run["assistant"]),
             nuisance_alerts=self._advisories.nuisance_alerts(incursions),
+            clarifications=self._advisories.clarifications(),
             advisories=self._advisories.summaries(incursions),
             radio=self._calls.statistics(
                 roster_of(self._scenario),

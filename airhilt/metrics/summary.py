@@ -264,6 +264,9 @@ class Summary(BaseModel):
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"
     )
+    clarifications: int = Field(
+        default=0, description="advisories that ask to confirm what was heard in doubt"
+    )
     advisories: list[AdvisorySummary]
     radio: RadioStatistics
     vision: VisionStatistics

@@ -9,6 +9,7 @@ from airhilt.phraseology.alphabet import LETTERS
 from airhilt.phraseology.call import (
     CLEARANCES,
     REPORTS,
+    TAU_ASR,
     Action,
     Call,
     Instruction,
@@ -29,6 +30,7 @@ __all__ = [
     "DIGITS",
     "LETTERS",
     "REPORTS",
+    "TAU_ASR",
     "TELEPHONY",
     "Action",
     "Airline",

@@ -26,6 +26,9 @@ CLEARANCES: frozenset[Action] = frozenset(
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 """Actions that are reports."""
 
+TAU_ASR = 0.8
+"""Confidence below which what was heard is in doubt (guard of arXiv 2511.18718)."""
+
 Sense = Literal["climb", "descend", "maintain"]
 Turn = Literal["left", "right"]
 Kind = Literal[
@@ -65,6 +68,10 @@ class Instruction:
     """True if it is to be done at once or without delay."""
     confidence: float = field(default=1.0, compare=False)
     """Confidence in [0, 1] that this was said; see docs/phraseology.md."""
+    action_heard: float = field(default=1.0, compare=False)
+    """Least confidence of the recogniser in the words of the action, in [0, 1]."""
+    details_heard: float = field(default=1.0, compare=False)
+    """Likewise in the words of its details, such as the runway or the level."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -361,10 +361,17 @@ def _content_of(words: Words) -> Content:
     _merge_levels(reads)
     _withdraw(reads)
     for read, each in reads:
-        first = bisect_right(starts, read.start) - 1
-        after = bisect_right(starts, read.end - 1)
-        confidence = min(words.confidences[first:after], default=1.0)
-        instruction = replace(read.instruction, confidence=read.instruction.confidence * confidence)
+        after_action = bisect_right(starts, each.match.end() - 1)
+        action = words.confidences[each.first : after_action]
+        before = words.confidences[bisect_right(starts, read.start) - 1 : each.first]
+        behind = words.confidences[after_action : bisect_right(starts, read.end - 1)]
+        heard = min(action, default=1.0), min([*before, *behind], default=1.0)
+        instruction = replace(
+            read.instruction,
+            confidence=read.instruction.confidence * min(heard),
+            action_heard=heard[0],
+            details_heard=heard[1],
+        )
         _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
     return content
 

@@ -18,7 +18,6 @@ from airhilt.messages import (
     RosterEntry,
     RunwayBriefing,
     Severity,
-    Transcript,
     TransmissionOpened,
     VisibleClass,
 )
@@ -28,7 +27,7 @@ from airhilt.surveillance.squitters import PositionSquitter, SurfacePositionSqui
 from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, SECOND_NS
 from airhilt.world.site import FixedSite
-from decisions import reference
+from decisions import reference, transcript
 from projected import Body, Camera
 
 FIELD = LocalFrame((38.85 * DEGREE, -77.04 * DEGREE))
@@ -271,7 +270,7 @@ class Airfield:
 
     movers: list[Mover]
     calls: list[tuple[float, str]] = field(default_factory=list)
-    """When each call ends, and its words."""
+    """When each call ends, and its words; one with a question mark is unsure."""
     worker: DecisionWorker = field(default_factory=reference)
     told: list[tuple[float, Advisory]] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
@@ -339,11 +338,8 @@ class Airfield:
         for number, (end_s, text) in enumerate(self.calls):
             if round((end_s + self.recognition_s) * SECOND_NS) == t_ns:
                 end_ns = round(end_s * SECOND_NS)
-                transcript = Transcript(
-                    id=str(number), frequency_khz=119100, t_tx_ns=end_ns - 3 * SECOND_NS,
-                    t_end_ns=end_ns, text=text, confidence=1.0, engine="text",
-                )  # fmt: skip
-                inputs.append(Input("asr/119100", t_ns, transcript.model_dump_json().encode()))
+                heard = transcript(str(number), 119100, end_ns - 3 * SECOND_NS, end_ns, text)
+                inputs.append(Input("asr/119100", t_ns, heard.model_dump_json().encode()))
         return inputs
 
     def _step(self, t_ns: int, inputs: list[Input]) -> None:

@@ -13,13 +13,13 @@ from geographiclib.geodesic import Geodesic
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import relative
-from airhilt.messages import Advisory, Climb, MaintainLevel, Transcript, VisibleClass
+from airhilt.messages import Advisory, Climb, MaintainLevel, VisibleClass
 from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.transponders import Transponder
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
-from decisions import reference
+from decisions import reference, transcript
 from projected import Body, Camera, Place
 
 CENTRE = (38.9, -77.0)
@@ -193,11 +193,9 @@ class Encounter:
         inputs = []
         for number, (begin_s, end_s, text) in enumerate(self.calls):
             if round(end_s * SECOND_NS) == t_ns:
-                transcript = Transcript(
-                    id=str(number), frequency_khz=134325, t_tx_ns=round(begin_s * SECOND_NS),
-                    t_end_ns=t_ns, text=text, confidence=1.0, engine="text",
-                )  # fmt: skip
-                inputs.append(Input("asr/134325", t_ns, transcript.model_dump_json().encode()))
+                begin_ns = round(begin_s * SECOND_NS)
+                heard = transcript(str(number), 134325, begin_ns, t_ns, text)
+                inputs.append(Input("asr/134325", t_ns, heard.model_dump_json().encode()))
         return inputs
 
     def _measure(self, t_ns: int) -> None:

@@ -100,6 +100,7 @@ def _opposed(outlook: Outlook) -> Iterator[Threat]:
         clearance
         for clearance in outlook.in_force
         if clearance.action in ("cleared_to_land", "cleared_for_takeoff", "line_up")
+        and clearance.is_certain
     ]
     for first, second in itertools.combinations(using, 2):
         strip = outlook.situation.aerodrome.strip_of(first.runway)

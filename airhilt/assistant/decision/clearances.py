@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 
+from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
 from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.phraseology import Action, Call, Instruction
@@ -31,12 +32,19 @@ REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """A clearance on to a runway, in the words of its readback if there was one."""
+    """A clearance on to a runway, in the words of its readback if there was one.
+
+    Attributes
+    ----------
+    is_certain
+        False if a slot of it is in doubt: it then makes nobody's presence on a runway right.
+    """
 
     callsign: str
     action: Action
     runway: str | None
     t_end_ns: int
+    is_certain: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,18 +74,32 @@ class _Addressed:
     """The last call to somebody."""
 
     instructions: tuple[Instruction, ...]
-    call: Transcript
+    call: Call
+    transcript: Transcript
+    doubts: dict[Action, Doubt]
+    """Instructions of the call that are in doubt, by their actions."""
     answered: bool = False
 
     @property
     def t_end_ns(self) -> int:
-        return self.call.t_end_ns
+        return self.transcript.t_end_ns
+
+    def told(self, action: Action) -> Instruction | None:
+        """Return the instruction with an action, None if there was none."""
+        return next((each for each in self.instructions if each.action == action), None)
 
 
 class Clearances:
-    """The clearances about runways that were heard on the frequency."""
+    """The clearances about runways that were heard on the frequency.
 
-    def __init__(self) -> None:
+    An instruction of which a slot is in doubt is believed once its readback agrees with it, or once
+    it was said again. Until then it gives no permission and withdraws none.
+    """
+
+    def __init__(self, guard: Guard) -> None:
+        self._guard = guard
+        self._doubts: dict[str, Doubt] = {}
+        """The doubt about the last call of or to each callsign."""
         self._addressed: dict[str, _Addressed] = {}
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
@@ -92,18 +114,41 @@ class Clearances:
         """Update clearances and discrepancies with a call."""
         self._silence.take_transcript(transcript)
         said = tuple(each for each in call.instructions if each.action not in REPORTS)
-        if call.callsign is None:
+        callsign = call.match.callsign
+        if callsign is None:
             return
+        doubts = {
+            each.action: doubt
+            for each in said
+            if self._is_news(callsign, each)
+            and (doubt := self._guard.doubt(call, each, transcript)) is not None
+        }
+        if call.match.ambiguous:
+            self._suspect(callsign, doubts.values())
+            return
+        if call.kind == "say_again":  # What is in doubt will be said again.
+            self._drop_doubts(callsign)
         if call.addressed_first:
-            self._addressed[call.callsign] = _Addressed(said, transcript)
-            if said:
-                self._settle(call.callsign)
+            self._addressed[callsign] = _Addressed(said, call, transcript, dict(doubts))
+            if len(doubts) < len(said):
+                self._settle(callsign)
         elif said:
-            said = self._compare(call.callsign, said, transcript)
-        elif (given := self._recent(call.callsign, transcript.t_tx_ns)) is not None:
+            said = self._compare(call, callsign, said, transcript, doubts)
+        elif (given := self._recent(callsign, transcript.t_tx_ns)) is not None:
             given.answered = True
-        if said:
-            self._act_on(call.callsign, said, transcript.t_end_ns)
+        believed = tuple(each for each in said if each.action not in doubts)
+        if believed:
+            self._act_on(callsign, believed, transcript.t_end_ns)
+        self._suspect(callsign, doubts.values())
+
+    def _is_news(self, callsign: str, said: Instruction) -> bool:
+        """Return whether an instruction would change what somebody is believed to be cleared to."""
+        if said.action in RESTRICTING:
+            return True
+        return said.action in LIFETIME_S and not any(
+            known.is_certain and (known.action, known.runway) == (said.action, said.runway)
+            for known in self._in_force.get(callsign, ())
+        )
 
     def in_force(self, t_ns: int) -> Iterator[Clearance]:
         """Yield the clearances that were not used, withdrawn or forgotten."""
@@ -127,9 +172,27 @@ class Clearances:
         for callsign, addressed in self._addressed.items():
             if addressed.answered or t_ns - addressed.t_end_ns > DISCREPANCY_NS:
                 continue
-            given = [each for each in addressed.instructions if each.action in RESTRICTING]
-            if given and self._silence.is_late(addressed.call, t_ns):
+            given = [
+                each
+                for each in addressed.instructions
+                if each.action in RESTRICTING and each.action not in addressed.doubts
+            ]
+            if given and self._silence.is_late(addressed.transcript, t_ns):
                 yield Unanswered(callsign, given[0], addressed.t_end_ns)
+
+    def doubts(self, t_ns: int) -> Iterator[Doubt]:
+        """Yield what is still in doubt; an instruction not before its readback is late."""
+        for doubt in self._doubts.values():
+            said = doubt.transcript
+            since_ns = t_ns - said.t_end_ns
+            is_due = (
+                doubt.is_answered
+                or since_ns > READBACK_WINDOW_NS
+                or self._silence.is_followed(said)
+                or self._silence.is_late(said, t_ns)
+            )
+            if is_due and since_ns <= DISCREPANCY_NS:
+                yield doubt
 
     def finish(self, callsign: str, *actions: Action) -> None:
         """End clearances that somebody has used."""
@@ -143,36 +206,86 @@ class Clearances:
             if each.action in LIFETIME_S
         )
         self._holding.pop(callsign, None)
+        self._drop_doubts(callsign)
         for each in said:
             if each.action in ("hold_short", "hold_position"):
                 self._holding[callsign] = each.runway
 
+    def _drop_doubts(self, callsign: str) -> None:
+        self._doubts = {
+            name: doubt
+            for name, doubt in self._doubts.items()
+            if callsign not in (name, doubt.callsign)
+        }
+
+    def _suspect(self, callsign: str, doubts: Iterable[Doubt]) -> None:
+        """Note what is in doubt; somebody may be cleared by it, and may not hold any more."""
+        for doubt in doubts:
+            self._doubts[callsign] = doubt
+            said = doubt.said
+            if said.action in LIFETIME_S:
+                t_end_ns = doubt.transcript.t_end_ns
+                maybe = Clearance(callsign, said.action, said.runway, t_end_ns, is_certain=False)
+                self._in_force[callsign] = (*self._in_force.get(callsign, ()), maybe)
+                self._holding.pop(callsign, None)
+
     def _compare(
-        self, callsign: str, read: tuple[Instruction, ...], transcript: Transcript
+        self,
+        call: Call,
+        callsign: str,
+        read: tuple[Instruction, ...],
+        transcript: Transcript,
+        doubts: dict[Action, Doubt],
     ) -> tuple[Instruction, ...]:
-        """Note where a readback is wrong, and return it with the runways that it leaves out."""
-        begun_ns = transcript.t_tx_ns
-        given = self._recent(callsign, begun_ns)
+        """Note where a readback is wrong, and return it with the runways that it leaves out.
+
+        A slot that agrees with the instruction is in doubt no more. One that does not, and is in
+        doubt on either side, makes no wrong readback yet.
+        """
+        given = self._recent(callsign, transcript.t_tx_ns)
         complete = []
-        self._settle(callsign)
+        if len(doubts) < len(read):
+            self._settle(callsign)
         for each in read:
-            said = given.instructions if given else ()
-            match = next(
-                (instruction for instruction in said if instruction.action == each.action), None
-            )
-            other = None if match else self._unanswered(each.action, callsign, begun_ns)
-            complete.append(
-                each if each.runway or not match else Instruction(each.action, match.runway)
-            )
+            match = given and given.told(each.action)
+            full = each if each.runway or not match else replace(each, runway=match.runway)
+            complete.append(full)
+            other = None if match else self._unanswered(each.action, callsign, transcript.t_tx_ns)
+            own = doubts.pop(each.action, None)
+            wrong: tuple[str, Instruction | None]
             if other is not None:
-                self._note(callsign, other, each, each, transcript.t_end_ns)
-            elif match and match.runway and complete[-1].runway != match.runway:
-                self._note(callsign, callsign, match, each, transcript.t_end_ns)
-            elif given and not match and each.action in LIFETIME_S:
-                self._note(callsign, callsign, next(iter(said), None), each, transcript.t_end_ns)
+                doubt = self._doubt_of_name(each.action, other, own)
+                wrong = (other, each)
+            elif given and match:
+                if not match.runway or full.runway == match.runway:
+                    continue
+                doubt = self._guard.doubt_of_value(call, each, transcript)
+                doubt = doubt or self._guard.doubt_of_value(given.call, match, given.transcript)
+                wrong = (callsign, match)
+            elif given and each.action in LIFETIME_S:
+                doubt = own or self._doubt_of_rest(given, callsign, each)
+                wrong = (callsign, next(iter(given.instructions), None))
+            else:
+                if own is not None:
+                    doubts[each.action] = own
+                continue
+            if doubt is None:
+                self._note(callsign, *wrong, each, transcript.t_end_ns)
+            else:
+                doubts[each.action] = replace(doubt, is_answered=True)
         if given:
             given.answered = True
         return tuple(complete)
+
+    def _doubt_of_name(self, action: Action, addressed: str, own: Doubt | None) -> Doubt | None:
+        """Return the doubt about the callsign of a readback, or of its instruction to another."""
+        given = self._addressed[addressed].doubts.get(action)
+        return next((each for each in (own, given) if each and each.slot == "callsign"), None)
+
+    def _doubt_of_rest(self, given: _Addressed, callsign: str, read: Instruction) -> Doubt | None:
+        """Return the doubt that a call had an instruction that was read back and not heard."""
+        heard = next(iter(given.doubts.values()), None)
+        return heard or self._guard.doubt_of_rest(callsign, read, given.transcript)
 
     def _recent(self, callsign: str, t_ns: int) -> _Addressed | None:
         given = self._addressed.get(callsign)

@@ -189,6 +189,32 @@ class Occupied:
 
 
 @dataclass(frozen=True, slots=True)
+class Unclear:
+    """A slot of an instruction or a readback was heard with too little confidence.
+
+    Attributes
+    ----------
+    slot
+        ``callsign``, ``action``, ``runway`` or ``altitude``.
+    confidence
+        Confidence in that slot.
+    traffic
+        Callsign of somebody because of whom it matters.
+    """
+
+    callsign: str
+    slot: str
+    said: Instruction
+    confidence: float
+    traffic: str
+
+    def statement(self) -> str:
+        """Return the finding in a few words."""
+        heard = _instruction(self.said)
+        return f"{self.slot} of {self.callsign} heard as {heard!r}, {self.confidence:.0%} certain"
+
+
+@dataclass(frozen=True, slots=True)
 class Obstruction:
     """Somebody or something is, or will be, in the way of the user of a runway.
 
@@ -292,6 +318,7 @@ Finding = (
     | NotReadBack
     | RecipientUnclear
     | Occupied
+    | Unclear
     | Obstruction
     | OpposedClearances
     | Intruder
@@ -301,4 +328,6 @@ Finding = (
 
 def _instruction(instruction: Instruction) -> str:
     about = f" runway {instruction.runway}" if instruction.runway else ""
-    return f"{_ACTIONS[instruction.action]}{about}"
+    if instruction.altitude_ft is not None:
+        about = f" {instruction.altitude_ft:.0f} ft"
+    return f"{_ACTIONS.get(instruction.action, instruction.action.replace('_', ' '))}{about}"

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
+from airhilt.assistant.decision.guard import Doubt, Guard, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Transcript
-from airhilt.phraseology import Call, parse_call
 from airhilt.units import FOOT, SECOND_NS
 
 ACTIVITY_S = 600.0
 """Traffic that comes within the horizontal minimum in this time, in s, counts as activity."""
+DOUBTED_NS = 120 * SECOND_NS
+"""Time for which a level in doubt matters, in ns."""
 
 
 @dataclass(slots=True)
@@ -23,56 +26,115 @@ class _Clearance:
 
     altitude_ft: float
     t_end_ns: int
+    doubt: Doubt | None
+    """Doubt about the level."""
 
 
 class LevelReadbacks:
-    """Follows clearances of levels, and sets the cleared level of tracks."""
+    """Follows clearances of levels, and sets the cleared level of tracks.
 
-    def __init__(self, tracks: AirTracks) -> None:
+    A level in doubt is believed once the readback agrees with the instruction, or once it was said
+    again. Until then no level is expected: a climb or descent is taken to go on.
+    """
+
+    def __init__(self, tracks: AirTracks, guard: Guard) -> None:
         self._tracks = tracks
+        self._guard = guard
         self._clearances: dict[str, _Clearance] = {}
+        self._doubts: dict[str, Doubt] = {}
+        """The doubt about the last level of each callsign."""
 
     def take_transcript(
         self, t_ns: int, transcript: Transcript, config: SeparationConfig
     ) -> LevelMisread | None:
         """Update levels with a call, and return a wrong readback with traffic at that level."""
-        call = parse_call(transcript.text, [track.callsign for track in self._tracks])
-        track = self._tracks.by_callsign(call.callsign) if call.callsign else None
-        if track is not None and (call.distress or call.emergency_descent):
-            track.in_distress = True
-            track.cleared_m = None
-            if call.emergency_descent and not call.addressed_first:
-                track.descent_ns = t_ns
+        call = call_of(transcript, [track.callsign for track in self._tracks])
+        callsign, said = call.match.callsign, call.altitude
+        track = self._tracks.by_callsign(callsign) if callsign else None
+        if track is None:
             return None
-        if track is None or call.altitude_ft is None:
+        if call.distress or call.emergency_descent:
+            if not call.match.ambiguous:
+                track.in_distress = True
+                track.cleared_m = None
+                if call.emergency_descent and not call.addressed_first:
+                    track.descent_ns = t_ns
+            return None
+        if said is None or said.altitude_ft is None:
+            return None
+        doubt = self._guard.doubt(call, said, transcript)
+        if call.match.ambiguous:
+            if doubt is not None:
+                self._doubts[track.callsign] = doubt
             return None
         if call.addressed_first:
-            self._clearances[track.callsign] = _Clearance(call.altitude_ft, transcript.t_end_ns)
+            value = self._guard.doubt_of_value(call, said, transcript)
+            told = _Clearance(said.altitude_ft, transcript.t_end_ns, value)
+            self._clearances[track.callsign] = told
+            self._set_doubt(track, doubt)
             return None
         given = self._clearances.get(track.callsign)
-        track.clear(call.altitude_ft * FOOT, t_ns)
-        if (
-            given is None
-            or call.altitude_ft == given.altitude_ft
-            or transcript.t_tx_ns - given.t_end_ns > config.readback_window_s * SECOND_NS
-        ):
+        window_ns = config.readback_window_s * SECOND_NS
+        if given is not None and transcript.t_tx_ns - given.t_end_ns > window_ns:
+            given = None
+        if given is not None:
+            doubt = self._guard.doubt_of_value(call, said, transcript)
+        return self._read_back(t_ns, track, said.altitude_ft, given, doubt, config)
+
+    def _read_back(
+        self,
+        t_ns: int,
+        track: Track,
+        altitude_ft: float,
+        given: _Clearance | None,
+        doubt: Doubt | None,
+        config: SeparationConfig,
+    ) -> LevelMisread | None:
+        """Compare a readback with its instruction, and expect its level if it is certain."""
+        agrees = given is not None and given.altitude_ft == altitude_ft
+        if doubt is not None and not agrees:
+            self._set_doubt(track, doubt)
+            track.cleared_m = None
             return None
-        threatened = self._threatened(t_ns, track, call, config)
+        track.clear(altitude_ft * FOOT, t_ns)
+        disputed = None if given is None or agrees else given.doubt
+        self._set_doubt(track, disputed and replace(disputed, is_answered=True))
+        if given is None or agrees or disputed is not None:
+            return None
+        threatened = self._threatened(t_ns, track, altitude_ft, config)
         if threatened is None:
             return None
         return LevelMisread(
             callsign=track.callsign,
-            read_ft=call.altitude_ft,
+            read_ft=altitude_ft,
             cleared_ft=given.altitude_ft,
             traffic=threatened.callsign,
         )
 
+    def _set_doubt(self, track: Track, doubt: Doubt | None) -> None:
+        if doubt is None:
+            self._doubts.pop(track.callsign, None)
+        else:
+            self._doubts[track.callsign] = doubt
+
+    def doubts(self, t_ns: int, config: SeparationConfig) -> Iterator[tuple[Doubt, str]]:
+        """Yield what is in doubt about a level, and who is near that level."""
+        for callsign, doubt in self._doubts.items():
+            since_ns = t_ns - doubt.transcript.t_end_ns
+            is_due = doubt.is_answered or since_ns > config.readback_window_s * SECOND_NS
+            track = self._tracks.by_callsign(callsign)
+            if track is None or not is_due or since_ns > DOUBTED_NS:
+                continue
+            threatened = self._threatened(t_ns, track, doubt.said.altitude_ft or 0.0, config)
+            if threatened is not None:
+                yield doubt, threatened.callsign
+
     def _threatened(
-        self, t_ns: int, track: Track, call: Call, config: SeparationConfig
+        self, t_ns: int, track: Track, altitude_ft: float, config: SeparationConfig
     ) -> Track | None:
         """Return who would lose separation if the aircraft flew to the level read back."""
         own = track.at(t_ns)
-        target_m = (call.altitude_ft or 0.0) * FOOT
+        target_m = altitude_ft * FOOT
         low, high = sorted((own.altitude_m, target_m))
         for other in self._tracks:
             if other.icao24 == track.icao24:

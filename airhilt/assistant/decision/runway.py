@@ -8,10 +8,13 @@ from functools import partial
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.assessment import worst_threats
+from airhilt.assistant.decision.clarifications import Clarifications
+from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.runway_advice import advice
 from airhilt.assistant.decision.situation import Situation
-from airhilt.assistant.decision.threats import RunwayConfig, Threat
+from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     CONTROLLER,
@@ -44,14 +47,22 @@ class RunwayWatch:
 
     Parameters
     ----------
+    guard
+        Tells what is in doubt.
     rules
         Rules that find threats; None: those of the reference engine.
     """
 
     def __init__(
-        self, config: RunwayConfig, visual_tracks: VisualTracks, rules: Rules | None = None
+        self,
+        config: RunwayConfig,
+        visual_tracks: VisualTracks,
+        guard: Guard,
+        rules: Rules | None = None,
     ) -> None:
         self.config = config
+        self._guard = guard
+        self._clarifications = Clarifications("runway")
         self._rules = rules or partial(worst_threats, config)
         self._visual_tracks = visual_tracks
         self._situation: Situation | None = None
@@ -73,7 +84,7 @@ class RunwayWatch:
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the airport, and who is expected there."""
         if briefing.airport is not None and briefing.airport.runways:
-            self._situation = Situation(briefing.airport, briefing)
+            self._situation = Situation(briefing.airport, briefing, self._guard)
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
@@ -102,7 +113,7 @@ class RunwayWatch:
             alerts += self._raise(t_ns, threat, situation)
         for key in [key for key in self._ongoing if key not in threats]:
             alerts += self._calm(t_ns, key)
-        return alerts
+        return alerts + self._ask(t_ns, situation)
 
     def _raise(self, t_ns: int, threat: Threat, situation: Situation) -> list[Alert]:
         ongoing = self._ongoing.get(threat.key)
@@ -137,6 +148,16 @@ class RunwayWatch:
             return []
         del self._ongoing[key]
         return [self._alert(ongoing, Severity.INFO, {}, active=False)]
+
+    def _ask(self, t_ns: int, situation: Situation) -> list[Alert]:
+        """Return questions for what is in doubt about a runway that somebody else uses."""
+        snapshot = Snapshot(situation, t_ns)
+        alerts: list[Alert] = []
+        for doubt in situation.clearances.doubts(t_ns):
+            strip, active = activity_of(snapshot, doubt.callsign, (doubt.said,))
+            if strip is not None and active:
+                alerts += self._clarifications.ask(t_ns, doubt, active[0], strip.name)
+        return alerts
 
     def _alert(
         self,

@@ -11,8 +11,10 @@ from dataclasses import dataclass, field, replace
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
 from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import LevelMisread, LossOfSeparation
+from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import Prediction, SeparationConfig, predict
 from airhilt.assistant.decision.resolution import resolve
@@ -50,11 +52,12 @@ class SeparationWatch:
     with a tower, which separates them by sight (FAA Order JO 7110.65, 7-2-1).
     """
 
-    def __init__(self, config: SeparationConfig) -> None:
+    def __init__(self, config: SeparationConfig, guard: Guard) -> None:
         self.config = config
         self._zone: TrafficZone | None = None
         self._tracks = AirTracks()
-        self._readbacks = LevelReadbacks(self._tracks)
+        self._readbacks = LevelReadbacks(self._tracks, guard)
+        self._clarifications = Clarifications("level")
         self._conflicts: dict[Pair, _Conflict] = {}
         self._misread: list[Alert] = []
         self._count = 0
@@ -107,6 +110,8 @@ class SeparationWatch:
         """Return the alerts that are new, have risen, or are over."""
         alerts, self._misread = self._misread, []
         config, tracks = self.config, self._tracks
+        for doubt, traffic in self._readbacks.doubts(t_ns, config):
+            alerts += self._clarifications.ask(t_ns, doubt, traffic)
         tracks.begin_step(t_ns - round(config.stale_s * SECOND_NS), self._conflicts)
         reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
         silent = [pair for pair in self._conflicts if tracks.silent_ns(pair, t_ns) >= COASTING_NS]

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Strip, Way, way_through
 from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.guard import Guard, call_of
 from airhilt.assistant.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
 from airhilt.assistant.decision.occupancy import (
     SeenAloft,
@@ -18,7 +19,7 @@ from airhilt.assistant.decision.occupancy import (
 )
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import AdsbReport, AirportBriefing, Briefing, Transcript, TransmissionOpened
-from airhilt.phraseology import Call, parse_call
+from airhilt.phraseology import Call
 from airhilt.units import SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
@@ -79,9 +80,9 @@ class SeenObstacle(NamedTuple):
 class Situation:
     """The runways of an airport, and everybody near them."""
 
-    def __init__(self, airport: AirportBriefing, briefing: Briefing) -> None:
+    def __init__(self, airport: AirportBriefing, briefing: Briefing, guard: Guard) -> None:
         self.aerodrome = Aerodrome(airport)
-        self.clearances = Clearances()
+        self.clearances = Clearances(guard)
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
@@ -213,7 +214,7 @@ class Situation:
 
     def take_transcript(self, transcript: Transcript) -> Call:
         """Update clearances and reports of wildlife with a call, and return its meaning."""
-        call = parse_call(transcript.text, self.callsigns)
+        call = call_of(transcript, self.callsigns)
         for said in call.instructions:
             if said.action == "wildlife":
                 for strip in self._reported_on(said.runway, call):

@@ -142,8 +142,16 @@ class Snapshot:
                 yield clearance
 
     def cleared_to(self, callsign: str | None, strip: Strip) -> set[Action]:
-        """Return what somebody is cleared to do on a runway."""
-        return {c.action for c in self.cleared_on(strip) if c.callsign == callsign}
+        """Return what somebody is cleared to do on a runway; to cross it, only if that is certain.
+
+        To be cleared to cross makes it right to be there, all else only tells where somebody goes.
+        """
+        return {
+            clearance.action
+            for clearance in self.cleared_on(strip)
+            if clearance.callsign == callsign
+            and (clearance.is_certain or clearance.action != "cross")
+        }
 
 
 class Outlook(Snapshot):

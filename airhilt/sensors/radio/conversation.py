@@ -11,12 +11,14 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from airhilt.commands import Command
-from airhilt.messages import Message
+from airhilt.messages import Advisory, Message
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
 from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
+from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.frequency_arbiter import GAP_S
 from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
@@ -81,6 +83,8 @@ class RadioConversation:
         self._calls = calls_of(scenario, lines)
         self._on_air: dict[str, RadioCall] = {}
         """Calls on the air or waiting for it, by the id of the transmission."""
+        self._said: dict[str, RadioCall] = {}
+        """Calls that were made, by the ids of their transmissions."""
         self._times_pressed = 0
         self._script = RadioScript(director, lines, once, failed, self._due)
         self._transmissions = Transmissions(
@@ -96,6 +100,7 @@ class RadioConversation:
         self._listeners = self._make_listeners(radio, hearing or HearingModel(seed))
         self._compliance = Compliance(director, once, do)
         self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
+        self._confirmations = self._make_confirmations(radio)
 
     def _make_listeners(self, radio: Radio, hearing: HearingModel) -> Listeners:
         return Listeners(
@@ -109,14 +114,27 @@ class RadioConversation:
             overheard=self._overheard,
         )
 
+    def _make_confirmations(self, radio: Radio) -> Confirmations:
+        return Confirmations(
+            self._director,
+            self._stations,
+            Answers(radio.phraseology),
+            self._said,
+            readback_of=self._policy.readback_in_script,
+            say=self._say,
+        )
+
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._script.start()
         self._stuck_microphones.schedule(self._failures)
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
-        """Give a transcript to the crews that wait for it."""
-        self._listeners.take(message)
+        """Give a transcript to the crews that wait for it, and advisories to who is to confirm."""
+        if isinstance(message, Advisory):
+            self._confirmations.take(message)
+        else:
+            self._listeners.take(message)
 
     def press(self, speaker: str, frequency_khz: int) -> OpenMicrophone:
         """Let a person speak: transmit what is fed to the microphone until it is released."""
@@ -163,7 +181,7 @@ class RadioConversation:
             None if replied_to is None else replied_to.id,
             listens_first=again > 0 or scripted is None or scripted.listens_first,
         )
-        self._on_air[utterance.id] = call
+        self._on_air[utterance.id] = self._said[utterance.id] = call
         self._transmissions.say(utterance)
 
     # --- what comes of it -------------------------------------------------------------------

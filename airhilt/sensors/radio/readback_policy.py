@@ -111,7 +111,7 @@ class ReadbackPolicy:
             call.in_reply_to is not None
             or not self._stations.is_actor(listener)
             or self._stations.is_actor(call.speaker)
-            or self._readback_in_script(call, listener) is not None
+            or self.readback_in_script(call, listener) is not None
         ):
             return
         listens = self._listener(call)
@@ -134,12 +134,13 @@ class ReadbackPolicy:
         """Let an actor read back what it has understood, not what the script has."""
         if not self._stations.is_actor(listener):
             return
-        readback = self._readback_in_script(call, listener)
+        readback = self.readback_in_script(call, listener)
         if readback is not None and understanding.call is not None:
             readback.text = self._answers.readback(listener, understanding.call.instructions)
             readback.commands = ()
 
-    def _readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
+    def readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
+        """Return the line in which somebody reads a call back, None if there is none."""
         for other in self._calls.values():
             if other.in_reply_to is call and other.speaker == speaker:
                 return other

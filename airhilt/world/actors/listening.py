@@ -20,10 +20,7 @@ from airhilt.commands import (
     TakeOffCommand,
     TrackCommand,
 )
-from airhilt.phraseology import Call, Instruction, parse_call
-
-TAU_ASR = 0.8
-"""Confidence below which the addressee of a call asks again (guard of arXiv 2511.18718)."""
+from airhilt.phraseology import TAU_ASR, Call, Instruction, parse_call
 
 Parse = Callable[[str, Iterable[str], Sequence[float] | None], Call]
 

@@ -31,6 +31,7 @@ from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, opposite, wa
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.messages import AirportBriefing, Severity, Transcript
 from airhilt.phraseology import parse_call
@@ -550,7 +551,7 @@ def in_force(clearances: Clearances, at_s: int) -> list[Any]:
 
 
 def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdrawn() -> None:
-    clearances = Clearances()
+    clearances = Clearances(Guard())
     heard("Ops one, cross runway zero one.", 0, 3, clearances)
     heard("Cross, ops one.", 4, 6, clearances)
     assert in_force(clearances, 10) == [("OPS1", "cross", "01")]
@@ -564,14 +565,14 @@ def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdraw
 
 
 def test_a_readback_long_after_its_instruction_belongs_to_something_else() -> None:
-    clearances = Clearances()
+    clearances = Clearances(Guard())
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 50, 55, clearances)
     assert list(clearances.discrepancies(56 * SECOND_NS)) == []
 
 
 def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while() -> None:
-    clearances = Clearances()
+    clearances = Clearances(Guard())
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 7, 10, clearances)
     assert len(list(clearances.discrepancies(11 * SECOND_NS))) == 1

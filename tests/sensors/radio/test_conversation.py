@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript, Transmission, Word
+from airhilt.messages import (
+    Advisory,
+    Confirm,
+    Evidence,
+    HearingTruth,
+    Message,
+    Severity,
+    SpokenTruth,
+    Transcript,
+    Transmission,
+    Word,
+)
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.backends import TextRadio
@@ -281,6 +293,65 @@ def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it() ->
     assert World(CLEARANCE, READBACK, readbacks="generated").run().said() == [
         "clearance", "readback",
     ]  # fmt: skip
+
+
+def asked(world: World, recipient: str, *names: str) -> None:
+    """Advise somebody at 30 s to confirm calls of AAL123."""
+    advisory = Advisory(
+        t_ns=seconds_to_ns(30.0), id="decision-1", revision=0, recipient=recipient,
+        recipients=(recipient,), kind="clarification", severity=Severity.ADVISORY,
+        traffic=("AAL123",), message="confirm", t_ready_ns=0,
+        recommendation=Confirm(callsign="AAL123", slot="altitude"),
+        evidence=Evidence(sources=("radio",), radio_ids=names),
+    )  # fmt: skip
+    take = partial(world.conversation.take, "advisory/ATC", advisory, b"")
+    world.director.at(advisory.t_ns, take, Priority.SCRIPT)
+
+
+def test_a_controller_who_is_asked_says_the_instruction_again_and_the_crew_reads_it_back() -> None:
+    world = World(CLEARANCE, READBACK)
+    asked(world, "ATC", "clearance")
+    asked(world, "ATC", "clearance")
+    world.run_until(60.0)
+    again = ["clearance.confirmation-1", "clearance.confirmation-1.readback"]
+    assert world.said() == ["clearance", "readback", *again]
+    assert world.spoken(again[0]).text == CLEARANCE["text"]
+    assert world.spoken(again[0]).t_tx_ns == 33 * SECOND_NS
+    assert world.spoken(again[1]).text == READBACK["text"]
+    assert len(world.done) == 1
+
+
+def test_a_controller_who_is_asked_about_a_readback_asks_the_crew_for_it() -> None:
+    world = World(CLEARANCE, READBACK)
+    asked(world, "ATC", "readback")
+    world.run_until(60.0)
+    request, again = world.said()[2:]
+    assert (world.spoken(request).speaker, world.spoken(again).speaker) == (TOWER, "AAL123")
+    assert "say again" in world.spoken(request).text
+    assert world.spoken(again).text == READBACK["text"]
+
+
+def test_a_crew_that_is_asked_says_its_own_call_again_without_being_asked_by_anybody() -> None:
+    world = World(CLEARANCE, READBACK)
+    asked(world, "AAL123")
+    world.run_until(60.0)
+    assert world.said()[2:] == ["readback.confirmation-1"]
+
+
+def test_who_had_missed_the_call_takes_it_when_it_is_said_again() -> None:
+    failure = {"type": "not_received", "line": "clearance", "actor": "AAL123"}
+    world = World(CLEARANCE, READBACK, failures=[failure])
+    asked(world, "ATC", "clearance")
+    world.run_until(60.0)
+    assert world.said() == ["clearance", "clearance.confirmation-1", "readback"]
+    assert [callsign for callsign, _, _ in world.done] == ["AAL123"]
+
+
+def test_a_request_to_confirm_what_was_never_said_is_left_alone() -> None:
+    world = World()
+    asked(world, "ATC")
+    world.run_until(60.0)
+    assert world.said() == []
 
 
 def test_two_calls_at_once_are_understood_by_nobody_and_both_are_made_again() -> None:

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from airhilt.phraseology import Action, Instruction, parse_call
-from airhilt.world.actors.listening import TAU_ASR, Listener, Understanding, commands_of
+from airhilt.phraseology import TAU_ASR, Action, Instruction, parse_call
+from airhilt.world.actors.listening import Listener, Understanding, commands_of
 
 ON_FREQUENCY = ("AAL123", "DAL456")
 SAID = "American one two three, climb and maintain flight level three three zero."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
 from airhilt.assistant.decision.paper.config import PaperConfig
 from airhilt.assistant.decision.paper.ladder import Ladder
@@ -33,7 +34,9 @@ class PaperEngine:
         self.ambiguous = AmbiguousCalls()
         ladder = Ladder(config, self.visual_tracks, self.ambiguous)
         timing = RunwayConfig(persistence_s=0.0, release_s=config.release_s)
-        self.runways = RunwayWatch(timing, self.visual_tracks, ladder.threats)
+        self.runways = RunwayWatch(
+            timing, self.visual_tracks, Guard(config.tau_asr), ladder.threats
+        )
 
     def receive(self, received: Received) -> None:
         """Update positions, visual tracks and clearances with one message."""

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.runway import RunwayWatch
@@ -24,12 +25,20 @@ from airhilt.messages import (
     TransmissionAudio,
     TransmissionOpened,
 )
+from airhilt.phraseology import TAU_ASR
 
 
 @dataclass(frozen=True)
 class ReferenceConfig:
-    """Thresholds of the reference engine."""
+    """Thresholds of the reference engine.
 
+    Attributes
+    ----------
+    tau_asr
+        Confidence below which a slot of a call is in doubt; 0 believes every word.
+    """
+
+    tau_asr: float = TAU_ASR
     separation: SeparationConfig = field(default_factory=SeparationConfig)
     runways: RunwayConfig = field(default_factory=RunwayConfig)
     intruders: IntruderConfig = field(default_factory=IntruderConfig)
@@ -49,8 +58,9 @@ class ReferenceEngine:
     def __init__(self, config: ReferenceConfig | None = None) -> None:
         config = config or ReferenceConfig()
         self.visual_tracks = VisualTracks()
-        self.separation = SeparationWatch(config.separation)
-        self.runways = RunwayWatch(config.runways, self.visual_tracks)
+        guard = Guard(config.tau_asr)
+        self.separation = SeparationWatch(config.separation, guard)
+        self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
         self.intruders = IntruderWatch(
             config.intruders, self.visual_tracks, self.runways.runway_of_arrival
         )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S
 from airhilt.assistant.decision.visual_tracks import AGREEING_CAMERAS, PERSISTENCE_NS, TAU_VIS
+from airhilt.phraseology import TAU_ASR
 from airhilt.units import SECOND_NS
 
 
@@ -15,6 +16,8 @@ class PaperConfig:
 
     time_to_go_s: float = PAPER_TIME_TO_GO_S
     """Time to go, in s, from which an occupied runway is a WARNING."""
+    tau_asr: float = TAU_ASR
+    """Confidence below which a slot of a call is in doubt, and asked for."""
     tau_vis: float = TAU_VIS
     """Least belief with which cameras show that a runway is occupied."""
     cameras: int = AGREEING_CAMERAS

@@ -13,6 +13,7 @@ from airhilt.assistant.decision.findings import (
     RecipientUnclear,
     RunwayMisread,
     TcasAdvisory,
+    Unclear,
 )
 from airhilt.engines import Engine
 from airhilt.messages import CONTROLLER, Climb, GoAround, MaintainLevel, Recommendation, Turn
@@ -36,6 +37,8 @@ class Template:
                 return _loss_of_separation(alert, loss, recipient)
             case LevelMisread() as misread:
                 return f"{misread.callsign} {misread.statement()}"
+            case Unclear() as unclear:
+                return f"confirm {unclear.statement()}, traffic {unclear.traffic}"
             case Intruder() as intruder:
                 return _intruder(alert, intruder, recipient)
             case TcasAdvisory(aural=aural):

@@ -1,0 +1,98 @@
+"""The guard of the AIRHILT paper's ladder: what was heard with too little confidence is asked for.
+
+Each slot of an instruction that the engine acts on has the recogniser's least confidence in its
+words. Below tau_ASR the slot is in doubt: it is neither believed nor ignored (arXiv 2511.18718).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from airhilt.messages import Transcript
+from airhilt.phraseology import TAU_ASR, Call, Instruction, parse_call
+
+Slot = Literal["callsign", "action", "runway", "altitude"]
+AMBIGUOUS = 0.5
+"""Confidence in a callsign that may be either of two, as in docs/phraseology.md."""
+
+
+def call_of(transcript: Transcript, callsigns: Iterable[str]) -> Call:
+    """Return the meaning of a transcript, with the confidences of its words.
+
+    Where the engine gives none, or not one for each word, the confidence in the whole stands for
+    that in each word.
+    """
+    return parse_call(transcript.text, callsigns, _by_word(transcript))
+
+
+def _by_word(transcript: Transcript) -> list[float]:
+    size = len(transcript.text.split())
+    by_word = [word.confidence for word in transcript.words]
+    return by_word if len(by_word) == size else [transcript.confidence] * size
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """An instruction, or its readback, of which one slot is in doubt.
+
+    Attributes
+    ----------
+    callsign
+        Callsign that was heard, or the likeliest one.
+    is_answered
+        True if no readback is to come that may settle it.
+    """
+
+    callsign: str
+    slot: Slot
+    confidence: float
+    said: Instruction
+    transcript: Transcript
+    is_answered: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Guard:
+    """Tells which slot of an instruction is in doubt; with a threshold of 0 it tells nothing."""
+
+    tau_asr: float = TAU_ASR
+
+    def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
+        """Return the first slot of an instruction that is in doubt, None if there is none."""
+        name = AMBIGUOUS if call.match.ambiguous else call.match.score
+        return (
+            self._doubt("callsign", name, call, said, transcript)
+            or self._doubt("action", said.action_heard, call, said, transcript)
+            or self.doubt_of_value(call, said, transcript)
+        )
+
+    def doubt_of_value(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
+        """Return the doubt about the runway or the level of an instruction, None if there is none.
+
+        An instruction and its readback that agree in the callsign and the action settle these.
+        """
+        slot: Slot = "runway" if said.altitude_ft is None else "altitude"
+        return self._doubt(slot, said.details_heard, call, said, transcript)
+
+    def _doubt(
+        self, slot: Slot, confidence: float, call: Call, said: Instruction, transcript: Transcript
+    ) -> Doubt | None:
+        callsign = call.match.callsign
+        if callsign is None or confidence >= self.tau_asr:
+            return None
+        is_answered = not call.addressed_first
+        return Doubt(callsign, slot, confidence, said, transcript, is_answered)
+
+    def doubt_of_rest(
+        self, callsign: str, missing: Instruction, transcript: Transcript
+    ) -> Doubt | None:
+        """Return the doubt that a call had an instruction that was not heard, None if it had not.
+
+        It may have had it where any of its words is in doubt.
+        """
+        least = min(_by_word(transcript), default=0.0)
+        if least >= self.tau_asr:
+            return None
+        return Doubt(callsign, "action", least, missing, transcript, is_answered=True)

@@ -1,0 +1,152 @@
+"""Calls that are said again because an advisory asks to confirm them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from airhilt.messages import Advisory, Confirm
+from airhilt.sensors.radio.answers import Answers
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director, Priority
+from airhilt.units import seconds_to_ns
+from airhilt.world.actors.listening import Listener
+
+CONFIRM_AFTER_S = 3.0
+"""Time in s from an advisory that asks to confirm a call until whoever is asked wants to speak: an
+estimate of reading it and reaching for the button."""
+
+
+class Confirmations:
+    """Lets controllers and crews do what an advisory recommends by `Confirm`.
+
+    Who is asked says the call again if it was its own, and else asks its speaker to. The other
+    reads an instruction back as it has taken it; who has not taken it yet takes it now.
+
+    Parameters
+    ----------
+    said
+        Calls by the ids of their transmissions, in the order in which they were made.
+    readback_of
+        Returns the readback in the script of a call by somebody, None if there is none.
+    say
+        Makes a call.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        stations: Stations,
+        answers: Answers,
+        said: Mapping[str, RadioCall],
+        *,
+        readback_of: Callable[[RadioCall, str], RadioCall | None],
+        say: Callable[[RadioCall], None],
+    ) -> None:
+        self._director = director
+        self._stations = stations
+        self._answers = answers
+        self._said = said
+        self._readback_of = readback_of
+        self._say = say
+        self._asked: set[tuple[str, str]] = set()
+        """Advisories that were answered, by id and recipient."""
+        self._originals: dict[str, RadioCall] = {}
+        """Calls that were said again, by the ids of what was said then."""
+        self._times: dict[str, int] = {}
+
+    def take(self, advisory: Advisory) -> None:
+        """Let the recipient of an advisory confirm a call, if that is recommended."""
+        recommended, key = advisory.recommendation, (advisory.id, advisory.recipient)
+        if not isinstance(recommended, Confirm) or not advisory.active or key in self._asked:
+            return
+        call = self._call(advisory, recommended.callsign)
+        asked = None if call is None else self._asked_of(call, advisory.recipient)
+        if call is None or asked is None or call.is_due_again:
+            return
+        self._asked.add(key)
+        again = self._again(call)
+        due = again if asked == call.speaker else self._question(call, asked, again)
+        due_ns = self._director.now_ns + seconds_to_ns(CONFIRM_AFTER_S)
+        self._director.at(due_ns, partial(self._say, due), Priority.SCRIPT)
+
+    def _call(self, advisory: Advisory, callsign: str) -> RadioCall | None:
+        """Return the call in doubt: that of the evidence, or else the last of the callsign."""
+        of_evidence = [
+            self._said[name] for name in advisory.evidence.radio_ids if name in self._said
+        ]
+        of_callsign = [
+            each for each in self._said.values() if callsign in (each.speaker, each.addressed)
+        ]
+        calls = of_evidence or of_callsign
+        return self._originals.get(calls[-1].id, calls[-1]) if calls else None
+
+    def _asked_of(self, call: RadioCall, recipient: str) -> str | None:
+        """Return which side of a call a recipient is: an actor itself, or the unit."""
+        if self._stations.is_actor(recipient):
+            return recipient
+        sides = (call.speaker, call.addressed)
+        return next((name for name in sides if name and not self._stations.is_actor(name)), None)
+
+    def _again(self, call: RadioCall) -> RadioCall:
+        """Return a call as it is said again, with its readback."""
+        text, commands = call.said, call.meant
+        if call.scripted is not None and call.scripted.deaf:  # As in a repetition: all can hear it.
+            text, commands = call.scripted.declared.text, call.scripted.declared.commands
+        times = self._times[call.id] = self._times.get(call.id, 0) + 1
+        again = RadioCall(
+            f"{call.id}.confirmation-{times}",
+            call.frequency_khz,
+            call.speaker,
+            call.addressed,
+            text,
+            tuple(each for each in commands if each.actor not in call.taken_by),
+            in_reply_to=call,
+        )
+        self._originals[again.id] = call
+        listener = call.addressed
+        if listener is None:
+            return again
+        has_taken = listener in call.taken_by
+        in_script = self._readback_of(call, listener)
+        if not has_taken:  # A readback of the script follows from its taking the call now.
+            again.once_taken_by(listener, partial(call.take, listener))
+        if self._stations.is_actor(listener) and (has_taken or in_script is None):
+            again.answer = self._readback(call, again, listener, in_script)
+        return again
+
+    def _readback(
+        self, call: RadioCall, again: RadioCall, listener: str, before: RadioCall | None
+    ) -> RadioCall:
+        """Return the readback of a call that is said again: as before, if it was read back."""
+        if before is not None and before.times_said:
+            text = before.said
+        else:
+            listens = Listener(self._stations.actors_on(call.frequency_khz))
+            meant = listens.parse(call.said, listens.callsigns, None).instructions
+            text = self._answers.readback(listener, meant)
+        readback = RadioCall(
+            f"{again.id}.readback",
+            call.frequency_khz,
+            listener,
+            call.speaker,
+            text,
+            in_reply_to=again,
+            is_repeated=False,
+        )
+        self._originals[readback.id] = call if before is None else before
+        return readback
+
+    def _question(self, call: RadioCall, asked: str, again: RadioCall) -> RadioCall:
+        """Return the question to the speaker of a call, who answers by saying it again."""
+        actors = [name if self._stations.is_actor(name) else None for name in (asked, call.speaker)]
+        return RadioCall(
+            f"{again.id}.request",
+            call.frequency_khz,
+            asked,
+            call.speaker,
+            self._answers.say_again(*actors),
+            in_reply_to=call,
+            answer=again,
+        )

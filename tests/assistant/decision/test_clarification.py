@@ -1,0 +1,177 @@
+"""What is heard with too little confidence is neither believed nor ignored: it is asked for."""
+
+from __future__ import annotations
+
+import pytest
+
+from airfield import NORTH, Airfield, Mover, drives, lands, stands, takes_off
+from airhilt.assistant.decision.engines.reference import ReferenceConfig
+from airhilt.assistant.decision.guard import call_of
+from airhilt.messages import Advisory, Confirm, Transcript
+from decisions import reference
+from encounters import Encounter, Flight
+
+CLEARED = (20.0, "American one two three, runway zero one, cleared to land.")
+UNSURE_CLEARED = (20.0, "American one two three, runway zero? one?, cleared to land.")
+RIGHT = (26.0, "Cleared to land runway zero one, American one two three.")
+WRONG = (26.0, "Cleared to land runway one niner, American one two three.")
+UNSURE_WRONG = (26.0, "Cleared to land runway one? niner, American one two three.")
+UNSURE_NAME = (20.0, "American? one? two? three?, runway zero one, cleared to land.")
+CROSS = "Ops one, cross runway zero one."
+CROSSES = "Crossing runway zero one, Ops one."
+
+
+def field(*calls: tuple[float, str], tau_asr: float = 0.8, is_busy: bool = True) -> Airfield:
+    """One is on final; another stands on the runway."""
+    movers = [Mover("AAL123", NORTH, lands(160))]
+    if is_busy:
+        movers.append(Mover("DAL456", NORTH, takes_off(999.0)))
+    worker = reference(ReferenceConfig(tau_asr=tau_asr))
+    return Airfield(movers, list(calls), worker=worker, openings_are_heard=True)
+
+
+def questions(airfield: Airfield | Encounter) -> list[tuple[float, str, str]]:
+    return [
+        (t_s, each.recommendation.callsign, each.recommendation.slot)
+        for t_s, each in airfield.told
+        if isinstance(each.recommendation, Confirm)
+    ]
+
+
+def mismatches(airfield: Airfield | Encounter) -> list[Advisory]:
+    return [each for _, each in airfield.told if each.kind == "readback_mismatch"]
+
+
+def test_a_readback_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
+    airfield = field(CLEARED, UNSURE_WRONG).run(40)
+    assert questions(airfield) == [(26.0, "AAL123", "runway")]
+    assert mismatches(airfield) == []
+    ((_, asked),) = airfield.told
+    assert (asked.kind, asked.severity, asked.recipient) == ("clarification", "ADVISORY", "ATC")
+    assert asked.evidence.radio_ids == ("1",)
+    assert asked.message.startswith("confirm runway of AAL123")
+
+
+def test_said_again_with_confidence_it_is_told() -> None:
+    airfield = field(CLEARED, UNSURE_WRONG, (34.0, WRONG[1])).run(40)
+    assert {each.t_ready_ns for each in mismatches(airfield)} == {34 * 10**9}
+    assert len(questions(airfield)) == 1
+
+
+def test_a_threshold_of_0_believes_every_word() -> None:
+    airfield = field(CLEARED, UNSURE_WRONG, tau_asr=0.0).run(40)
+    assert questions(airfield) == []
+    assert len(mismatches(airfield)) == 2
+
+
+@pytest.mark.parametrize("unsure", [UNSURE_CLEARED, UNSURE_NAME])
+def test_what_is_read_back_as_it_was_heard_needs_no_question(unsure: tuple[float, str]) -> None:
+    assert field(unsure, RIGHT).run(45).told == []
+
+
+def test_an_unsure_instruction_that_nobody_reads_back_is_asked_for() -> None:
+    assert questions(field(UNSURE_CLEARED).run(45)) == [(25.0, "AAL123", "runway")]
+
+
+def test_an_instruction_of_which_only_the_name_is_unsure_is_not_misaddressed() -> None:
+    other = (26.0, "Cleared to land runway zero one, Delta four five six.")
+    airfield = field(UNSURE_NAME, other).run(40)
+    assert questions(airfield) == [(26.0, "AAL123", "callsign")]
+    assert mismatches(airfield) == []
+
+
+def test_a_sure_readback_of_what_was_not_heard_is_asked_for_where_words_are_unsure() -> None:
+    garbled = (20.0, "American one two three, hold position, lend? to the.")
+    airfield = field(garbled, RIGHT).run(40)
+    assert questions(airfield) == [(26.0, "AAL123", "action")]
+    assert mismatches(airfield) == []
+
+
+def test_with_nobody_else_at_the_runway_it_does_not_matter() -> None:
+    assert field(CLEARED, UNSURE_WRONG, is_busy=False).run(40).told == []
+
+
+def test_a_callsign_is_asked_about_once_a_minute_at_most() -> None:
+    again = [(34.0 + 8.0 * n, UNSURE_WRONG[1]) for n in range(6)]
+    airfield = field(CLEARED, UNSURE_WRONG, *again).run(84)
+    assert len(questions(airfield)) == 1
+
+
+def test_a_crew_that_asks_for_it_again_is_not_overtaken_by_the_question() -> None:
+    say_again = (26.0, "Say again, American one two three.")
+    assert questions(field(UNSURE_CLEARED, say_again).run(45)) == []
+
+
+def crossing(*calls: tuple[float, str]) -> Airfield:
+    """A vehicle crosses the runway well before an arrival, cleared or not."""
+    movers = [
+        Mover("AAL123", NORTH, lands(95)),
+        Mover("OPS1", NORTH, drives(30.0), category="C2"),
+    ]
+    return Airfield(movers, list(calls), openings_are_heard=True).run(80)
+
+
+def test_an_unsure_clearance_to_cross_makes_it_right_for_nobody() -> None:
+    assert "WARNING" not in [
+        each.severity for each in crossing((24.0, CROSS), (28.0, CROSSES)).to("ATC")
+    ]
+    unsure = crossing((24.0, "Ops one, cross? runway zero one."))
+    without = crossing()
+    assert [each.severity for each in unsure.to("AAL123")] == [
+        each.severity for each in without.to("AAL123")
+    ]
+
+
+def test_an_unsure_clearance_of_somebody_unseen_is_a_caution_all_the_same() -> None:
+    calls = [(40.0, "Ops one, proceed? onto runway zero one.")]
+    airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
+    assert airfield.first("CAUTION")[0] >= 40.0
+
+
+def test_an_unsure_instruction_to_hold_withdraws_no_clearance() -> None:
+    def is_over(hold: str) -> bool:
+        calls = [(36.0, "Ops one, proceed onto runway zero one."), (40.0, f"Ops one, {hold}.")]
+        airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
+        return not airfield.to("AAL123")[-1].active
+
+    assert is_over("hold short of runway zero one")
+    assert not is_over("hold? short? of runway zero one")
+
+
+CLIMB = (20.0, 25.0, "American one two three, climb and maintain flight level three three zero.")
+
+
+def climbing(read_back: str, seconds: float = 60.0) -> Encounter:
+    flights = [
+        Flight("AAL123", "a1b2c3", 90.0, 30.7, 31_000),
+        Flight("DAL456", "a4d5e6", 270.0, 30.7, 34_000),
+    ]
+    text = f"Climb and maintain flight level {read_back}, American one two three."
+    return Encounter(flights, seconds, calls=[CLIMB, (26.0, 31.0, text)]).fly()
+
+
+def test_a_level_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
+    encounter = climbing("three four? zero")
+    assert questions(encounter) == [(31.0, "AAL123", "altitude")]
+    assert mismatches(encounter) == []
+
+
+@pytest.mark.parametrize("read_back", ["three three? zero", "three three zero"])
+def test_a_level_that_agrees_is_believed(read_back: str) -> None:
+    assert climbing(read_back).told == []
+
+
+def test_without_words_the_confidence_in_the_whole_stands_for_each() -> None:
+    heard = Transcript(
+        id="1", frequency_khz=119100, t_tx_ns=0, t_end_ns=1, confidence=0.3, engine="mine",
+        text="American one two three, runway zero one, cleared to land.",
+    )  # fmt: skip
+    call = call_of(heard, ["AAL123"])
+    assert call.match.score == call.instructions[0].confidence == 0.3
+
+
+def test_standing_traffic_is_no_reason_to_ask_about_what_is_known_already() -> None:
+    movers = [Mover("AAL123", NORTH, lands(160)), Mover("DAL456", NORTH, stands(50.0))]
+    again = (34.0, UNSURE_CLEARED[1])
+    airfield = Airfield(movers, [CLEARED, RIGHT, again], openings_are_heard=True).run(50)
+    assert questions(airfield) == []
