@@ -153,8 +153,12 @@ class Strip:
 
     def room_m(self, point: Vector, heading_rad: float) -> float:
         """Return the distance straight on to the pavement, in m: 0 on it, or if it is not ahead."""
-        way = way_through(self._pavement, point, heading_rad)
+        way = self.pavement_way(point, heading_rad)
         return 0.0 if way is None else way.entry_m
+
+    def pavement_way(self, point: Vector, heading_rad: float) -> Way | None:
+        """Return how a straight way leads through the pavement; None if it does not."""
+        return way_through(self._pavement, point, heading_rad)
 
 
 class Way(NamedTuple):

@@ -10,13 +10,8 @@ from collections.abc import Iterator
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.findings import Obstructs
 from airhilt.assistant.decision.ladder import fused_severity
-from airhilt.assistant.decision.mobiles import (
-    BRAKING_M_S2,
-    STANDING_M_S,
-    TAKEOFF_M_S2,
-    Mobile,
-    Use,
-)
+from airhilt.assistant.decision.leaving import leaving_s
+from airhilt.assistant.decision.mobiles import Mobile, Use
 from airhilt.assistant.decision.situation import Obstacle, SeenObstacle
 from airhilt.assistant.decision.threats import (
     UNIDENTIFIED,
@@ -29,12 +24,6 @@ from airhilt.messages import Severity
 from airhilt.surveillance.squitters import NACP_95_PERCENT_M
 from airhilt.units import SECOND_NS
 
-LIFT_OFF_M_S = 75.0
-"""Speed at which a departure has left the ground, in m/s."""
-TURN_OFF_M_S = 8.0
-"""Speed to which a landing brakes before it turns off, in m/s."""
-TURN_OFF_S = 12.0
-"""Time from then until it has left the runway, in s."""
 LEAST_ENTRY_M_S = 2.0
 """Speed, in m/s, below which nobody is about to enter a runway."""
 HARD_BRAKING_M_S2 = 4.0
@@ -156,17 +145,12 @@ def _enters(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
 
 def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
     """Return the time until a mobile is off the runway or in the air, in s; None if it stays."""
-    mobile, speed = obstacle.mobile, obstacle.mobile.speed_m_s
+    mobile = obstacle.mobile
     own = outlook.situation.use(mobile)
-    if own is not None and own.kind == "departure" and own.strip is use.strip:
-        follows = own.direction is use.direction
-        return max(LIFT_OFF_M_S - speed, 0.0) / TAKEOFF_M_S2 if follows else None
-    if speed < STANDING_M_S or "proceed" in outlook.cleared_to(mobile.callsign, use.strip):
+    takes_off = own is not None and own.kind == "departure" and own.strip is use.strip
+    if not takes_off and "proceed" in outlook.cleared_to(mobile.callsign, use.strip):
         return None
-    straight_s = obstacle.way.exit_m / speed
-    if not mobile.landed:
-        return straight_s
-    return min(straight_s, max(speed - TURN_OFF_M_S, 0.0) / BRAKING_M_S2 + TURN_OFF_S)
+    return leaving_s(obstacle, own, use)
 
 
 def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:

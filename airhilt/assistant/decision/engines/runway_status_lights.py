@@ -1,0 +1,123 @@
+"""The baseline on the ground for runways: red lights by surface surveillance.
+
+It tells those who have a lit light before their eyes, and never the controller, who does not see
+the lights. A light that somebody stands before is an ADVISORY: it is red, and there is nothing to
+do. A light against which somebody moves on is a WARNING: red means stop. Who is too near the runway
+to stop short of it goes by their own judgement, as the protocol for the lights has it: nothing is
+recommended.
+
+The real lights need no address. Here a target without a transponder is told by the name of the only
+vehicle of the roster that no track has; without one, nobody can be told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from airhilt.assistant.decision.aerodrome import Aerodrome
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.raised_alerts import Hazard, RaisedAlerts
+from airhilt.assistant.decision.status_lights import RedLights, StatusLightConfig, StatusLights
+from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
+from airhilt.assistant.decision.threats import UNIDENTIFIED
+from airhilt.engines import Engine
+from airhilt.messages import (
+    Briefing,
+    CancelTakeoff,
+    Evidence,
+    HoldPosition,
+    Message,
+    Recommendation,
+    Severity,
+    SurfaceTrack,
+)
+
+RELEASE_S = 1.0
+"""Time for which a light must be out before that is told, in s: an assumption."""
+
+
+class RunwayStatusLightEngine:
+    """Shows red lights to crews and drivers at the entrances and beginnings of runways."""
+
+    name = "runway_status_lights"
+    reads: tuple[type[Message], ...] = (Briefing, SurfaceTrack)
+
+    def __init__(self, config: StatusLightConfig | None = None) -> None:
+        self._config = config or StatusLightConfig()
+        self._traffic: SurfaceTraffic | None = None
+        self._lights: StatusLights | None = None
+        self._vehicles: frozenset[str] = frozenset()
+        self._alerts = RaisedAlerts("lights", persistence_s=0.0, release_s=RELEASE_S)
+
+    def receive(self, received: Received) -> None:
+        """Update the traffic with one message."""
+        match received.message:
+            case Briefing(airport=airport, roster=roster) if airport is not None:
+                aerodrome = Aerodrome(airport)
+                self._traffic = SurfaceTraffic(aerodrome)
+                self._lights = StatusLights(aerodrome, self._config)
+                self._vehicles = frozenset(
+                    entry.callsign for entry in roster if entry.category == "vehicle"
+                )
+            case SurfaceTrack() as track if self._traffic is not None:
+                self._traffic.take(track)
+
+    def decide(self, t_ns: int) -> Decision:
+        """Return the alerts that are new, have risen, or are over."""
+        if self._traffic is None or self._lights is None:
+            return Decision()
+        self._traffic.forget(t_ns)
+        hazards = [
+            hazard
+            for red in self._lights.lit(self._traffic, t_ns)
+            for hazard in self._hazards(red, self._traffic)
+        ]
+        return Decision(self._alerts.update(t_ns, hazards))
+
+    def _hazards(self, red: RedLights, traffic: SurfaceTraffic) -> Iterator[Hazard]:
+        """Yield the hazard for the viewer of lit lights; none if nobody can be told."""
+        viewer, because = self._name(red.viewer, traffic), self._name(red.because, traffic)
+        takes_off = red.lights != "entrance"
+        if viewer is None or (takes_off and viewer in self._vehicles):
+            return
+        other = because or UNIDENTIFIED
+        numbers = tuple(str(target.number) for target in (red.viewer, red.because))
+        yield Hazard(
+            key=(red.lights, numbers[0], red.strip.name),
+            severity=Severity.WARNING if red.is_disregarded else Severity.ADVISORY,
+            kind="runway_conflict",
+            recipients=(viewer,),
+            traffic=(viewer, other),
+            evidence=Evidence(
+                sources=("surface",),
+                runway=red.runway,
+                note=f"{red.lights} lights red for runway {red.runway}, traffic {other}",
+                tracks=tuple(
+                    target.icao24 or f"surface track {target.number}"
+                    for target in (red.viewer, red.because)
+                ),
+                rules=(f"{red.lights} lights",),
+            ),
+            recommendations={viewer: _response(red)} if red.can_stop else {},
+        )
+
+    def _name(self, target: Target, traffic: SurfaceTraffic) -> str | None:
+        """Return the name of a target; by elimination, if it has no transponder."""
+        if target.callsign or target.icao24:
+            return target.callsign or target.icao24
+        missing = self._vehicles - {each.callsign for each in traffic}
+        return next(iter(missing)) if len(missing) == 1 else None
+
+
+def _response(red: RedLights) -> Recommendation:
+    """Return what is done on red: stop short of the runway, or do not take off."""
+    if red.lights == "entrance":
+        return HoldPosition(runway=red.runway)
+    return CancelTakeoff(runway=red.runway)
+
+
+ENGINE = Engine(
+    name="runway_status_lights",
+    summary="entrance, take-off hold and intersection lights by surface surveillance",
+    create=lambda _: RunwayStatusLightEngine(),
+)

@@ -1,0 +1,221 @@
+"""The runway status lights: which are lit when, who is told, and what is done on red."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import pytest
+
+from airfield import (
+    APPROACH_M_S,
+    BRIEFING,
+    NORTH,
+    SOUTHEAST,
+    Mover,
+    Spot,
+    drives,
+    goes_around,
+    lands,
+    stands,
+    takes_off,
+)
+from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.messages import Advisory, SurfaceTrack
+from airhilt.sim import Input
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees
+
+THRESHOLD_S = 60.0
+ONE_MILE_S = THRESHOLD_S - NAUTICAL_MILE / APPROACH_M_S
+AIRPORT = "XFLD"
+
+
+@dataclass
+class SurfaceField:
+    """Feeds exact tracks of some movers to the lights, once a second."""
+
+    movers: list[Mover]
+    told: list[tuple[float, Advisory]] = field(default_factory=list)
+
+    def run(self, seconds: int) -> SurfaceField:
+        worker = DecisionWorker(decision_engine("runway_status_lights"), Template())
+        worker.step(0, [Input("briefing", 0, BRIEFING.model_dump_json().encode())])
+        for t_s in range(seconds):
+            t_ns = t_s * SECOND_NS
+            inputs = [
+                Input(f"surface/{AIRPORT}", t_ns, self.track(number, mover, t_s))
+                for number, mover in enumerate(self.movers, start=1)
+            ]
+            for output in worker.step(t_ns, inputs).outputs:
+                self.told.append((t_s, Advisory.model_validate_json(output.payload)))
+        return self
+
+    @staticmethod
+    def track(number: int, mover: Mover, t_s: float) -> bytes:
+        state, grounded = mover.state(t_s), mover.is_on_ground(t_s)
+        speed = math.hypot(state.velocity_north_m_s, state.velocity_east_m_s)
+        named = mover.equipped
+        track = SurfaceTrack(
+            airport=AIRPORT, track=number, kind="combined" if named else "primary",
+            t_track_ns=round(t_s * SECOND_NS), accuracy_m=7.5,
+            latitude_deg=state.latitude_rad / DEGREE, longitude_deg=state.longitude_rad / DEGREE,
+            altitude_ft=state.altitude_m / FOOT if named and not grounded else None,
+            on_ground=grounded if named else None,
+            ground_speed_kt=speed / KNOT,
+            track_deg=bearing_degrees(state.heading_rad) if speed > 0.2 else None,
+            icao24=mover.icao24 if named else None, callsign=mover.callsign if named else None,
+        )  # fmt: skip
+        return track.model_dump_json().encode()
+
+    def red(self, recipient: str, severity: str | None = None) -> list[float]:
+        """Return when somebody was told of red lights."""
+        return [
+            t_s
+            for t_s, told in self.told
+            if told.recipient == recipient
+            and told.active
+            and severity in (None, told.severity.value)
+        ]
+
+    def out(self, recipient: str) -> list[float]:
+        """Return when somebody was told that lights are out."""
+        return [t_s for t_s, told in self.told if told.recipient == recipient and not told.active]
+
+
+def lit(*movers: Mover, seconds: int = 100) -> SurfaceField:
+    return SurfaceField(list(movers)).run(seconds)
+
+
+def comes_to_hold(at_s: float, along_m: float = 800.0) -> Mover:
+    """A truck that drives up to a hold line, stands there, and has seen the runway ahead."""
+    return Mover("OPS1", NORTH, drives(at_s, along_m=along_m, to_m=-90.0), category="C2")
+
+
+def arrival(at_s: float = THRESHOLD_S) -> Mover:
+    return Mover("AAL123", NORTH, lands(at_s))
+
+
+# --- entrance lights ------------------------------------------------------------------------
+
+
+def test_entrance_lights_are_red_from_one_mile_of_an_arrival_to_before_it_passes() -> None:
+    field = lit(arrival(), comes_to_hold(0.0))
+    (red_s,), (out_s,) = field.red("OPS1"), field.out("OPS1")
+    assert red_s == pytest.approx(ONE_MILE_S, abs=1.5)
+    passes_s = THRESHOLD_S + 400.0 / APPROACH_M_S + 400.0 / 60.0
+    assert passes_s - 6.0 <= out_s <= passes_s
+
+
+def test_a_slow_arrival_lights_them_from_three_quarters_of_a_mile() -> None:
+    def slow(t_s: float) -> Spot:
+        return (t_s - 100.0) * 50.0, 0.0, max((500.0 - (t_s - 100.0) * 50.0) * 0.052, 0.0)
+
+    field = lit(Mover("AAL123", NORTH, slow), comes_to_hold(0.0))
+    assert field.red("OPS1")[0] == pytest.approx(100.0 - 0.75 * NAUTICAL_MILE / 50.0, abs=1.5)
+
+
+def test_a_departure_lights_them_ahead_from_30_knots_until_it_is_in_the_air() -> None:
+    behind, ahead, far = (
+        Mover(name, NORTH, drives(0.0, along_m=along_m, to_m=-90.0), category="C2")
+        for name, along_m in (("OPS1", -30.0), ("OPS2", 1300.0), ("OPS3", 2050.0))
+    )
+    field = lit(Mover("AAL123", NORTH, takes_off(30.0)), behind, ahead, far)
+    reaches_30_kt_s = 30.0 + 30.0 * KNOT / 2.0
+    assert field.red("OPS2")[0] == pytest.approx(reaches_30_kt_s, abs=1.5)
+    assert not field.red("OPS1")
+    lifts_off_s = 30.0 + 75.0 / 2.0
+    assert field.out("OPS3")[0] == pytest.approx(lifts_off_s, abs=3.5)
+
+
+def test_a_landing_lights_only_what_it_reaches_in_30_s_and_nothing_once_it_taxies() -> None:
+    field = lit(arrival(), comes_to_hold(0.0, along_m=2050.0), seconds=160)
+    assert field.out("OPS1")[0] < 110.0
+    slow_s = THRESHOLD_S + 400.0 / APPROACH_M_S + (APPROACH_M_S - 34.0 * KNOT) / 1.8
+    assert field.out("OPS1")[0] <= slow_s + 2.0
+
+
+def test_a_rejected_take_off_puts_them_out_below_34_knots() -> None:
+    def rejects(t_s: float) -> Spot:
+        rolled = max(t_s - 30.0, 0.0)
+        fast, braked = min(rolled, 25.0), max(rolled - 25.0, 0.0)
+        braked = min(braked, 50.0 / 3.0)
+        return 50.0 + fast**2 + 50.0 * braked - 1.5 * braked**2, 0.0, None
+
+    field = lit(Mover("AAL123", NORTH, rejects), comes_to_hold(0.0, along_m=2000.0))
+    below_s = 55.0 + (50.0 - 34.0 * KNOT) / 3.0
+    assert field.out("OPS1")[0] == pytest.approx(below_s, abs=2.5)
+
+
+def test_a_go_around_puts_them_out() -> None:
+    field = lit(Mover("AAL123", NORTH, goes_around(THRESHOLD_S, 900.0)), comes_to_hold(0.0))
+    assert field.red("OPS1")
+    assert field.out("OPS1")[0] < THRESHOLD_S
+
+
+def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning() -> None:
+    standing = lit(arrival(), comes_to_hold(0.0))
+    assert not standing.red("OPS1", "WARNING")
+    driving = lit(arrival(), Mover("OPS1", NORTH, drives(20.0), category="C2"))
+    assert driving.red("OPS1", "WARNING")
+
+
+def test_on_red_a_driver_stops_short_of_the_runway() -> None:
+    truck = Mover("OPS1", NORTH, drives(20.0, from_m=-220.0), category="C2")
+    told = next(t for _, t in lit(arrival(), truck).told if t.severity == "WARNING")
+    assert told.recommendation is not None
+    assert told.recommendation.action == "hold_position"
+    assert told.message == ("OPS1 hold position, entrance lights red for runway 01, traffic AAL123")
+
+
+def test_one_who_cannot_stop_short_of_the_runway_is_left_to_their_judgement() -> None:
+    truck = Mover("OPS1", NORTH, drives(ONE_MILE_S - 24.0), category="C2")
+    warnings = [t for _, t in lit(arrival(), truck).told if t.severity == "WARNING"]
+    assert [told.recommendation for told in warnings] == [None]
+
+
+def test_nobody_but_the_one_before_the_lights_is_told() -> None:
+    field = lit(arrival(), comes_to_hold(0.0), Mover("DAL456", NORTH, stands(500.0, 300.0)))
+    assert {told.recipient for _, told in field.told} == {"OPS1"}
+
+
+def test_a_truck_without_a_transponder_is_told_by_the_name_that_no_track_has() -> None:
+    truck = comes_to_hold(0.0)
+    truck.equipped = False
+    assert lit(arrival(), truck).red("OPS1")
+
+
+# --- take-off hold and intersection lights --------------------------------------------------
+
+
+def test_take_off_hold_lights_are_red_while_somebody_is_on_the_runway_ahead() -> None:
+    truck = Mover("OPS1", NORTH, drives(30.0), category="C2")
+    field = lit(Mover("AAL123", NORTH, takes_off(500.0)), truck)
+    enters_s, leaves_s = 30.0 + (250.0 - 76.0) / 8.0, 30.0 + (250.0 + 22.5) / 8.0
+    assert field.red("AAL123")[0] == pytest.approx(enters_s, abs=2.5)
+    assert field.out("AAL123")[0] == pytest.approx(leaves_s, abs=3.5)
+    assert not field.red("AAL123", "WARNING")
+
+
+def test_a_crew_that_rolls_against_them_rejects_the_take_off() -> None:
+    truck = Mover("OPS1", NORTH, stands(1500.0), category="C2")
+    field = lit(Mover("AAL123", NORTH, takes_off(20.0)), truck, seconds=40)
+    told = next(t for _, t in field.told if t.severity == "WARNING")
+    assert told.recommendation is not None
+    assert told.recommendation.action == "cancel_takeoff"
+    assert field.red("AAL123", "WARNING")[0] <= 25.0
+
+
+def test_there_are_no_lights_for_an_arrival() -> None:
+    field = lit(arrival(), Mover("OPS1", NORTH, stands(900.0), category="C2"))
+    assert not field.red("AAL123")
+
+
+def test_intersection_lights_are_red_before_a_departure_while_somebody_lands_across() -> None:
+    crossing = Mover("AAL123", SOUTHEAST, lands(THRESHOLD_S))
+    field = lit(crossing, Mover("DAL456", NORTH, takes_off(500.0)))
+    told = next(told for _, told in field.told)
+    assert told.recipient == "DAL456"
+    assert told.message.startswith("DAL456 cancel takeoff, intersection lights red for runway 01")
+    assert field.out("DAL456")

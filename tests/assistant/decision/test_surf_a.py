@@ -1,0 +1,113 @@
+"""The SURF-A baseline: which crew is alerted when, of what, and what it does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from airfield import (
+    APPROACH_M_S,
+    NORTH,
+    SOUTHEAST,
+    TOUCHDOWN_M,
+    Airfield,
+    Mover,
+    drives,
+    lands,
+    stands,
+    takes_off,
+)
+from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.errors import AirhiltError
+
+THRESHOLD_S = 90.0
+TOUCHDOWN_S = THRESHOLD_S + TOUCHDOWN_M / APPROACH_M_S
+
+
+def arrival(**rest: Any) -> Mover:
+    return Mover("AAL123", NORTH, lands(THRESHOLD_S), **rest)
+
+
+def airfield(*movers: Mover, engine: str = "surf_a", seconds: float = 95.0) -> Airfield:
+    worker = DecisionWorker(decision_engine(engine), Template())
+    return Airfield(list(movers), worker=worker).run(seconds)
+
+
+def times(field: Airfield) -> list[tuple[str, float]]:
+    """Return the active alerts with the time that was left to the touchdown."""
+    return [(told.severity.value, TOUCHDOWN_S - t_s) for t_s, told in field.told if told.active]
+
+
+def test_a_crew_that_lands_is_alerted_30_and_15_s_before_the_touchdown() -> None:
+    field = airfield(arrival(), Mover("DAL456", NORTH, stands(30.0), heading_deg=0.0))
+    (first, caution_s), (second, warning_s) = times(field)
+    assert (first, second) == ("CAUTION", "WARNING")
+    # Traffic at the threshold is met 5 s before the touchdown.
+    assert caution_s == pytest.approx(30.0 + 5.0, abs=1.5)
+    assert warning_s == pytest.approx(15.0 + 5.0, abs=1.5)
+
+
+def test_traffic_far_down_the_runway_is_alerted_before_the_touchdown_too() -> None:
+    field = airfield(arrival(), Mover("OPS1", NORTH, stands(1800.0), category="C2"))
+    (_, caution_s), (_, warning_s) = times(field)
+    assert caution_s == pytest.approx(30.0, abs=1.5)
+    assert warning_s == pytest.approx(15.0, abs=1.5)
+
+
+def test_the_crew_is_told_what_is_there_and_nobody_else_is_told() -> None:
+    field = airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), category="C2"))
+    assert {told.recipient for _, told in field.told} == {"AAL123"}
+    caution, warning = [told for _, told in field.told if told.active]
+    assert caution.message.startswith("AAL123 OPS1 is on runway 01")
+    assert warning.message.startswith("AAL123 go around, OPS1 is on runway 01")
+    assert warning.evidence.sources == ("adsb",)
+    assert len(warning.evidence.tracks) == 2
+
+
+def test_the_crew_goes_around_on_the_warning_or_already_on_the_caution() -> None:
+    for engine, severity in (("surf_a", "WARNING"), ("surf_a:caution", "CAUTION")):
+        traffic = Mover("OPS1", NORTH, stands(800.0), category="C2")
+        field = airfield(arrival(), traffic, engine=engine)
+        told = next(told for _, told in field.told if told.recommendation is not None)
+        assert told.severity == severity
+        assert told.recommendation is not None
+        assert told.recommendation.action == "go_around"
+
+
+def test_a_truck_without_ads_b_is_not_seen() -> None:
+    assert not airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), equipped=False)).told
+
+
+def test_traffic_that_has_crossed_in_time_is_no_conflict() -> None:
+    truck = Mover("OPS1", NORTH, drives(35.0, speed_m_s=12.0), category="C2")
+    assert not airfield(arrival(), truck).told
+
+
+def test_traffic_that_can_stop_short_of_the_runway_is_no_conflict() -> None:
+    truck = Mover("OPS1", NORTH, drives(60.0, to_m=-90.0), category="C2")
+    assert not airfield(arrival(), truck).told
+
+
+def test_a_crew_on_its_roll_rejects_the_take_off_for_one_that_crosses() -> None:
+    crosser = Mover("DAL456", NORTH, drives(30.0, along_m=1300.0, speed_m_s=10.0))
+    roller = Mover("AAL123", NORTH, takes_off(20.0))
+    field = airfield(roller, crosser, seconds=55.0)
+    assert field.advice("AAL123") == [("cancel_takeoff", "01")]
+    assert not field.to("DAL456")
+
+
+def test_a_preceding_departure_that_is_in_the_air_in_time_is_no_conflict() -> None:
+    assert not airfield(arrival(), Mover("DAL456", NORTH, takes_off(30.0))).told
+
+
+def test_an_arrival_to_a_crossing_runway_is_not_on_the_runway() -> None:
+    other = Mover("DAL456", SOUTHEAST, lands(THRESHOLD_S))
+    assert all(TOUCHDOWN_S - t_s < 1.0 for t_s, _ in airfield(arrival(), other).told)
+
+
+def test_a_severity_without_alerts_is_refused_by_name() -> None:
+    with pytest.raises(AirhiltError, match="'surf_a:info': expected surf_a:caution or surf_a:warn"):
+        decision_engine("surf_a:info")
