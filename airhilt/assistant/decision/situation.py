@@ -80,9 +80,11 @@ class SeenObstacle(NamedTuple):
 class Situation:
     """The runways of an airport, and everybody near them."""
 
-    def __init__(self, airport: AirportBriefing, briefing: Briefing, guard: Guard) -> None:
+    def __init__(
+        self, airport: AirportBriefing, briefing: Briefing, guard: Guard | None = None
+    ) -> None:
         self.aerodrome = Aerodrome(airport)
-        self.clearances = Clearances(guard)
+        self.clearances = Clearances(guard or Guard())
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
