@@ -295,13 +295,13 @@ class Intruder:
 
 
 @dataclass(frozen=True, slots=True)
-class TcasAdvisory:
-    """TCAS II has an advisory, which it announces.
+class Announcement:
+    """A system aboard announces something of traffic in words of its own.
 
     Attributes
     ----------
     aural
-        Announcement, such as ``climb, climb``.
+        Words, such as ``climb, climb``.
     """
 
     aural: str
@@ -322,7 +322,7 @@ Finding = (
     | Obstruction
     | OpposedClearances
     | Intruder
-    | TcasAdvisory
+    | Announcement
 )
 
 

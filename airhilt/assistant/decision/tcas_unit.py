@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.findings import TcasAdvisory
+from airhilt.assistant.decision.findings import Announcement
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack, IntruderTracks
 from airhilt.messages import (
     Climb,
@@ -333,7 +333,7 @@ class TcasUnit:
                 tracks=() if track.icao24 is None else (track.icao24,),
                 rules=("traffic_advisory" if resolution is None else "resolution_advisory",),
             ),
-            finding=TcasAdvisory(aural),
+            finding=Announcement(aural),
             recommendations=(
                 {} if resolution is None else {self.callsign: _recommendation(resolution, own)}
             ),

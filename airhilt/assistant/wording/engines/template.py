@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import (
+    Announcement,
     Intruder,
     LevelMisread,
     LossOfSeparation,
@@ -12,7 +13,6 @@ from airhilt.assistant.decision.findings import (
     Occupied,
     RecipientUnclear,
     RunwayMisread,
-    TcasAdvisory,
     Unclear,
 )
 from airhilt.engines import Engine
@@ -41,8 +41,9 @@ class Template:
                 return f"confirm {unclear.statement()}, traffic {unclear.traffic}"
             case Intruder() as intruder:
                 return _intruder(alert, intruder, recipient)
-            case TcasAdvisory(aural=aural):
-                return aural
+            case Announcement(aural=aural):
+                turn = alert.recommendations.get(recipient)
+                return f"{aural}, {in_flight(turn)}" if isinstance(turn, Turn) else aural
             case None:
                 return _on_ground(alert, recipient, alert.evidence.note or _kind(alert))
             case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):

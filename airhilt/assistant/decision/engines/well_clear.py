@@ -1,0 +1,215 @@
+"""The baseline of unmanned aviation: detect and avoid by DO-365B, for crews with ADS-B In."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from airhilt.assistant.decision.aerodrome import TrafficZone
+from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.findings import Announcement
+from airhilt.assistant.decision.remaining_clear import smallest_turn
+from airhilt.assistant.decision.tracks import Track
+from airhilt.engines import Engine
+from airhilt.geodesy.relative_motion import Relative, relative
+from airhilt.messages import (
+    AdsbReport,
+    Briefing,
+    Evidence,
+    Message,
+    Recommendation,
+    Severity,
+    Turn,
+)
+from airhilt.surveillance.well_clear import (
+    HYSTERESIS_S,
+    LOOK_AHEAD_S,
+    PREVENTIVE,
+    WARNING,
+    AlertLevel,
+    AlertName,
+    Gap,
+    level_of,
+    time_to_violation_s,
+)
+from airhilt.units import SECOND_NS
+
+SEVERITIES: dict[AlertName, Severity] = {
+    "preventive": Severity.ADVISORY,
+    "corrective": Severity.CAUTION,
+    "warning": Severity.WARNING,
+}
+AURALS = {
+    Severity.ADVISORY: "traffic, monitor",
+    Severity.CAUTION: "traffic, avoid",
+    Severity.WARNING: "traffic, maneuver now, traffic, maneuver now",
+}
+"""Aural alerts (DO-365B, table 2-21)."""
+STALE_NS = 15 * SECOND_NS
+"""Silence after which a track is dropped, in ns; an assumption."""
+CYCLE_NS = SECOND_NS
+"""Time without a report after which a pair with an alert is judged again, in ns."""
+REACH = Reach(WARNING.volume.dmod_m, PREVENTIVE.volume.zthr_m, LOOK_AHEAD_S)
+
+
+@dataclass(slots=True)
+class _Encounter:
+    """One pair from its first alert to its last."""
+
+    id: str
+    escalation: Escalation = field(default_factory=Escalation)
+    revision: int = 0
+    recommendations: dict[str, Recommendation] = field(default_factory=dict)
+
+
+class WellClearEngine:
+    """Alerts of DO-365B, phase I, to both crews of each pair that ADS-B shows.
+
+    Every aircraft with ADS-B is taken to have ADS-B In and the alerts. Positions and velocities of
+    both are those of their reports. Aircraft without ADS-B are unknown to it, though a real system
+    may see them by active surveillance or radar. Phase II, in the terminal area, is left out: there
+    is no alert if both are in the zone of a tower.
+    """
+
+    name = "well_clear"
+    reads: tuple[type[Message], ...] = (Briefing, AdsbReport)
+
+    def __init__(self) -> None:
+        self._tracks = AirTracks()
+        self._zone: TrafficZone | None = None
+        self._encounters: dict[Pair, _Encounter] = {}
+        self._count = 0
+
+    def receive(self, received: Received) -> None:
+        """Update a track with a report, or the terminal area with the briefing."""
+        match received.message:
+            case AdsbReport() as report:
+                self._tracks.take_report(report, received.t_ns)
+            case Briefing(airport=airport):
+                self._zone = None if airport is None else TrafficZone.of(airport)
+
+    def decide(self, t_ns: int) -> Decision:
+        """Return the alerts that are new, have risen, or are over."""
+        tracks = self._tracks
+        tracks.begin_step(t_ns - STALE_NS, self._encounters)
+        silent = [pair for pair in self._encounters if tracks.silent_ns(pair, t_ns) >= CYCLE_NS]
+        alerts = [
+            alert
+            for pair in dict.fromkeys([*tracks.pairs_with_news(REACH, self._encounters), *silent])
+            for alert in self._judge(pair, t_ns)
+        ]
+        tracks.end_step()
+        return Decision(alerts, again_ns=t_ns + CYCLE_NS if self._encounters else None)
+
+    def _judge(self, pair: Pair, t_ns: int) -> Iterator[Alert]:
+        """Yield the alert about one pair if it is new or has changed."""
+        first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
+        motion, gap = relative(first, second), _gap(first, second)
+        level = None if self._is_exempt(first, second) else level_of(motion, gap)
+        encounter = self._encounters.get(pair)
+        if level is None:
+            if encounter is not None:
+                yield from self._calm(pair, encounter, motion, t_ns)
+            return
+        if encounter is None:
+            self._count += 1
+            encounter = self._encounters[pair] = _Encounter(f"well-clear-{self._count}")
+        if encounter.escalation.rises(SEVERITIES[level.name], t_ns, persistence_s=0.0):
+            if level is not PREVENTIVE:
+                encounter.recommendations = _turns(first, second, gap)
+            yield _alert(encounter, first, second, _evidence(pair, motion, gap, level))
+
+    def _is_exempt(self, first: Track, second: Track) -> bool:
+        """Return whether either is on the ground, or both are in a terminal area."""
+        if self._tracks.is_grounded(first) or self._tracks.is_grounded(second):
+            return True
+        zone = self._zone
+        return zone is not None and zone.contains(first) and zone.contains(second)
+
+    def _calm(
+        self, pair: Pair, encounter: _Encounter, motion: Relative, t_ns: int
+    ) -> Iterator[Alert]:
+        """Yield the end of an alert.
+
+        Once crews were told to turn, it does not end before the two are past each other: going
+        back would bring it back.
+        """
+        must_pass = bool(encounter.recommendations)
+        if must_pass and motion.time_to_closest_approach_s() > 0.0:
+            encounter.escalation.stays()
+            return
+        if not encounter.escalation.is_over(t_ns, HYSTERESIS_S):
+            return
+        del self._encounters[pair]
+        first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
+        evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
+        yield _alert(encounter, first, second, evidence, is_active=False)
+
+
+def _gap(first: Track, second: Track) -> Gap:
+    own, other = first.profile(), second.profile()
+    return Gap(other.altitude_m - own.altitude_m, other.rate_m_s - own.rate_m_s)
+
+
+def _turns(first: Track, second: Track, gap: Gap) -> dict[str, Recommendation]:
+    """Return the turn of each crew, where there is one."""
+    opposite = Gap(-gap.gap_m, -gap.rate_m_s)
+    turns: dict[str, Turn | None] = {
+        first.callsign: smallest_turn(relative(first, second), _velocity(first), gap),
+        second.callsign: smallest_turn(relative(second, first), _velocity(second), opposite),
+    }
+    return {callsign: turn for callsign, turn in turns.items() if turn is not None}
+
+
+def _velocity(track: Track) -> tuple[float, float]:
+    return track.velocity_north_m_s, track.velocity_east_m_s
+
+
+def _evidence(pair: Pair, motion: Relative, gap: Gap, level: AlertLevel) -> Evidence:
+    approach_s = max(motion.time_to_closest_approach_s(), 0.0)
+    violation_s = time_to_violation_s(motion, gap, level.volume)
+    return Evidence(
+        sources=("adsb",),
+        time_to_loss_s=violation_s,
+        time_to_closest_approach_s=approach_s,
+        horizontal_at_closest_approach_m=motion.at(approach_s).distance_m,
+        vertical_at_closest_approach_m=abs(gap.gap_m + gap.rate_m_s * approach_s),
+        note=f"{level.name} alert, not well clear in {violation_s or 0.0:.0f} s",
+        tracks=pair,
+        rules=(level.name,),
+    )
+
+
+def _alert(
+    encounter: _Encounter,
+    first: Track,
+    second: Track,
+    evidence: Evidence,
+    *,
+    is_active: bool = True,
+) -> Alert:
+    severity = encounter.escalation.severity or Severity.INFO
+    callsigns = (first.callsign, second.callsign)
+    revision, encounter.revision = encounter.revision, encounter.revision + 1
+    return Alert(
+        id=encounter.id,
+        revision=revision,
+        kind="loss_of_separation",
+        severity=severity if is_active else Severity.INFO,
+        recipients=callsigns,
+        traffic=callsigns,
+        evidence=evidence,
+        finding=Announcement(AURALS[severity]) if severity in AURALS else None,
+        recommendations=encounter.recommendations if is_active else {},
+        active=is_active,
+    )
+
+
+ENGINE = Engine(
+    name="well_clear",
+    summary="detect and avoid of DO-365B by ADS-B In, which tells both crews",
+    create=lambda _: WellClearEngine(),
+)

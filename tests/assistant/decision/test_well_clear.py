@@ -1,0 +1,106 @@
+"""Detect and avoid by DO-365B as an assistant: alerts by ADS-B, and turns."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.remaining_clear import smallest_turn
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.geodesy.relative_motion import Relative
+from airhilt.messages import Advisory, Turn
+from airhilt.surveillance.well_clear import Gap
+from encounters import Encounter, Flight, head_on
+
+
+def well_clear() -> DecisionWorker:
+    return DecisionWorker(decision_engine("well_clear"), Template())
+
+
+MEETS_S = 30.7 * 3600.0 / 480.0
+"""Time at which the two of `head_on` meet."""
+
+
+def flown(encounter: Encounter) -> Encounter:
+    encounter.worker = well_clear()
+    return encounter.fly()
+
+
+def first_s(encounter: Encounter, severity: str) -> float | None:
+    return next(
+        (MEETS_S - t for t, advisory in encounter.told if str(advisory.severity) == severity), None
+    )
+
+
+def test_it_alerts_both_crews_when_daidalus_does() -> None:
+    encounter = flown(head_on(250.0))
+    assert first_s(encounter, "CAUTION") == pytest.approx(89.0, abs=2.0)
+    assert first_s(encounter, "WARNING") == pytest.approx(59.0, abs=2.0)
+    assert {advisory.recipient for _, advisory in encounter.told} == {"AAL123", "DAL456"}
+    assert not encounter.told[-1][1].active
+
+
+def test_a_passing_at_3_nm_is_no_alert() -> None:
+    assert flown(head_on(250.0, offset_nm=3.0)).told == []
+
+
+def test_traffic_600_ft_above_is_only_monitored() -> None:
+    encounter = flown(head_on(250.0, altitude_ft=35_600.0))
+    assert set(encounter.severities("AAL123")) == {"ADVISORY"}
+    assert encounter.told[0][1].message == "traffic, monitor"
+    assert all(advisory.recommendation is None for _, advisory in encounter.told)
+
+
+def test_crews_that_meet_head_on_are_told_to_turn_right() -> None:
+    advisories: list[Advisory] = [each for _, each in flown(head_on(200.0)).told]
+    first = advisories[:2]
+    assert {str(each.severity) for each in first} == {"CAUTION"}
+    turns = [each.recommendation for each in first]
+    assert all(isinstance(turn, Turn) and 0.0 < turn.degrees <= 40.0 for turn in turns)
+    assert all(each.message.startswith("traffic, avoid, turn right") for each in first)
+
+
+def test_the_smallest_turn_that_stays_clear_is_taken() -> None:
+    level = Gap(0.0, 0.0)
+    ahead = Relative(40_000.0, 0.0, -460.0, 0.0)
+    turn = smallest_turn(ahead, (230.0, 0.0), level)
+    assert turn is not None
+    assert turn.degrees == 10.0
+    to_the_right = Relative(16_000.0, 800.0, -460.0, 0.0)
+    turn = smallest_turn(to_the_right, (230.0, 0.0), level)
+    assert turn is not None
+    assert turn.degrees == -10.0
+
+
+def test_there_is_no_turn_where_none_helps() -> None:
+    close = Relative(1000.0, 0.0, -460.0, 0.0)
+    assert smallest_turn(close, (230.0, 0.0), Gap(0.0, 0.0)) is None
+
+
+def crosses(**second: Any) -> Encounter:
+    flights = [
+        Flight("AAL123", "a1b2c3", 90.0, 20.0, 35_000),
+        Flight("DAL456", "a4d5e6", 0.0, 20.0, 35_000, **second),
+    ]
+    return Encounter(flights, 150.0)
+
+
+def test_an_aircraft_without_adsb_is_unknown_to_it() -> None:
+    assert flown(crosses()).told
+    assert flown(crosses(equipped=False)).told == []
+
+
+def test_an_alert_stays_open_until_the_two_are_past_each_other() -> None:
+    """A silent track is carried on, so an alert does not end because reports stop."""
+    encounter = head_on(235.0)
+    encounter.silent_after_s = 150.0
+    told = flown(encounter).told
+    assert told
+    assert all(advisory.active for t, advisory in told if t < MEETS_S)
+
+
+def test_it_reads_adsb_and_the_briefing_alone() -> None:
+    assert {wanted.key for wanted in well_clear().description.inputs} == {"briefing", "adsb/*"}

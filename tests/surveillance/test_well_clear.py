@@ -1,0 +1,91 @@
+"""Well clear is lost, and told of, when NASA's DAIDALUS says so."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from airhilt.geodesy.relative_motion import Relative
+from airhilt.surveillance.well_clear import (
+    CORRECTIVE,
+    LEVELS,
+    PREVENTIVE,
+    WARNING,
+    AlertName,
+    Gap,
+    level_of,
+    time_to_violation_s,
+)
+from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+
+LEVEL = Gap(0.0, 0.0)
+
+
+def meets(in_s: float, speed_kt: float, miss_nm: float = 0.0) -> Relative:
+    """Return one that passes in some seconds, at a relative speed and a miss distance."""
+    speed = speed_kt * KNOT
+    return Relative(speed * in_s, miss_nm * NAUTICAL_MILE, -speed, 0.0)
+
+
+def first_s(name: AlertName, speed_kt: float, rate_fpm: float = 0.0) -> int | None:
+    """Return how long before the closest approach an alert of a level, or a worse one, begins."""
+    ranks = {level.name: rank for rank, level in enumerate(LEVELS)}
+    for in_s in range(200, 0, -1):
+        rate = rate_fpm * FOOT_PER_MINUTE
+        level = level_of(meets(in_s, speed_kt), Gap(-rate * in_s, rate))
+        if level is not None and ranks[level.name] <= ranks[name]:
+            return in_s
+    return None
+
+
+@pytest.mark.parametrize(
+    ("speed_kt", "rate_fpm", "corrective_s", "warning_s"),
+    [
+        (900.0, 0.0, 89, 59),
+        (450.0 * math.sqrt(2.0), 0.0, 89, 59),
+        (80.0, 0.0, 106, 76),
+        (900.0, 2200.0, 67, 37),
+        (150.0 * math.sqrt(2.0), 0.0, 93, 63),
+    ],
+    ids=["head-on", "crossing", "overtaking", "climbing through", "low crossing"],
+)
+def test_alerts_begin_when_those_of_daidalus_do(
+    speed_kt: float, rate_fpm: float, corrective_s: int, warning_s: int
+) -> None:
+    """DAIDALUS 2.0.2 with its configuration of DO-365B, phase I, without uncertainties."""
+    assert first_s("corrective", speed_kt, rate_fpm) == pytest.approx(corrective_s, abs=1)
+    assert first_s("warning", speed_kt, rate_fpm) == pytest.approx(warning_s, abs=1)
+
+
+def test_traffic_that_passes_at_3_nm_is_well_clear() -> None:
+    assert all(level_of(meets(s, 900.0, miss_nm=3.0), LEVEL) is None for s in range(1, 200))
+
+
+@pytest.mark.parametrize(
+    ("gap_ft", "name"), [(449, "corrective"), (451, "preventive"), (701, None)]
+)
+def test_preventive_alerts_reach_further_in_altitude(gap_ft: float, name: str | None) -> None:
+    level = level_of(meets(80.0, 900.0), Gap(gap_ft * FOOT, 0.0))
+    assert (None if level is None else level.name) == name
+
+
+def test_no_alert_comes_before_the_earliest_time() -> None:
+    for level in LEVELS:
+        assert level.alert_s <= level.earliest_s
+    for in_s in range(200, 0, -1):
+        motion = meets(float(in_s), 500.0)
+        told = level_of(motion, LEVEL)
+        if told is not None:
+            violation_s = time_to_violation_s(motion, LEVEL, told.volume)
+            assert violation_s is not None
+            assert violation_s <= told.earliest_s
+
+
+def test_two_that_are_too_close_already_have_violated_it() -> None:
+    near = meets(1.0, 900.0)
+    assert time_to_violation_s(near, LEVEL, WARNING.volume) == 0.0
+    assert time_to_violation_s(meets(-5.0, 900.0), LEVEL, WARNING.volume) is None
+    standing = Relative(500.0, 0.0, 0.0, 0.0)
+    assert time_to_violation_s(standing, LEVEL, CORRECTIVE.volume) == 0.0
+    assert time_to_violation_s(standing, Gap(800 * FOOT, 0.0), PREVENTIVE.volume) is None
