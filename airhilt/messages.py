@@ -763,6 +763,7 @@ class HearingTruth(Message):
 
 
 ConflictPhase = Literal[
+    "begun",
     "opened",
     "closed",
     "loss_of_separation",

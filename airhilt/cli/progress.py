@@ -13,7 +13,13 @@ from rich.text import Text
 
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.messages import FORMER_MODALITIES, Advisory, Severity
-from airhilt.metrics.summary import LatencyStatistics, RadioStatistics, Summary, VisionStatistics
+from airhilt.metrics.summary import (
+    LatencyStatistics,
+    RadioStatistics,
+    Summary,
+    VisionStatistics,
+    WarningParts,
+)
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0
@@ -121,9 +127,11 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
             f"{summary.duration_s:.1f} s, {_factor(summary.real_time_factor)} x real time, "
             f"{summary.cpu_s:.2f} s of CPU",
         ),
+        ("conflict begins", _seconds(summary.t_conflict_s)),
         ("conflict window", _conflict_window(summary)),
         ("first warning", _seconds(summary.t_first_warning_s)),
         ("time to first warning", _seconds(summary.time_to_first_warning_s)),
+        *_part_rows(summary.first_warning_parts),
         ("before closest approach", _seconds(summary.lead_before_closest_approach_s)),
         (
             "before TCAS TA / RA",
@@ -152,9 +160,23 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
 
 
 def _conflict_window(summary: Summary) -> str:
-    if summary.t_conflict_s is None or summary.t_conflict_end_s is None:
+    if summary.t_window_s is None or summary.t_conflict_end_s is None:
         return "none: the scenario declares no conflict, or its condition never came true"
-    return f"{summary.t_conflict_s:.2f} to {summary.t_conflict_end_s:.2f} s"
+    return f"{summary.t_window_s:.2f} to {summary.t_conflict_end_s:.2f} s"
+
+
+def _part_rows(parts: WarningParts | None) -> list[tuple[str, str]]:
+    """Return a row on what the time to first warning consists of, if there was a warning."""
+    if parts is None:
+        return []
+    spans = {
+        "speech": parts.speech_s,
+        "recognition": parts.recognition_s,
+        "evidence": parts.evidence_s,
+        "decision": parts.decision_s,
+        "voice": parts.voice_s,
+    }
+    return [("consists of", ", ".join(f"{name} {_seconds(span)}" for name, span in spans.items()))]
 
 
 def _approach_rows(summary: Summary) -> list[tuple[str, str]]:

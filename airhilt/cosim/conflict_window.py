@@ -1,4 +1,4 @@
-"""The window of the conflict that a scenario declares: when it opens and when it closes."""
+"""The conflict that a scenario declares: when it begins, and when its window opens and closes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from typing import Literal
 
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 
-Told = Callable[[Literal["opened", "closed"], Pair], None]
+Told = Callable[[Literal["begun", "opened", "closed"], Pair], None]
+Test = Callable[[int], bool]
+"""Returns whether a condition is true at a time in ns."""
 
 
 class ConflictWindow:
@@ -16,43 +18,46 @@ class ConflictWindow:
     Parameters
     ----------
     pair
-        The actors of the conflict; None if the scenario declares none.
-    opens
-        Tells whether the scenario's condition is true at a time in ns.
+        The actors of the conflict.
+    begins, opens
+        Tests of the event that begins the conflict, and of the condition that opens its window.
     told
-        Called with ``opened`` or ``closed`` and the pair.
+        Called with ``begun``, ``opened`` or ``closed`` and the pair.
     """
 
     def __init__(
-        self,
-        pair: Pair | None,
-        opens: Callable[[int], bool] | None,
-        monitor: ConflictMonitor,
-        told: Told,
+        self, pair: Pair, begins: Test, opens: Test, monitor: ConflictMonitor, told: Told
     ) -> None:
         self._pair = pair
+        self._begins = begins
         self._opens = opens
         self._monitor = monitor
         self._told = told
+        self._has_begun = False
         self._phase: Literal["before", "open", "after"] = "before"
 
+    def begin_if_due(self, now_ns: int) -> None:
+        """Begin the conflict if its event has happened."""
+        if not self._has_begun and self._begins(now_ns):
+            self._has_begun = True
+            self._told("begun", self._pair)
+
     def look(self, now_ns: int) -> None:
-        """Open or close the window if it is time to."""
-        if self._opens is None or self._pair is None:
-            return
+        """Begin the conflict, open the window or close it, if it is time to."""
+        self.begin_if_due(now_ns)
         if self._phase == "before" and self._opens(now_ns):
             self._phase = "open"
             self._monitor.open_window(self._pair, now_ns)
             self._told("opened", self._pair)
-        elif self._phase == "open" and self._has_passed(self._pair):
+        elif self._phase == "open" and self._has_passed():
             self._phase = "after"
             self._monitor.close_window(self._pair)
             self._told("closed", self._pair)
 
-    def _has_passed(self, pair: Pair) -> bool:
-        """Return whether a pair moves apart and will not lose separation, or one has ended."""
-        if not self._monitor.flying(pair):
+    def _has_passed(self) -> bool:
+        """Return whether the pair moves apart and will not lose separation, or one has ended."""
+        if not self._monitor.flying(self._pair):
             return True
-        motion, _, _ = self._monitor.motion(pair)
+        motion, _, _ = self._monitor.motion(self._pair)
         is_receding = motion.time_to_closest_approach_s() < 0.0
-        return is_receding and self._monitor.time_to_loss_s(pair) is None
+        return is_receding and self._monitor.time_to_loss_s(self._pair) is None

@@ -51,6 +51,7 @@ class RunRadio:
             self._backend,
             setup.options.seed,
             world.ended_lines,
+            line_begun=world.line_begun,
             once=world.once,
             publish=router.publish,
             do=world.do,
@@ -74,6 +75,7 @@ class RunRadio:
 
     def _line_failed(self, line: EffectiveLine) -> None:
         self._world.affected |= line.affected
+        self._world.uncleared |= line.uncleared
         for text in line.failures:
             self._event("failure", line.declared.id, text)
 

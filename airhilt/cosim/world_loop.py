@@ -45,8 +45,10 @@ class WorldLoop:
         Truth about runways; None without an airport.
     affected
         Callsigns of actors that act under a failure which has happened.
-    ended_lines
-        Ids of the radio lines that have been on the air.
+    uncleared
+        Callsigns of affected actors that act without a clearance.
+    begun_lines, ended_lines
+        Ids of the radio lines that have begun, and of those that have been on the air.
     ticked_ns
         Time of the last physics tick, of which all states are.
     """
@@ -62,6 +64,8 @@ class WorldLoop:
         self._event = event
         self._triggers = Triggers()
         self.affected: set[str] = set()
+        self.uncleared: set[str] = set()
+        self.begun_lines: set[str] = set()
         self.ended_lines: set[str] = set()
         self.ticked_ns = 0
         self.pair = pair_of(scenario)
@@ -83,14 +87,26 @@ class WorldLoop:
         self.runways: RunwayMonitor | None = None
         if site.layout is not None:
             self.runways = RunwayMonitor(
-                site.layout, actors, self.affected, self._publish, self._incurred
+                site.layout,
+                actors,
+                self.affected,
+                self.uncleared,
+                self._publish,
+                self._incurred,
             )
-        conditions = ConditionCompiler(actors, self.monitor, self.runways, self.ended_lines)
-        self._compile = conditions.compile
-        conflict = scenario.conflict
-        opens = None if conflict is None else self._compile(conflict.opens_when)
-        self._window = ConflictWindow(self.pair, opens, self.monitor, self._publish_conflict)
+        self._compile = ConditionCompiler(
+            actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
+        ).compile
+        self._window = self._conflict_window()
         self._ends = [self._compile(condition) for condition in scenario.end_when]
+
+    def _conflict_window(self) -> ConflictWindow | None:
+        conflict = self._scenario.conflict
+        if conflict is None or self.pair is None:
+            return None
+        opens = self._compile(conflict.opens_when)
+        begins = opens if conflict.begins is None else self._compile(conflict.begins)
+        return ConflictWindow(self.pair, begins, opens, self.monitor, self._publish_conflict)
 
     def schedule(self) -> None:
         """Schedule physics, truth and the evaluation of conditions."""
@@ -131,6 +147,12 @@ class WorldLoop:
             actor.command(command)
         except Unable as unable:
             self._event("unable", callsign, str(unable))
+
+    def line_begun(self, line: str) -> None:
+        """Take in that a radio line begins now: it may be what begins the conflict."""
+        self.begun_lines.add(line)
+        if self._window is not None:
+            self._window.begin_if_due(self._director.now_ns)
 
     def has_ended(self) -> bool:
         """Return whether all actors have ended, or a condition that ends the run is true."""
@@ -185,7 +207,8 @@ class WorldLoop:
                 except Unable as unable:
                     self._event("unable", actor.spec.callsign, str(unable))
         self._triggers.evaluate(now_ns)
-        self._window.look(now_ns)
+        if self._window is not None:
+            self._window.look(now_ns)
 
     def _fail_engine(self, failure: EngineFailure) -> None:
         body = self._actors[failure.actor].body

@@ -44,6 +44,10 @@ class CallRecords:
     def __iter__(self) -> Iterator[CallRecord]:
         return iter(self._calls.values())
 
+    def get(self, name: str) -> CallRecord | None:
+        """Return the call with an id, None if nothing is known of it."""
+        return self._calls.get(name)
+
     def take(self, message: Message) -> None:
         """Add a message about a call; other messages are ignored."""
         match message:

@@ -25,9 +25,10 @@ from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.roster import callsigns_of, roster_of
-from airhilt.metrics.summary import Summary
+from airhilt.metrics.summary import Summary, WarningParts
+from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.scenario.conflict_pair import pair_of
-from airhilt.scenario.models import Scenario
+from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.sim import StepRecord
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor
@@ -36,8 +37,9 @@ from airhilt.world.truth.runways import RunwayMonitor
 
 @dataclass
 class WindowTimes:
-    """Times at which the annotated conflict opened and closed."""
+    """Times at which the annotated conflict began, and its window opened and closed."""
 
+    begun_ns: int | None = None
     opened_ns: int | None = None
     closed_ns: int | None = None
 
@@ -97,6 +99,8 @@ class Collector:
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Receive a published message."""
         match message:
+            case ConflictTruth(phase="begun", t_ns=now_ns):
+                self.window.begun_ns = now_ns
             case ConflictTruth(phase="opened", t_ns=now_ns):
                 self.window.opened_ns = now_ns
             case ConflictTruth(phase="closed", t_ns=now_ns):
@@ -156,23 +160,50 @@ class Collector:
         )
 
     def _warning_fields(self, now_ns: int) -> dict[str, Any]:
-        """Return the fields about the conflict window and the first warning."""
-        conflict_s = _seconds(self.window.opened_ns)
+        """Return the fields about the conflict, its window and the first warning."""
+        conflict_s = _seconds(self.window.begun_ns)
         warning_s = _seconds(self._first_warning.t_ns)
         is_in_time = self._is_warned_in_time()
         truth = self._outcome.pair_truth
         closest = self._outcome.closest_approach
         return {
             "t_conflict_s": conflict_s,
+            "t_window_s": _seconds(self.window.opened_ns),
             "t_conflict_end_s": _seconds(self.window.end_ns(now_ns)),
             "t_first_warning_s": warning_s,
             "time_to_first_warning_s": _difference(warning_s, conflict_s),
+            "time_to_first_warning_after_call_s": _difference(
+                warning_s, _seconds(self._call_ended_ns())
+            ),
+            "first_warning_parts": self._warning_parts(),
             "lead_before_closest_approach_s": _difference(
                 closest.t_s if closest else None, warning_s if is_in_time else None
             ),
             "margin_over_tcas_ta_s": self._first_warning.margin_s("tcas_ta", truth),
             "margin_over_tcas_ra_s": self._first_warning.margin_s("tcas_ra", truth),
         }
+
+    def _beginning_call(self) -> str | None:
+        """Return the id of the call that begins the conflict, None if none does."""
+        conflict = self._scenario.conflict
+        begins = None if conflict is None else conflict.begins
+        return begins.line if isinstance(begins, LineBegun) else None
+
+    def _call_ended_ns(self) -> int | None:
+        """Return the end of the call that begins the conflict, None if none has."""
+        name = self._beginning_call()
+        call = None if name is None else self._calls.get(name)
+        return None if call is None or call.said is None else call.said.t_end_ns
+
+    def _warning_parts(self) -> WarningParts | None:
+        """Return what the time to first warning consists of."""
+        warning, begun_ns = self._first_warning, self.window.begun_ns
+        if warning.t_ns is None or warning.advisory is None or begun_ns is None:
+            return None
+        transcript = supporting_transcript(
+            warning.advisory, self._beginning_call(), self._calls.get
+        )
+        return parts_of(begun_ns, warning.t_ns, warning.advisory, transcript)
 
     def _is_warned_in_time(self) -> bool:
         """Return true if somebody was warned before the conflict window closed."""

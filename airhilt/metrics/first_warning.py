@@ -16,17 +16,20 @@ class FirstWarning:
     ----------
     t_ns
         Time of the first warning, None before it.
+    advisory
+        The first warning as it was published, None before it was heard or read.
     """
 
     def __init__(
         self, pair: Pair | None, monitor: ConflictMonitor, plans: Plans, ground_m: float
     ) -> None:
         self.t_ns: int | None = None
+        self.advisory: Advisory | None = None
         self._pair = pair
         self._monitor = monitor
         self._plans = plans
         self._ground_m = ground_m
-        self._unspoken: set[tuple[str, str, int]] = set()
+        self._unspoken: dict[tuple[str, str, int], Advisory] = {}
         """Warnings that wait for their audio, by id, recipient and revision."""
         self._projection: tcas.Projection | None = None
 
@@ -35,19 +38,20 @@ class FirstWarning:
         if self.t_ns is not None:
             return
         if is_spoken:
-            self._unspoken.add((advisory.id, advisory.recipient, advisory.revision))
+            self._unspoken[advisory.id, advisory.recipient, advisory.revision] = advisory
         else:
-            self._set(advisory.t_ns)
+            self._set(advisory, advisory.t_ns)
 
     def heard(self, audio: AdvisoryAudio) -> None:
         """Record the audio of an advisory."""
-        if (audio.id, audio.recipient, audio.revision) in self._unspoken:
-            self._set(audio.t_ns)
+        spoken = self._unspoken.get((audio.id, audio.recipient, audio.revision))
+        if spoken is not None:
+            self._set(spoken, audio.t_ns)
 
     def voice_lost(self, now_ns: int) -> None:
         """Record the loss of the voice: warnings that wait for it are read now."""
         if self._unspoken:
-            self._set(now_ns)
+            self._set(next(iter(self._unspoken.values())), now_ns)
 
     def margin_s(self, alert: tcas.Alert, truth: PairTruth | None) -> float | None:
         """Return the time from the first warning to an alert of TCAS II, had nobody reacted, in s.
@@ -66,11 +70,12 @@ class FirstWarning:
             return (alert_ns - self.t_ns) / SECOND_NS
         return self._projection.traffic_s if alert == "tcas_ta" else self._projection.resolution_s
 
-    def _set(self, now_ns: int) -> None:
+    def _set(self, advisory: Advisory, now_ns: int) -> None:
         self._unspoken.clear()
         if self.t_ns is not None:
             return
         self.t_ns = now_ns
+        self.advisory = advisory
         pair = self._pair
         if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
             self._projection = self._project(pair, now_ns)

@@ -61,6 +61,21 @@ class RunwayIncursion(BaseModel):
     )
 
 
+class WarningParts(BaseModel):
+    """The parts of the time to first warning, in s; their sum is that time."""
+
+    model_config = ConfigDict(frozen=True)
+    speech_s: float = Field(description="the call that the warning rests on was still being said")
+    recognition_s: float = Field(description="from the end of that call to its transcript")
+    evidence_s: float = Field(
+        description="the rest of the time until the evidence was complete (t_ready): waiting for "
+        "that call to begin, or for other evidence; negative if it was complete before the "
+        "conflict began"
+    )
+    decision_s: float = Field(description="t_dec - t_ready")
+    voice_s: float = Field(description="from t_dec to t_tts; 0 if no voice speaks")
+
+
 class AdvisorySummary(BaseModel):
     """One advisory over all its revisions."""
 
@@ -212,14 +227,27 @@ class Summary(BaseModel):
     assistant: str
     outcome: str = Field(description="finished, or stopped and why")
     duration_s: float = Field(description="simulated time")
-    t_conflict_s: float | None = Field(description="the conflict window opened")
-    t_conflict_end_s: float | None = Field(description="the pair was past it, or the run ended")
+    t_conflict_s: float | None = Field(
+        description="the event happened that begins the conflict, such as the start of a call"
+    )
+    t_window_s: float | None = Field(default=None, description="the conflict window opened")
+    t_conflict_end_s: float | None = Field(
+        description="the conflict window closed: the pair was past it, or the run ended"
+    )
     t_first_warning_s: float | None = Field(
         description="first advisory of the conflict at or above the level that is spoken "
         "(CAUTION) reached a recipient: t_tts with speech, t_dec without"
     )
     time_to_first_warning_s: float | None = Field(
-        description="t_first_warning - t_conflict; negative: before the window opened"
+        description="t_first_warning - t_conflict; negative: before the conflict began"
+    )
+    time_to_first_warning_after_call_s: float | None = Field(
+        default=None,
+        description="t_first_warning less the end of the call that begins the conflict; negative: "
+        "before it was said; null if no call begins it",
+    )
+    first_warning_parts: WarningParts | None = Field(
+        default=None, description="what the time to first warning consists of"
     )
     lead_before_closest_approach_s: float | None = Field(
         description="from the first warning to the closest approach in the conflict window; null "
@@ -237,7 +265,7 @@ class Summary(BaseModel):
         description="least while horizontal separation was infringed; null if it never was"
     )
     closest_approach: ClosestApproach | None = Field(
-        description="of the pair within the conflict window, from t_conflict to t_conflict_end; "
+        description="of the pair within the conflict window, from t_window to t_conflict_end; "
         "without an annotated conflict, of the pair that came nearest"
     )
     loss_of_separation: bool

@@ -42,6 +42,8 @@ class EffectiveLine:
     """Failures of the line, in words."""
     affected: frozenset[str] = frozenset()
     """Actors that act wrongly because of the failures."""
+    uncleared: frozenset[str] = frozenset()
+    """Affected actors that act without a clearance; a late clearance is one."""
     deaf: frozenset[str] = frozenset()
     """Actors that do not take the line for theirs, however well they hear it."""
     listens_first: bool = True
@@ -70,9 +72,9 @@ def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> 
         case ReadbackWrong(text=text, commands=commands):
             said = line.model_copy(update={"text": text, "commands": commands})
             what = f"{declared.speaker} reads back otherwise"
-            return _with(effective, what, {declared.speaker, *_actors(commands)}, line=said)
+            return _uncleared(effective, what, {declared.speaker, *_actors(commands)}, line=said)
         case NotReceived(actor=actor):
-            return _with(
+            return _uncleared(
                 effective,
                 f"{actor} does not receive it",
                 {actor},
@@ -80,13 +82,13 @@ def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> 
                 deaf=effective.deaf | {actor},
             )
         case Ignored(actor=actor):
-            return _with(effective, f"{actor} ignores it", {actor}, line=_without(line, actor))
+            return _uncleared(effective, f"{actor} ignores it", {actor}, line=_without(line, actor))
         case CallsignConfused(meant=meant, taken_by=taken_by, text=text):
             said = _retarget(line, meant, taken_by)
             if text is not None:
                 said = said.model_copy(update={"text": text})
             what = f"{taken_by} takes it, {meant} was meant"
-            return _with(
+            return _uncleared(
                 effective, what, {meant, taken_by}, line=said, deaf=effective.deaf | {meant}
             )
         case Delayed(by_s=by_s):
@@ -99,6 +101,13 @@ def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> 
         case Blocked():
             what = f"{declared.speaker} does not listen before speaking"
             return _with(effective, what, _actors(declared.commands), listens_first=False)
+
+
+def _uncleared(
+    effective: EffectiveLine, what: str, actors: set[str], **changes: Any
+) -> EffectiveLine:
+    """Return a line with one more failure, by which actors do what they are not cleared for."""
+    return _with(effective, what, actors, uncleared=effective.uncleared | actors, **changes)
 
 
 def _with(effective: EffectiveLine, what: str, affected: set[str], **changes: Any) -> EffectiveLine:

@@ -16,6 +16,7 @@ from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
+    ConflictTruth,
     Evidence,
     Severity,
     SpokenTruth,
@@ -88,6 +89,12 @@ def advisory(
     )  # fmt: skip
 
 
+def conflict(t_s: float, phase: str) -> ConflictTruth:
+    return ConflictTruth.model_validate(
+        {"t_ns": round(t_s * SECOND_NS), "phase": phase, "actors": (FIRST, SECOND)}
+    )
+
+
 class FollowedRun:
     """A collector over a head-on encounter that meets after 60 s."""
 
@@ -119,8 +126,7 @@ class FollowedRun:
 
 
 def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken() -> None:
-    followed = FollowedRun()
-    followed.collector.window.opened_ns = 3 * SECOND_NS
+    followed = FollowedRun().take(conflict(3.0, "begun"))
     followed.take(advisory(5.0, "ADVISORY")).take(advisory(9.0, "CAUTION", revision=1))
     followed.take(advisory(20.0, "WARNING", revision=2))
     summary = followed.summary()
@@ -130,10 +136,17 @@ def test_the_first_warning_is_the_first_that_is_severe_enough_to_be_spoken() -> 
     assert (one.severity, one.revisions, one.t_first_s) == ("WARNING", 3, 5.0)
 
 
-def test_a_warning_before_the_conflict_opens_has_a_negative_time() -> None:
-    followed = FollowedRun().take(advisory(9.0))
-    followed.collector.window.opened_ns = 10 * SECOND_NS
+def test_a_warning_before_the_conflict_begins_has_a_negative_time() -> None:
+    followed = FollowedRun().take(advisory(9.0)).take(conflict(10.0, "begun"))
     assert followed.summary().time_to_first_warning_s == -1.0
+
+
+def test_the_time_counts_from_the_begin_of_the_conflict_and_not_from_its_window() -> None:
+    followed = FollowedRun().take(conflict(2.0, "begun")).take(conflict(5.0, "opened"))
+    summary = followed.take(advisory(9.0)).summary()
+    assert (summary.t_conflict_s, summary.t_window_s) == (2.0, 5.0)
+    assert summary.time_to_first_warning_s == 7.0
+    assert summary.time_to_first_warning_after_call_s is None
 
 
 def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic() -> None:

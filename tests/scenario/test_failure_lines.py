@@ -122,3 +122,13 @@ def test_a_confusion_leaves_when_and_after_how_long_a_line_acts() -> None:
     meant = HOLD.commands[0]
     assert hold.line.commands == (meant.model_copy(update={"actor": "OPS2"}),)
     assert hold.line.model_copy(update={"commands": HOLD.commands}) == HOLD
+
+
+def test_who_waits_for_a_late_clearance_acts_with_one_and_who_took_anothers_without() -> None:
+    late = effective({"type": "delayed", "line": "hold", "by_s": 5.0})
+    taken = effective(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
+    )
+    assert late.affected == {"OPS1"}
+    assert late.uncleared == set()
+    assert taken.uncleared == {"OPS1", "OPS2"}

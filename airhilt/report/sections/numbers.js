@@ -19,7 +19,7 @@ function numberTiles() {
     ? `first warning ${value < 0 ? "after" : "before"} TCAS II would have spoken, had nobody reacted` : unwarned, known(value) && value < 0 ? "bad" : "");
   const warnings = [
     tile("Time to first warning", time(s.time_to_first_warning_s), "", known(s.time_to_first_warning_s)
-      ? `window opened at ${seconds(s.t_conflict_s)}, warned at ${seconds(s.t_first_warning_s)}${early ? ", before it opened" : ""}` : unwarned),
+      ? `conflict began at ${seconds(s.t_conflict_s)}, warned at ${seconds(s.t_first_warning_s)}${early ? ", before it began" : ""}` : unwarned),
     tile("Lead before closest approach", time(s.lead_before_closest_approach_s), "", known(s.lead_before_closest_approach_s) ? "from the first warning" : unwarned),
   ];
   const nearest = closest ? tile("Closest approach", distance(closest.horizontal_m), `and ${feet(closest.vertical_m / METRE_PER_FT)}${closeUp ? "" : ` (${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m)`}`,
@@ -52,7 +52,7 @@ function outcomeTiles() {
   return [
     tile("Collision", summary.collision ? "yes" : "no", "", summary.collision ? (event ? `${list(event.actors)}, at ${seconds(event.t)}` : "") : "no outlines touched", summary.collision ? "bad" : "good"),
     tile("Conflict avoided", known(summary.avoided) ? (summary.avoided ? "yes" : "no") : "–", "", known(summary.avoided)
-      ? (known(summary.t_conflict_s) ? `the conflict window opened at ${seconds(summary.t_conflict_s)}` : "a warning came before the conflict window opened")
+      ? (known(summary.t_window_s) ? `the conflict window opened at ${seconds(summary.t_window_s)}` : "a warning came before the conflict window opened")
       : "the conflict window never opened, and nobody was warned", summary.avoided ? "good" : known(summary.avoided) ? "bad" : ""),
   ];
 }

@@ -3,7 +3,7 @@
 
 /** Phases of a conflict, in words. */
 const PHASES = {
-  opened: "conflict window opens", closed: "conflict window closes", loss_of_separation: "separation lost",
+  begun: "conflict begins", opened: "conflict window opens", closed: "conflict window closes", loss_of_separation: "separation lost",
   nmac: "near mid-air collision", collision: "collision", tcas_ta: "TCAS TA", tcas_ra: "TCAS RA",
   runway_incursion: "runway incursion",
 };

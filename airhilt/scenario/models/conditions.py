@@ -20,7 +20,7 @@ class TimeReached(Model):
 
 
 class PredictedLossOfSeparation(Model):
-    """True while a pair that flies on as it does will lose separation within a time.
+    """True while a pair that flies on as it does will lose separation, if given within a time.
 
     The true states are extrapolated: horizontally straight on, vertically at the present rate
     until the altitude that the aircraft is really flying to.
@@ -28,7 +28,9 @@ class PredictedLossOfSeparation(Model):
 
     type: Literal["predicted_loss_of_separation"]
     actors: Pair
-    within_s: float = Field(gt=0.0, le=1200.0)
+    within_s: float | None = Field(
+        default=None, gt=0.0, le=1200.0, description="null: however far ahead"
+    )
 
 
 class SeparationBelow(Model):
@@ -121,6 +123,13 @@ class Collided(Model):
     actors: Pair
 
 
+class LineBegun(Model):
+    """True once a radio line has begun: from its t_tx on."""
+
+    type: Literal["line_begun"]
+    line: Identifier
+
+
 class LineEnded(Model):
     """True once a radio line has ended."""
 
@@ -156,6 +165,7 @@ Condition = Annotated[
     | HeightBelow
     | DistanceBelow
     | Collided
+    | LineBegun
     | LineEnded
     | AllOf
     | AnyOf,

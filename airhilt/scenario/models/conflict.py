@@ -1,4 +1,4 @@
-"""The conflict of a scenario: who, from when on, and what separation is lost."""
+"""The conflict of a scenario: who, what begins it, its window, and what separation is lost."""
 
 from __future__ import annotations
 
@@ -13,10 +13,20 @@ UnassistedOutcome = Literal["collision", "nmac", "runway_incursion", "loss_of_se
 
 
 class Conflict(Model):
-    """Annotated conflict: its actors, and the condition on the true state at which it begins."""
+    """Annotated conflict: its actors, the event that begins it, and its window.
+
+    ``begins`` is t_conflict, from which the time to first warning counts. It is the event by which
+    the conflict comes about, spoken (`LineBegun`) or physical, and no threshold of an assistant.
+    """
 
     actors: Pair
-    opens_when: Condition
+    begins: Condition | None = Field(
+        default=None,
+        description="event by which the conflict comes about; null: the opening of its window",
+    )
+    opens_when: Condition = Field(
+        description="opens the window in which the closest approach is taken"
+    )
     unassisted: UnassistedOutcome = Field(
         default="loss_of_separation", description="least severe outcome if nobody is warned"
     )

@@ -42,6 +42,8 @@ class RadioConversation:
     ----------
     ended_lines
         Gets the ids of the calls that have been on the air.
+    line_begun
+        Called with the id of a call when it begins, also when it is said again.
     once
         Calls its second argument as soon as its first, a condition, is true.
     do
@@ -66,6 +68,7 @@ class RadioConversation:
         seed: int,
         ended_lines: set[str],
         *,
+        line_begun: Callable[[str], None],
         once: Callable[[Condition, Callable[[], None]], None],
         publish: Publish,
         do: Callable[[str, Command], None],
@@ -79,6 +82,7 @@ class RadioConversation:
         self._failures = scenario.failures
         self._stations = stations
         self._publish = publish
+        self._line_begun = line_begun
         self._ended_lines = ended_lines
         self._calls = calls_of(scenario, lines)
         self._on_air: dict[str, RadioCall] = {}
@@ -88,7 +92,7 @@ class RadioConversation:
         self._times_pressed = 0
         self._script = RadioScript(director, lines, once, failed, self._due)
         self._transmissions = Transmissions(
-            director, radio, stations, backend, publish, self._ended
+            director, radio, stations, backend, publish, began=self._began, ended=self._ended
         )
         self._stuck_microphones = StuckMicrophones(
             director,
@@ -185,6 +189,11 @@ class RadioConversation:
         self._transmissions.say(utterance)
 
     # --- what comes of it -------------------------------------------------------------------
+
+    def _began(self, said: Utterance) -> None:
+        call = self._on_air.get(said.id)
+        if call is not None:
+            self._line_begun(call.id)
 
     def _ended(self, ended: EndedTransmission) -> None:
         """Let a transmission that has ended be heard or read, and acted upon."""

@@ -33,6 +33,8 @@ class Transmissions:
 
     Parameters
     ----------
+    began
+        Called with each utterance when its transmission begins.
     ended
         Called with each transmission when it has ended and has been published.
     """
@@ -44,6 +46,8 @@ class Transmissions:
         stations: Stations,
         backend: RadioBackend,
         publish: Publish,
+        *,
+        began: Callable[[Utterance], None],
         ended: Callable[[EndedTransmission], None],
     ) -> None:
         self._director = director
@@ -52,11 +56,12 @@ class Transmissions:
         self._backend = backend
         self._publish = publish
         self._receiver = RadioReceiver(director, radio, stations, backend, publish)
+        self._began = began
         self._arbiter = FrequencyArbiter(
             director,
             backend.speak,
             stations.audible,
-            began=self._receiver.open,
+            began=self._open,
             ended=lambda on_air: ended(self._finish(on_air)),
         )
 
@@ -85,6 +90,10 @@ class Transmissions:
             and audible(on_air.utterance.speaker, listener)
             and not any(audible(other.utterance.speaker, listener) for other in on_air.overlapping)
         )
+
+    def _open(self, on_air: OnAir) -> None:
+        self._receiver.open(on_air)
+        self._began(on_air.utterance)
 
     def _finish(self, on_air: OnAir) -> EndedTransmission:
         mixed_with = self._receiver.mixed_with(on_air)

@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from airhilt import library
-from airhilt.scenario.models import AircraftSpec, LineEnded, Scenario, VehicleSpec, WildlifeSpec
+from airhilt.scenario.models import (
+    AircraftSpec,
+    LineBegun,
+    LineEnded,
+    Scenario,
+    VehicleSpec,
+    WildlifeSpec,
+)
 from airhilt.scenario.problems import Problem
 from airhilt.world.checks.walk import conditions_of, models_of
 
@@ -18,7 +25,7 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
         if callsign not in callsigns:
             yield Problem(path, f"no actor {callsign!r}{library.nearest(callsign, callsigns)}")
     for path, condition in conditions_of(scenario):
-        if isinstance(condition, LineEnded) and condition.line not in line_ids:
+        if isinstance(condition, LineBegun | LineEnded) and condition.line not in line_ids:
             yield Problem(
                 f"{path}/line",
                 f"no radio line {condition.line!r}{library.nearest(condition.line, line_ids)}",

@@ -16,6 +16,7 @@ from airhilt.scenario.models import (
     DistanceBelow,
     HeightBelow,
     InPhase,
+    LineBegun,
     LineEnded,
     OnRunway,
     PredictedLossOfSeparation,
@@ -41,11 +42,13 @@ class ConditionCompiler:
         actors: Mapping[str, Actor],
         monitor: ConflictMonitor,
         runways: RunwayMonitor | None,
+        begun_lines: set[str],
         ended_lines: set[str],
     ) -> None:
         self._actors = actors
         self._monitor = monitor
         self._runways = runways
+        self._begun_lines = begun_lines
         self._ended_lines = ended_lines
 
     def compile(self, condition: Condition) -> Test:
@@ -54,6 +57,8 @@ class ConditionCompiler:
             case TimeReached(at_s=at_s):
                 due_ns = seconds_to_ns(at_s)
                 return lambda now_ns: now_ns >= due_ns
+            case LineBegun(line=line):
+                return lambda _: line in self._begun_lines
             case LineEnded(line=line):
                 return lambda _: line in self._ended_lines
             case BoundForAltitude():
@@ -91,9 +96,9 @@ class ConditionCompiler:
         """Return a test that is false once one of a pair has ended."""
         return lambda _: self._monitor.flying(pair) and test()
 
-    def _loss_within(self, pair: Pair, within_s: float) -> bool:
+    def _loss_within(self, pair: Pair, within_s: float | None) -> bool:
         loss = self._monitor.time_to_loss_s(pair)
-        return loss is not None and loss <= within_s
+        return loss is not None and (within_s is None or loss <= within_s)
 
     def _bound_for(self, condition: BoundForAltitude) -> Test:
         aircraft = self._actors[condition.actor].body

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor
+from airhilt.world.truth.crossings import crossings
 from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
@@ -103,6 +104,10 @@ class RunwayMonitor:
     affected
         Actors that act under a failure of the scenario. Their presence, like that of wildlife, is
         incorrect even if no aircraft uses the runway.
+    uncleared
+        Affected actors that act without a clearance. The presence of one that takes off or has
+        landed is incorrect from then on: ICAO Doc 9870, 1.1, and FAA Order 7050.1B count it
+        whether or not somebody else is near.
     occupied
         Called with a key and a message when the occupants or arrivals of a runway change.
     incurred
@@ -114,6 +119,7 @@ class RunwayMonitor:
         layout: Layout,
         actors: Mapping[str, Actor],
         affected: set[str],
+        uncleared: set[str],
         occupied: Callable[[str, RunwayTruth], None],
         incurred: Callable[[Incursion], None],
     ) -> None:
@@ -121,6 +127,7 @@ class RunwayMonitor:
         self._layout = layout
         self._actors = actors
         self._affected = affected
+        self._uncleared = uncleared
         self._occupied = occupied
         self._incurred = incurred
         self._axes = {
@@ -133,6 +140,7 @@ class RunwayMonitor:
             for end in strip.ends
         }
         """Threshold (east, north), and sine and cosine of the course."""
+        self._crossings = crossings(layout.strips)
         self._occupants: dict[str, tuple[str, ...]] = dict.fromkeys(layout.strips, ())
         self._arrivals: dict[str, tuple[Arrival, ...]] = dict.fromkeys(layout.strips, ())
 
@@ -140,19 +148,24 @@ class RunwayMonitor:
         """Update all runways."""
         positions = self._positions()
         inside = self._inside(positions)
-        for name, strip in self._layout.strips.items():
+        users = {
+            name: list(self._users(strip, positions)) for name, strip in self._layout.strips.items()
+        }
+        for name, own in users.items():
             occupants = inside[name]
-            users = list(self._users(strip, positions))
-            self._publish(now_ns, name, occupants, users)
-            for user in users:
+            self._publish(now_ns, name, occupants, own)
+            for user in own:
                 for intruder in occupants:
                     position = positions[intruder]
                     if intruder != user.callsign and self._is_in_way(user, position):
                         self._incur(now_ns, name, user.callsign, intruder)
-            if not users:
-                for intruder in occupants:
-                    if self._has_no_business(intruder) and not self._has_incurred(name, intruder):
-                        self._incur(now_ns, name, None, intruder)
+            if not own:
+                for intruder in filter(self._has_no_business, occupants):
+                    self._incur_alone(now_ns, name, intruder)
+        for name, own in users.items():
+            for user in own:
+                if user.rolling and user.callsign in self._uncleared:
+                    self._incur_uncleared(now_ns, name, user, users)
         self._update_closest()
 
     def is_on(self, callsign: str, runway: str) -> bool:
@@ -271,11 +284,31 @@ class RunwayMonitor:
             return True
         return callsign in self._affected and actor.bound_runway is None
 
-    def _has_incurred(self, runway: str, intruder: str) -> bool:
-        return any(
-            incursion.runway == runway and incursion.intruder == intruder
+    def _incur_uncleared(
+        self, now_ns: int, name: str, rolling: User, users: Mapping[str, list[User]]
+    ) -> None:
+        """Record that an aircraft rolls without a clearance, and who uses a crossing runway."""
+        for crossing, point in self._crossings[name]:
+            for other in users[crossing]:
+                if other.time_to_threshold_s <= ARRIVAL_WITHIN_S and all(
+                    self._is_ahead(user, point) for user in (rolling, other)
+                ):
+                    self._incur(now_ns, name, other.callsign, rolling.callsign)
+        self._incur_alone(now_ns, name, rolling.callsign)
+
+    def _is_ahead(self, user: User, point: tuple[float, float]) -> bool:
+        """Return whether a user of a runway has a point of it still before it."""
+        threshold_east, threshold_north, sin, cos = self._axes[user.runway]
+        along = (point[0] - threshold_east) * sin + (point[1] - threshold_north) * cos
+        return along > user.along_m - BEHIND_M
+
+    def _incur_alone(self, now_ns: int, name: str, intruder: str) -> None:
+        """Record an incorrect presence in nobody's way, unless it is known from an incursion."""
+        if not any(
+            incursion.runway == name and intruder in (incursion.user, incursion.intruder)
             for incursion in self.incursions.values()
-        )
+        ):
+            self._incur(now_ns, name, None, intruder)
 
     def _incur(self, now_ns: int, name: str, user: str | None, intruder: str) -> None:
         for key in ((name, user, intruder), (name, intruder, user)):

@@ -74,6 +74,7 @@ class World:
         self.published: list[Any] = []
         self.done: list[Any] = []
         self.microphones: list[tuple[float, str | None]] = []
+        self.begun: list[tuple[float, str]] = []
         high = FixedSite(0.68, -1.34, altitude_m=33_000 * FOOT)
         self.actors = {
             actor.callsign: SimpleNamespace(
@@ -92,6 +93,7 @@ class World:
             TextRadio(self.scenario.radio.words_per_minute),
             7,
             set(),
+            line_begun=lambda line: self.begun.append((self.now_s, line)),
             once=self.once,
             publish=self.publish,
             do=self.do,
@@ -177,6 +179,13 @@ def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay() -
     assert at_s == pytest.approx(world.spoken("clearance").t_end_ns / SECOND_NS + 2.0)
     assert world.hearings("AAL123") == [("clearance", "understood")]
     assert world.spoken("readback").in_reply_to == "clearance"
+
+
+def test_a_line_begins_when_its_transmission_does() -> None:
+    world = World(CLEARANCE, READBACK).run()
+    assert world.begun == [
+        (world.spoken(name).t_tx_ns / SECOND_NS, name) for name in ("clearance", "readback")
+    ]
 
 
 def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that() -> None:

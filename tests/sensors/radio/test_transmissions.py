@@ -93,7 +93,8 @@ class Air:
             cast(Stations, self.stations),
             backend or audio_radio(),
             self.publish,
-            lambda ended: None,
+            began=lambda said: None,
+            ended=lambda ended: None,
         )
 
     def publish(self, key: str, message: Message, *, raw: bytes | None = None) -> None:

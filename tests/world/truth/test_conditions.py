@@ -26,10 +26,11 @@ class Case:
             Straight(15_000.0, east_m_s=-250.0),
         )
         self.watch = Watch(*pair, names=("AA", "BB"))
+        self.begun_lines: set[str] = set()
         self.ended_lines: set[str] = set()
         self.actors = {name: Performing(body) for name, body in self.watch.aircraft.items()}
         compiler = ConditionCompiler(
-            cast(Any, self.actors), self.watch.monitor, None, self.ended_lines
+            cast(Any, self.actors), self.watch.monitor, None, self.begun_lines, self.ended_lines
         )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
@@ -59,6 +60,15 @@ def test_time_is_reached_from_then_on() -> None:
     ]
 
 
+def test_a_line_has_begun_before_it_has_ended() -> None:
+    begun = Case({"type": "line_begun", "line": "readback"})
+    ended = Case({"type": "line_ended", "line": "readback"})
+    for case in (begun, ended):
+        case.begun_lines.add("readback")
+    assert begun()
+    assert not ended()
+
+
 def test_a_line_has_ended_once_it_has() -> None:
     case = Case({"type": "line_ended", "line": "readback"})
     assert not case()
@@ -85,6 +95,13 @@ def test_a_loss_is_predicted_within_a_time(within_s: float, true_at_start: bool)
     case = Case({"type": "predicted_loss_of_separation", "actors": PAIR, "within_s": within_s})
     assert case() == true_at_start
     assert case.after(2.0)
+
+
+def test_a_loss_is_predicted_however_far_ahead_where_no_time_is_given() -> None:
+    far = (Straight(-400_000.0, east_m_s=250.0), Straight(400_000.0, east_m_s=-250.0))
+    condition = {"type": "predicted_loss_of_separation", "actors": PAIR}
+    assert Case(condition, *far)()
+    assert not Case(condition | {"within_s": 1200.0}, *far)()
 
 
 def test_no_loss_is_predicted_of_two_that_have_passed_or_keep_apart() -> None:
@@ -192,9 +209,9 @@ class Airport(Case):
         self.actors["AA"].bound_runway = "01"
         self.actors["BB"].category = "vehicle"
         nothing = lambda *_: None  # noqa: E731
-        self.runways = RunwayMonitor(layout, cast(Any, self.actors), set(), nothing, nothing)
+        self.runways = RunwayMonitor(layout, cast(Any, self.actors), set(), set(), nothing, nothing)
         compiler = ConditionCompiler(
-            cast(Any, self.actors), self.watch.monitor, self.runways, set()
+            cast(Any, self.actors), self.watch.monitor, self.runways, set(), set()
         )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 

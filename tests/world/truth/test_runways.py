@@ -91,6 +91,7 @@ class Watch:
 
     actors: dict[str, Any]
     affected: set[str] = field(default_factory=set)
+    uncleared: set[str] = field(default_factory=set)
     now_ns: int = 0
 
     def __post_init__(self) -> None:
@@ -100,6 +101,7 @@ class Watch:
             kdca(),
             self.actors,
             self.affected,
+            self.uncleared,
             lambda key, truth: self.occupied.append((key, truth.occupants)),
             lambda incursion: self.incurred.append((incursion.user, incursion.intruder)),
         )
@@ -212,6 +214,35 @@ def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:
     assert Watch({"OPS": vehicle(1_000.0)}, affected={"OPS"}).look().categories == ["D"]
 
 
+def test_a_takeoff_without_clearance_is_an_incorrect_presence_by_itself() -> None:
+    rolling = airliner(100.0, "takeoff_roll", speed_kt=30.0)
+    assert Watch({"D": rolling}).look().categories == []
+    assert Watch({"D": rolling}, affected={"D"}).look().categories == []
+    assert Watch({"D": rolling}, affected={"D"}, uncleared={"D"}).look().categories == ["D"]
+
+
+def test_who_waits_lined_up_under_a_clearance_does_no_wrong_before_it_rolls() -> None:
+    waiting = airliner(40.0, "lined_up")
+    assert Watch({"D": waiting}, affected={"D"}, uncleared={"D"}).look().categories == []
+
+
+@pytest.mark.parametrize(("time_s", "user"), [(20.0, "A"), (40.0, None)])
+def test_a_takeoff_without_clearance_meets_who_comes_on_a_crossing_runway(
+    time_s: float, user: str | None
+) -> None:
+    """It is rejected before the crossing, and the arrival has not touched down."""
+    rolling = airliner(100.0, "takeoff_roll", runway="33", speed_kt=30.0)
+    watch = Watch({"A": arrival(time_s), "D": rolling}, uncleared={"D"}).look().look()
+    assert watch.incurred == [(user, "D")]
+
+
+def test_past_the_crossing_an_arrival_is_not_in_the_way_of_who_rolls_uncleared() -> None:
+    landed = airliner(1_900.0, "rollout", speed_kt=60.0)
+    rolling = airliner(100.0, "takeoff_roll", runway="33", speed_kt=30.0)
+    watch = Watch({"A": landed, "D": rolling}, uncleared={"D"}).look()
+    assert watch.incurred == [(None, "D")]
+
+
 @pytest.mark.parametrize(("above_ft", "category"), [(60.0, "A"), (300.0, "B"), (700.0, "C")])
 def test_the_closest_distance_makes_the_category(above_ft: float, category: str) -> None:
     """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
@@ -298,7 +329,12 @@ def test_an_arrival_is_told_once_with_its_time() -> None:
     plane = arrival(60.0)
     told: list[RunwayTruth] = []
     monitor = RunwayMonitor(
-        kdca(), {"A": cast(Any, plane)}, set(), lambda _, truth: told.append(truth), lambda _: None
+        kdca(),
+        {"A": cast(Any, plane)},
+        set(),
+        set(),
+        lambda _, truth: told.append(truth),
+        lambda _: None,
     )
     monitor.tick(SECOND_NS)
     plane.body.along_m /= 2.0
