@@ -116,8 +116,9 @@ class Options(BaseModel):
         str,
         Flag(
             "--latency",
-            "measured, fixed, fixed:SECONDS, lognormal, lognormal:MEDIAN or replay:RUN; after it "
-            "other ones for single stages: fixed,asr=lognormal:5.9,tts=fixed:0.9.",
+            "measured, fixed, fixed:SECONDS, lognormal, lognormal:MEDIAN, since_start:MEAN, "
+            "on_output:SECONDS, paper or replay:RUN; after it other ones for single stages: "
+            "fixed,asr=lognormal:5.9,tts=fixed:0.9.",
             "SOURCE",
         ),
     ] = "measured"

@@ -11,6 +11,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
+from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.provenance import model_files, other_packages
@@ -161,7 +162,7 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
 
 
 def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
-    spec = parse_latency(text)
+    spec = parse_latency(text, PRESETS)
     for stage in spec.stages:
         if stage not in STAGES:
             raise AirhiltError(

@@ -137,9 +137,10 @@ class AdsbSensor:
         if decoded is None:
             return
         known_ns = self._latency.known_ns(self._seq)
-        latency_ns = seconds_to_ns(compute_s) if known_ns is None else known_ns
-        out_ns = now_ns + latency_ns
-        step = StepRecord(STAGE, self._seq, now_ns, now_ns, latency_ns, compute_s, 1)
+        if known_ns is None:
+            known_ns = self._latency.settled_ns(compute_s, 1)
+        out_ns = now_ns + known_ns
+        step = StepRecord(STAGE, self._seq, now_ns, now_ns, known_ns, compute_s, 1)
         self._in_flight[self._seq] = step
         self._seq += 1
 

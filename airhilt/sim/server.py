@@ -10,7 +10,6 @@ from airhilt.errors import WorkerError
 from airhilt.sim.director import Director, Priority
 from airhilt.sim.latency import LatencySource
 from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
-from airhilt.units import seconds_to_ns
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +123,9 @@ class Server:
         self._seq += 1
         self._wake_ns = None
         pending = self._endpoint.dispatch(seq, now_ns, inputs)
-        known_ns = self._latency.known_ns(seq)
+        begun_ns = inputs[0].begun_ns if inputs else None
+        lasted_ns = None if begun_ns is None else now_ns - begun_ns
+        known_ns = self._latency.known_ns(seq, lasted_ns)
         t_in_ns = inputs[0].t_in_ns if inputs else now_ns
         self._in_hand = step = StepRecord(
             self.name, seq, t_in_ns, now_ns, known_ns or 0, 0.0, 0, finished=False
@@ -136,11 +137,11 @@ class Server:
             self._director.at(due_ns, lambda: self._collect_due(pending, step), Priority.RESULT)
 
     def _settle(self, pending: Pending, step: StepRecord) -> None:
-        """Wait for a step whose own compute time is its latency."""
+        """Wait for a step whose latency only its result tells."""
         reply = self._collect(pending)
         if reply is None:
             return
-        latency_ns = seconds_to_ns(reply.compute_s)
+        latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
         self._in_hand = settled = replace(step, latency_ns=latency_ns)
         self._director.at(
             step.t_start_ns + latency_ns, lambda: self._finish(reply, settled), Priority.RESULT

@@ -15,12 +15,17 @@ class WorkerLost(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """One message that reached a worker at ``t_in_ns``."""
+    """One message that reached a worker at ``t_in_ns``.
+
+    ``begun_ns`` is when what it tells of began, such as a call that has ended; None if that was of
+    one instant.
+    """
 
     key: str
     t_in_ns: int
     payload: bytes
     attachment: Any = None
+    begun_ns: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from airhilt.messages import (
     Message,
     ModelExchange,
     Transcript,
+    Transmission,
     WorkerDescription,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
@@ -120,8 +121,9 @@ class WorkerPool:
             ]
         is_header = routes and isinstance(message, Header)
         attachment = message.model_dump(mode="json") if is_header else None
+        begun_ns = message.t_tx_ns if isinstance(message, Transmission) else None
         for server, policy in routes:
-            server.offer(Input(key, message.t_ns, data, attachment), policy)
+            server.offer(Input(key, message.t_ns, data, attachment, begun_ns), policy)
 
     def inputs_dropped(self) -> dict[str, int]:
         """Return how many inputs were dropped as out of date, by worker and key."""

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import airhilt
+from airhilt.cosim.latency_presets import DECISION_S
 from airhilt.units import SECOND_NS
 
 
@@ -34,3 +35,13 @@ def test_only_the_named_stage_takes_the_time_that_is_given_for_it(tmp_path: Path
 def test_a_stage_that_is_not_there_is_refused_with_the_nearest(text: str) -> None:
     with pytest.raises(airhilt.AirhiltError, match="did you mean 'decision'"):
         airhilt.run("s02a_headon", latency=text)
+
+
+def test_with_the_times_of_the_paper_only_steps_that_publish_take_the_language_model(
+    tmp_path: Path,
+) -> None:
+    airhilt.run(
+        "s02a_headon", cameras=False, speech=False, out=tmp_path / "run", latency="paper"
+    )  # fmt: skip
+    found = latencies_ns(tmp_path / "run")
+    assert found["decision"] == {0, round(DECISION_S * SECOND_NS)}

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 from airhilt.errors import AirhiltError
 from airhilt.sim import LatencySpec, parse_latency
+from airhilt.sim.latency import LEAST_NS
+from airhilt.units import seconds_to_ns
 
 
 def drawn(
@@ -28,7 +30,7 @@ def drawn(
 @pytest.mark.parametrize(
     "text",
     ["measured", "fixed", "fixed:0.25", "lognormal", "lognormal:5.9", "replay:runs/a,b",
-     "fixed,asr=lognormal:5.9,tts=fixed:0.9"],
+     "fixed,asr=lognormal:5.9,tts=fixed:0.9", "fixed,asr=since_start:5.88,decision=on_output:0.4"],
 )  # fmt: skip
 def test_a_latency_source_is_written_as_it_was_typed(text: str) -> None:
     assert parse_latency(text).text == text
@@ -38,7 +40,8 @@ def test_a_latency_source_is_written_as_it_was_typed(text: str) -> None:
     "text",
     ["", "slow", "fixed:", "fixed:x", "fixed:-1", "fixed:nan", "fixed:3601", "fixed:inf",
      "replay", "replay:", "lognormal:x", "measured:2", "Fixed", "fixed,measured", "fixed,",
-     "asr=", "=fixed", "asr=slow", "asr=fixed,asr=fixed", "fixed,asr=replay:runs/a"],
+     "since_start", "on_output", "paper", "asr=", "=fixed",
+     "asr=slow", "asr=fixed,asr=fixed", "fixed,asr=replay:runs/a"],
 )  # fmt: skip
 def test_any_other_is_refused_and_the_message_says_what_is_expected(text: str) -> None:
     with pytest.raises(AirhiltError) as caught:
@@ -115,3 +118,38 @@ def test_a_step_that_the_earlier_run_did_not_have_is_an_error_that_names_it(work
     assert repr(worker) in message
     assert "step 2" in message
     assert "same scenario, seed and workers" in message
+
+
+# --- counted from the start, or for outputs only --------------------------------------------
+
+
+def test_a_time_since_the_start_leaves_what_has_not_passed_yet() -> None:
+    source = parse_latency("since_start:6").source("asr", 1, 0.4, 0.25)
+    whole = source.known_ns(3, 0)
+    assert whole is not None
+    assert source.known_ns(3, seconds_to_ns(2.0)) == whole - seconds_to_ns(2.0)
+    assert source.known_ns(3, seconds_to_ns(60.0)) == LEAST_NS
+    assert source.known_ns(3) == 0
+
+
+def test_times_since_the_start_have_the_mean_that_was_given() -> None:
+    source = parse_latency("since_start:6").source("asr", 1, 0.4, 0.25)
+    times = [known for seq in range(400) if (known := source.known_ns(seq, 0)) is not None]
+    assert statistics.mean(times) / 1e9 == pytest.approx(6.0, rel=0.02)
+
+
+def test_only_steps_with_outputs_take_time_where_that_is_said() -> None:
+    source = parse_latency("on_output:0.4").source("decision", 1, 0.1, 0.25)
+    assert source.known_ns(0) is None
+    assert [source.settled_ns(7.0, outputs) for outputs in (0, 1, 3)] == [
+        0, 400_000_000, 400_000_000,
+    ]  # fmt: skip
+
+
+def test_a_name_stands_for_a_text_and_single_stages_may_differ() -> None:
+    presets = {"published": "fixed,asr=since_start:5.88,tts=fixed:0.9"}
+    assert parse_latency("published", presets).text == presets["published"]
+    assert parse_latency("tts=fixed:0.2,published", presets).of("tts").given_s == 0.2
+    assert parse_latency("tts=fixed:0.2,published", presets).of("asr").given_s == 5.88
+    with pytest.raises(AirhiltError):
+        parse_latency("published,fixed", presets)

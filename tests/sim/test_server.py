@@ -24,6 +24,7 @@ from airhilt.sim import (
 )
 from airhilt.sim.latency import Fixed, LatencySource, Measured
 from airhilt.sim.worker import Policy
+from airhilt.units import seconds_to_ns
 
 
 @dataclass
@@ -356,3 +357,40 @@ def test_a_worker_that_is_idle_has_nothing_unfinished() -> None:
     bench = Bench(echo, Fixed(10))
     bench.offer_at(0, b"a")
     assert bench.run().server.unfinished() is None
+
+
+# --- latencies that depend on the input or on the result ------------------------------------
+
+
+def test_what_has_lasted_counts_from_its_begin_also_while_it_waits() -> None:
+    source = parse_latency("since_start:6").source("worker", 1, 0.0, 0.0)
+    bench = Bench(echo, source)
+    begun_ns, waited_ns = seconds_to_ns(1.0), seconds_to_ns(0.5)
+
+    def offer(t_ns: int) -> None:
+        item = Input("k", t_ns, b"call", None, begun_ns)
+        bench.director.at(t_ns, lambda: bench.server.offer(item, "fifo"), Priority.SENSOR)
+
+    offer(seconds_to_ns(4.0))
+    offer(seconds_to_ns(4.0) + waited_ns)
+    bench.run()
+    first, second = bench.steps
+    for step in (first, second):
+        left_ns = source.known_ns(step.seq, step.t_start_ns - begun_ns)
+        assert step.latency_ns == left_ns
+    assert second.t_start_ns == first.t_start_ns + first.latency_ns
+
+
+def test_a_step_without_outputs_leaves_a_worker_free_at_once() -> None:
+    def loud_ones(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply:
+        return Reply(tuple(Output("out", i.payload) for i in inputs if i.payload == b"loud"), 0.0)
+
+    source = parse_latency("on_output:0.4").source("worker", 1, 0.0, 0.0)
+    bench = Bench(loud_ones, source)
+    for t_ns, name in ((100, b"quiet"), (200, b"loud"), (300, b"quiet")):
+        bench.offer_at(t_ns, name)
+    bench.run()
+    assert [(step.t_start_ns, step.latency_ns) for step in bench.steps] == [
+        (100, 0), (200, 400_000_000), (400_000_200, 0),
+    ]  # fmt: skip
+    assert bench.out == [(400_000_200, b"loud")]
