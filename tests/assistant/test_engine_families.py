@@ -252,7 +252,7 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
 
 
 def test_an_assistant_of_another_name_is_refused_with_the_nearest() -> None:
-    expected = "expected adsb_only, .*reference.*; did you mean 'reference'"
+    expected = r"expected adsb_only, .*reference, .*; did you mean 'reference'\?"
     with pytest.raises(AirhiltError, match=expected):
         decision_engine("referense")
 

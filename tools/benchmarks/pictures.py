@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from airhilt import load, run
-from airhilt.assistant.vision.detector import Picture
+from airhilt.assistant.vision.detector import Picture, Shot
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.gating import Gate
 from airhilt.errors import RendererError
@@ -84,7 +84,7 @@ def detection() -> dict[str, float]:
         ways: list[tuple[list[float], Callable[[Picture], object]]] = [
             (times, detector.detect),
             (first, detector.proposed),
-            (gated, partial(Gate(detector).look, camera)),
+            (gated, partial(Gate(detector).look, Shot(camera, 0))),
         ]
         for _ in range(2 * ROUNDS):
             for spent, look in ways:

@@ -30,6 +30,8 @@ class Alert:
         The hazard in words. Without it, a wording has kind, traffic and the note of the evidence.
     recommendations
         Recommended action of each recipient that should act, by callsign.
+    messages
+        Text of each recipient that has one of the engine's own; a wording words the others.
     active
         False where the conflict is over.
     t_ready_ns
@@ -45,5 +47,6 @@ class Alert:
     evidence: Evidence
     finding: Finding | None = None
     recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
+    messages: Mapping[str, str] = field(default_factory=dict)
     active: bool = True
     t_ready_ns: int | None = None

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from airhilt.errors import VisionError
 from airhilt.imaging.boxes import overlap
+from airhilt.imaging.masks import Mask
 from airhilt.messages import Box, VisibleClass
 
 Picture = npt.NDArray[np.uint8]
@@ -27,6 +28,28 @@ class Found(NamedTuple):
     label: VisibleClass
     confidence: float
     box: Box
+
+
+class Shot(NamedTuple):
+    """Origin of a picture that a detector is given.
+
+    Attributes
+    ----------
+    camera
+        Name of the camera.
+    t_frame_ns
+        End of the exposure.
+    left, top
+        Place of the picture in that of the camera, in pixels: not 0 for a tile of a big picture.
+    own_aircraft
+        Mask of the pixels that the camera's own aircraft may cover; None if there are none.
+    """
+
+    camera: str
+    t_frame_ns: int
+    left: int = 0
+    top: int = 0
+    own_aircraft: Mask | None = None
 
 
 class PictureMissed(VisionError):
@@ -57,6 +80,15 @@ class Detector(Protocol):
         airhilt.errors.VisionError
             The detector has failed for good.
         """
+        ...
+
+
+@runtime_checkable
+class DetectsShots(Protocol):
+    """Part that a detector may have besides: it is told where a picture comes from."""
+
+    def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
+        """Return what is in a picture; it raises what `Detector.detect` does."""
         ...
 
 

@@ -13,7 +13,14 @@ from collections.abc import Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.vision.changes import changed_blocks, windows_about
-from airhilt.assistant.vision.detector import Detector, Found, Picture, once
+from airhilt.assistant.vision.detector import (
+    Detector,
+    DetectsShots,
+    Found,
+    Picture,
+    Shot,
+    once,
+)
 from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
 from airhilt.imaging.boxes import centre, shared_area
 
@@ -50,7 +57,7 @@ class Gate:
         self._detector = detector
         self._looked: dict[tuple[str, Tile], _Looked] = {}
 
-    def look(self, camera: str, picture: Picture) -> list[Found]:
+    def look(self, shot: Shot, picture: Picture) -> list[Found]:
         """Return what is in the next picture of a camera, by falling confidence.
 
         Raises
@@ -59,7 +66,7 @@ class Gate:
             The detector has failed.
         """
         tiles = tiles_of(picture)
-        found = [self._look_at(camera, tile, picture) for tile in tiles]
+        found = [self._look_at(shot, tile, picture) for tile in tiles]
         if len(tiles) == 1:
             return list(found[0])
         return merged([
@@ -68,28 +75,30 @@ class Gate:
             for piece in pieces_of(these, tile, picture)
         ])  # fmt: skip
 
-    def _look_at(self, camera: str, tile: Tile, picture: Picture) -> tuple[Found, ...]:
+    def _look_at(self, shot: Shot, tile: Tile, picture: Picture) -> tuple[Found, ...]:
         """Return what is in a tile, with boxes as they are in it."""
-        pixels = tile.of(picture)
-        last = self._looked.get((camera, tile))
-        looked = self._anew(pixels) if last is None else self._again(last, pixels)
-        self._looked[camera, tile] = looked
+        pixels, part = tile.of(picture), _part(shot, tile)
+        last = self._looked.get((shot.camera, tile))
+        looked = self._anew(part, pixels) if last is None else self._again(last, part, pixels)
+        self._looked[shot.camera, tile] = looked
         return looked.found
 
-    def _anew(self, pixels: Picture) -> _Looked:
-        kept = pixels.copy()
-        return _Looked(kept, tuple(self._detector.detect(kept)))
+    def _anew(self, shot: Shot, pixels: Picture) -> _Looked:
+        kept, detector = pixels.copy(), self._detector
+        if isinstance(detector, DetectsShots):
+            return _Looked(kept, tuple(detector.detect_shot(kept, shot)))
+        return _Looked(kept, tuple(detector.detect(kept)))
 
-    def _again(self, last: _Looked, pixels: Picture) -> _Looked:
+    def _again(self, last: _Looked, shot: Shot, pixels: Picture) -> _Looked:
         blocks = changed_blocks(last.pixels, pixels)
         if not blocks.any():
             return last
         detector, (rows, columns) = self._detector, pixels.shape[:2]
         if not isinstance(detector, SeesParts):
-            return self._anew(pixels)
+            return self._anew(shot, pixels)
         windows = windows_about(blocks, [one.box for one in last.found], rows, columns)
         if sum(each.height * each.width for each in windows) > MOST_IN_WINDOWS * rows * columns:
-            return self._anew(pixels)
+            return self._anew(shot, pixels)
         seen = [
             one
             for window in windows
@@ -100,6 +109,18 @@ class Gate:
         for window in windows:
             window.of(kept)[...] = window.of(pixels)
         return _Looked(kept, tuple(_together(last.found, seen, windows)))
+
+
+def _part(shot: Shot, tile: Tile) -> Shot:
+    """Return the origin of a tile."""
+    mask = shot.own_aircraft
+    return shot._replace(
+        left=tile.left,
+        top=tile.top,
+        own_aircraft=None
+        if mask is None
+        else mask[tile.top : tile.top + tile.height, tile.left : tile.left + tile.width],
+    )
 
 
 def _together(

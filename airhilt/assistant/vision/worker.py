@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.assistant.vision.detector import Detector, Picture, PictureMissed
+from airhilt.assistant.vision.detector import Detector, Picture, PictureMissed, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.errors import VisionError, first_problem
@@ -99,11 +99,12 @@ class VisionWorker:
             view=header.view,
             engine=self._engine,
         )
+        mask = self._masks.get(header.camera)
+        shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
         try:
-            found = self._gate.look(header.camera, picture)
+            found = self._gate.look(shot, picture)
         except PictureMissed as missed:
             return seen.model_copy(update={"missed": str(missed)})
-        mask = self._masks.get(header.camera)
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
         tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))

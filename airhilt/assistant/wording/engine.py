@@ -48,13 +48,22 @@ class WordsTogether(Protocol):
 
 
 def words(wording: AdvisoryWording, alerts: Sequence[Alert]) -> Worded:
-    """Return what all recipients of some alerts are told."""
-    if alerts and isinstance(wording, WordsTogether):
-        return wording.words(alerts)
-    return Worded(
-        {
-            (alert.id, recipient): wording.message(alert, recipient)
-            for alert in alerts
-            for recipient in alert.recipients
-        }
-    )
+    """Return what all recipients of some alerts are told.
+
+    A text that an engine has written itself stays as it is.
+    """
+    own = {
+        (alert.id, recipient): text
+        for alert in alerts
+        for recipient, text in alert.messages.items()
+    }
+    rest = [alert for alert in alerts if not set(alert.recipients) <= set(alert.messages)]
+    if rest and isinstance(wording, WordsTogether):
+        worded = wording.words(rest)
+        return Worded({**worded.messages, **own}, worded.exchanges)
+    texts = {
+        (alert.id, recipient): wording.message(alert, recipient)
+        for alert in rest
+        for recipient in alert.recipients
+    }
+    return Worded({**texts, **own})

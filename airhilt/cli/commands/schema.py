@@ -12,12 +12,20 @@ import click
 Examples:
   airhilt schema > messages.json
   airhilt schema --scenario > scenario.schema.json
+  airhilt schema --services > services.schema.json
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
-def schema(scenario: bool) -> None:
+@click.option("--services", is_flag=True, help="The schemas of requests to services instead.")
+def schema(scenario: bool, services: bool) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    if scenario:
+    if scenario and services:
+        raise click.UsageError("--scenario and --services: expected one of the two")
+    if services:
+        from airhilt.assistant.decision.service_messages import service_schemas
+
+        document = service_schemas()
+    elif scenario:
         from airhilt.scenario import Scenario
 
         document = Scenario.model_json_schema()

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.assistant.vision.changes import MARGIN_PX, changed_blocks, windows_about
-from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tiling import Tile, tiles_of
 from airhilt.imaging.boxes import area, moved, shared_area
@@ -25,7 +25,7 @@ def test_an_identical_picture_has_the_same_in_it_without_a_look() -> None:
     detector = BlobDetector()
     gate = Gate(detector)
     picture = with_blobs(background(), [("truck", (100, 100, 130, 120))])
-    first, *others = [gate.look("tower", picture.copy()) for _ in range(100)]
+    first, *others = [gate.look(Shot("tower", 0), picture.copy()) for _ in range(100)]
     assert len(first) == 1
     assert all(found == first for found in others)
     assert detector.asked == [(360, 640)]
@@ -36,13 +36,13 @@ def test_in_a_big_picture_only_tiles_with_a_change_are_looked_at() -> None:
     gate = Gate(detector)
     scene = with_blobs(background(*BIG), [("airplane", (1400, 60, 1460, 80))])
     tiles = len(tiles_of(scene))
-    gate.look("tower", scene)
+    gate.look(Shot("tower", 0), scene)
     assert len(detector.asked) == tiles
     # In the corner of the first tile, where no other tile is.
     moved = with_blobs(scene, [("truck", (100, 200, 124, 212))])
-    found = gate.look("tower", moved)
+    found = gate.look(Shot("tower", 0), moved)
     assert len(detector.asked) == tiles + 1
-    assert found == Gate(BlobDetector()).look("tower", moved)
+    assert found == Gate(BlobDetector()).look(Shot("tower", 0), moved)
     assert {one.label for one in found} == {"airplane", "truck"}
 
 
@@ -70,30 +70,32 @@ def test_it_finds_what_a_look_at_everything_finds(
     gate = Gate(BlobDetector())
     for blobs in scenes:
         picture = with_blobs(background(1400, 200), [*still, *blobs])
-        assert gate.look("tower", picture) == Gate(BlobDetector()).look("tower", picture)
+        assert gate.look(Shot("tower", 0), picture) == Gate(BlobDetector()).look(
+            Shot("tower", 0), picture
+        )
 
 
 def test_what_vanishes_is_not_found_any_more() -> None:
     gate, scene = Gate(BlobDetector()), background()
-    assert gate.look("tower", with_blobs(scene, [("bird", (300, 100, 306, 104))]))
-    assert not gate.look("tower", scene)
+    assert gate.look(Shot("tower", 0), with_blobs(scene, [("bird", (300, 100, 306, 104))]))
+    assert not gate.look(Shot("tower", 0), scene)
 
 
 def test_a_faint_change_counts_once_it_has_added_up() -> None:
     detector = BlobDetector()
     gate, scene = Gate(detector), background()
     for step in range(4):
-        gate.look("tower", scene + np.uint8(step))
+        gate.look(Shot("tower", 0), scene + np.uint8(step))
     assert len(detector.asked) == 2
 
 
 def test_a_faint_change_counts_too_where_windows_elsewhere_were_looked_at() -> None:
     detector = PartBlobDetector()
     gate, scene = Gate(detector), background()
-    gate.look("tower", scene)
+    gate.look(Shot("tower", 0), scene)
     for step in (1, 2):
         scene[300, 600] += 1
-        gate.look("tower", with_blobs(scene, [("truck", (10, 10, 10 + step, 20))]))
+        gate.look(Shot("tower", 0), with_blobs(scene, [("truck", (10, 10, 10 + step, 20))]))
     assert len(detector.asked) == 1 + 1 + 2
 
 
@@ -102,8 +104,8 @@ def test_cameras_do_not_know_of_each_other() -> None:
     gate = Gate(detector)
     empty, full = background(), with_blobs(background(), [("truck", (50, 50, 80, 70))])
     for _ in range(3):
-        assert not gate.look("tower", empty)
-        assert gate.look("runway", full)
+        assert not gate.look(Shot("tower", 0), empty)
+        assert gate.look(Shot("runway", 0), full)
     assert len(detector.asked) == 2
 
 
@@ -117,16 +119,16 @@ def test_a_picture_that_was_missed_is_looked_at_again() -> None:
 
     gate, truck = Gate(Late()), with_blobs(background(), [("truck", (50, 50, 80, 70))])
     with pytest.raises(PictureMissed):
-        gate.look("tower", truck)
-    assert gate.look("tower", truck)
+        gate.look(Shot("tower", 0), truck)
+    assert gate.look(Shot("tower", 0), truck)
 
 
 def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
     gate = Gate(BlobDetector())
     picture = with_blobs(background(), [("truck", (50, 50, 80, 70))])
-    assert gate.look("tower", picture)
+    assert gate.look(Shot("tower", 0), picture)
     picture[:] = background()
-    assert not gate.look("tower", picture)
+    assert not gate.look(Shot("tower", 0), picture)
 
 
 @pytest.mark.parametrize(("level", "expected"), [(8, False), (10, False), (7, True), (11, True)])
@@ -159,8 +161,8 @@ def places(found: Sequence[Found]) -> set[tuple[str, Box]]:
 def test_only_a_window_about_a_small_change_is_looked_at() -> None:
     detector = PartBlobDetector()
     gate, scene = Gate(detector), with_blobs(background(), [("truck", (20, 20, 50, 40))])
-    gate.look("tower", scene)
-    found = gate.look("tower", with_blobs(scene, [("airplane", (400, 200, 430, 210))]))
+    gate.look(Shot("tower", 0), scene)
+    found = gate.look(Shot("tower", 0), with_blobs(scene, [("airplane", (400, 200, 430, 210))]))
     assert {one.label for one in found} == {"airplane", "truck"}
     rows, columns = detector.asked[-1]
     assert 10 + 2 * MARGIN_PX <= rows < 180
@@ -170,10 +172,10 @@ def test_only_a_window_about_a_small_change_is_looked_at() -> None:
 def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
     detector = PartBlobDetector()
     gate, scene = Gate(detector), with_blobs(background(), [("airplane", (100, 100, 300, 120))])
-    gate.look("tower", scene)
+    gate.look(Shot("tower", 0), scene)
     lit = scene.copy()
     lit[90, 110] = 255
-    assert places(gate.look("tower", lit)) == {("airplane", (100.0, 100.0, 300.0, 120.0))}
+    assert places(gate.look(Shot("tower", 0), lit)) == {("airplane", (100.0, 100.0, 300.0, 120.0))}
     assert detector.asked[-1][1] >= 200
 
 
@@ -181,8 +183,8 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
 def test_all_is_looked_at_where_windows_would_hold_most_of_it(wide: int, is_whole: bool) -> None:
     detector = PartBlobDetector()
     gate, scene = Gate(detector), background()
-    gate.look("tower", scene)
-    gate.look("tower", with_blobs(scene, [("truck", (100, 5, 100 + wide, 355))]))
+    gate.look(Shot("tower", 0), scene)
+    gate.look(Shot("tower", 0), with_blobs(scene, [("truck", (100, 5, 100 + wide, 355))]))
     assert (detector.asked[-1] == (360, 640)) == is_whole
 
 
@@ -205,17 +207,17 @@ def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
             return [Found("bird", 0.4, inner), Found("truck", 0.9, outer)]
 
     gate, scene = Gate(FarReaching()), background()
-    gate.look("tower", scene)
-    found = gate.look("tower", with_blobs(scene, [("bird", (300, 100, 306, 104))]))
+    gate.look(Shot("tower", 0), scene)
+    found = gate.look(Shot("tower", 0), with_blobs(scene, [("bird", (300, 100, 306, 104))]))
     assert [one.label for one in found] == ["bird"]
 
 
 def test_the_surest_of_all_windows_and_of_what_was_there_come_first() -> None:
     gate, scene = Gate(PartBlobDetector()), background()
     still = with_blobs(scene, [("truck", (300, 40, 330, 60))])
-    gate.look("tower", still)
+    gate.look(Shot("tower", 0), still)
     ends = [("bird", (60, 60, 66, 64)), ("airplane", (560, 300, 566, 304))]
-    found = gate.look("tower", with_blobs(still, ends))
+    found = gate.look(Shot("tower", 0), with_blobs(still, ends))
     assert len(found) == 3
     assert [one.confidence for one in found] == sorted(
         (one.confidence for one in found), reverse=True
@@ -229,11 +231,11 @@ def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
             return [Found("truck", column / 1000.0, (column - 250.0, 100.0, column + 250.0, 200.0))]
 
     gate, scene = Gate(Wide()), background()
-    gate.look("tower", scene)
+    gate.look(Shot("tower", 0), scene)
     both = [("bird", (260, 150, 262, 152)), ("bird", (388, 150, 390, 152))]
     blocks = changed_blocks(scene, with_blobs(scene, both))
     assert len(windows_about(blocks, [], 360, 640)) == 2
-    found = gate.look("tower", with_blobs(scene, both))
+    found = gate.look(Shot("tower", 0), with_blobs(scene, both))
     assert [one.confidence > 0.325 for one in found] == [True]
 
 
@@ -246,8 +248,8 @@ def test_windows_find_what_a_look_at_everything_finds(
     gate = Gate(PartBlobDetector())
     for blobs in scenes:
         picture = with_blobs(background(*size), [*still, *blobs])
-        found = places(gate.look("tower", picture))
-        assert found == places(Gate(BlobDetector()).look("tower", picture))
+        found = places(gate.look(Shot("tower", 0), picture))
+        assert found == places(Gate(BlobDetector()).look(Shot("tower", 0), picture))
 
 
 def test_a_body_that_stood_unseen_between_two_windows_is_not_told_in_halves() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import json
 import re
 from http.server import BaseHTTPRequestHandler
@@ -9,10 +11,13 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+from PIL import Image
 
-from airhilt.assistant.vision.detector import Found, PictureMissed
+from airhilt.assistant.vision.detector import Found, PictureMissed, Shot
 from airhilt.assistant.vision.detectors.http import HttpDetector, encode_png
+from airhilt.assistant.vision.gating import Gate
 from airhilt.errors import VisionError
+from airhilt.imaging.masks import Mask
 from pictures import background, with_blobs
 from services import (
     Slow,
@@ -52,12 +57,9 @@ def test_it_is_given_a_png_and_gives_findings() -> None:
 
 
 def test_the_png_is_the_picture() -> None:
-    image = pytest.importorskip("PIL.Image")
-    import io
-
     for columns, rows in ((65, 33), (1, 1), (640, 360)):
         picture = background(columns, rows, seed=3)
-        decoded = np.asarray(image.open(io.BytesIO(encode_png(picture))))
+        decoded = np.asarray(Image.open(io.BytesIO(encode_png(picture))))
         np.testing.assert_array_equal(decoded, picture)
 
 
@@ -182,3 +184,40 @@ class TestRequestWithoutAnAnswer:
 
     def test_an_answer_in_between_begins_the_row_anew(self) -> None:
         assert self.look("--+--+") == ["missed", "missed", "seen"] * 2
+
+
+class TestOriginOfAPicture:
+    """The service is told which camera a picture is of, when it was taken, and the mask."""
+
+    def headers(self, size: tuple[int, int], mask: Mask | None) -> list[dict[str, str]]:
+        """Return the headers of the requests about one picture of a camera."""
+        given: list[dict[str, str]] = []
+
+        def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+            given.append(dict(handler.headers))
+            answering(b'{"detections": []}')(handler, body)
+
+        with service(answer) as url:
+            shot = Shot("nose", 1_500_000_000, own_aircraft=mask)
+            Gate(HttpDetector(url)).look(shot, background(*size))
+        return given
+
+    def test_its_camera_and_time_are_in_the_headers(self) -> None:
+        (headers,) = self.headers((64, 48), None)
+        assert (headers["X-Camera-Id"], headers["X-Ts-Ms"]) == ("nose", "1500")
+        assert headers["X-Offset-Px"] == "0,0"
+        assert "X-Mask" not in headers
+
+    def test_the_mask_is_a_picture_of_the_own_aircraft(self) -> None:
+        mask = np.zeros((48, 64), dtype=bool)
+        mask[40:, 10:50] = True
+        (headers,) = self.headers((64, 48), mask)
+        decoded = Image.open(io.BytesIO(base64.b64decode(headers["X-Mask"])))
+        assert (np.asarray(decoded.convert("1")) == mask).all()
+
+    def test_a_tile_has_its_own_offset_and_its_part_of_the_mask(self) -> None:
+        mask = np.zeros((100, 1300), dtype=bool)
+        mask[:, :10] = True
+        tiles = self.headers((1300, 100), mask)
+        assert len({each["X-Offset-Px"] for each in tiles}) == len(tiles) > 1
+        assert [each["X-Offset-Px"] for each in tiles if "X-Mask" in each] == ["0,0"]

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.detector import Found, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tiling import OVERLAP_PX, TILE_PX, Piece, Tile, merged, tiles_of
 from pictures import BlobDetector, background, with_blobs
@@ -40,7 +40,7 @@ def test_what_is_smaller_than_the_overlap_is_found_once_and_whole(
 ) -> None:
     box = (left, top, min(left + width, 1920), min(top + height, 1080))
     flat = np.full((1080, 1920, 3), 100, np.uint8)
-    found = Gate(BlobDetector()).look("tower", with_blobs(flat, [("airplane", box)]))
+    found = Gate(BlobDetector()).look(Shot("tower", 0), with_blobs(flat, [("airplane", box)]))
     assert [(one.label, one.box) for one in found] == [("airplane", box)]
 
 
@@ -53,5 +53,5 @@ def test_what_two_tiles_take_for_different_things_is_one() -> None:
 def test_different_things_side_by_side_stay_two() -> None:
     flat = np.full((1080, 1920, 3), 100, np.uint8)
     blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
-    found = Gate(BlobDetector()).look("tower", with_blobs(flat, blobs))
+    found = Gate(BlobDetector()).look(Shot("tower", 0), with_blobs(flat, blobs))
     assert sorted(one.box for one in found) == [box for _, box in blobs]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PIL import Image
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
+from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.boxes import area
@@ -44,6 +45,11 @@ class HttpDetector:
     The answer is JSON such as ``{"detections": [{"label": "airplane", "confidence": 0.9, "box":
     [10, 20, 40, 30]}]}``, boxes in pixels: left, top, right, bottom.
 
+    Headers say where the picture comes from: ``X-Camera-Id``; ``X-Ts-Ms``, the end of the exposure
+    in ms since the start of the run; ``X-Offset-Px``, left and top of the picture in that of the
+    camera, such as ``0,0``; and ``X-Mask``, a PNG in base64 that is white where the camera's own
+    aircraft may be, if there is such a place.
+
     A request without an answer loses one picture, and `MOST_FAILURES` of them in a row lose the
     detector; an invalid answer does so at once.
     """
@@ -58,13 +64,20 @@ class HttpDetector:
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what the service finds in a picture; see `Detector.detect`."""
-        answer = self._parse(self._post(encode_png(picture)))
+        return self._detect(picture, {})
+
+    def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
+        """Return what the service finds in a picture, and tell it where that comes from."""
+        return self._detect(picture, headers_of(shot))
+
+    def _detect(self, picture: Picture, headers: Mapping[str, str]) -> Sequence[Found]:
+        answer = self._parse(self._post(encode_png(picture), headers))
         placed = [self._placed(each, picture) for each in answer.detections]
         return [found for found in placed if area(found.box)]
 
-    def _post(self, png: bytes) -> bytes:
+    def _post(self, png: bytes, headers: Mapping[str, str]) -> bytes:
         try:
-            answer = self._service.post(png, "image/png")
+            answer = self._service.post(png, "image/png", headers)
         except VisionError as error:
             self._failures += 1
             if self._failures < MOST_FAILURES:
@@ -94,6 +107,20 @@ class HttpDetector:
                 'JSON such as {"detections": [{"label": "airplane", "confidence": 0.9, '
                 '"box": [10, 20, 40, 30]}]}',
             ) from None
+
+
+def headers_of(shot: Shot) -> dict[str, str]:
+    """Return the headers that tell a service where a picture comes from."""
+    headers = {
+        "X-Camera-Id": shot.camera,
+        "X-Ts-Ms": str(shot.t_frame_ns // 1_000_000),
+        "X-Offset-Px": f"{shot.left},{shot.top}",
+    }
+    if shot.own_aircraft is not None and shot.own_aircraft.any():
+        png = io.BytesIO()
+        Image.fromarray(shot.own_aircraft).save(png, "PNG")
+        headers["X-Mask"] = base64.b64encode(png.getvalue()).decode()
+    return headers
 
 
 def encode_png(picture: Picture) -> bytes:

@@ -99,6 +99,8 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
 
 
 def _action(recommendation: Recommendation) -> str:
+    if isinstance(recommendation, Climb | MaintainLevel | Turn):
+        return in_flight(recommendation)
     return recommendation.action.replace("_", " ")
 
 

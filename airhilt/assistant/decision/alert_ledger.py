@@ -1,0 +1,55 @@
+"""The alerts that were told, so that only what has changed is told again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.messages import Severity
+
+
+class AlertLedger:
+    """Turns all alerts that hold now into those that are to be published.
+
+    An alert is published when it is new, when its severity, its recommendations or those concerned
+    change, and a last time when it does not hold any more. Its note, its times and its words may
+    change without that, because a voice says it again each time.
+    """
+
+    def __init__(self) -> None:
+        self._told: dict[str, Alert] = {}
+
+    def update(self, holding: Sequence[Alert]) -> list[Alert]:
+        """Return what is to be published; the revisions of the alerts are set here."""
+        news: list[Alert] = []
+        for alert in holding:
+            told = self._told.get(alert.id)
+            if told is None or not told.active or _judgement(told) != _judgement(alert):
+                news.append(replace(alert, revision=0 if told is None else told.revision + 1))
+        names = {alert.id for alert in holding}
+        news += [
+            replace(
+                told,
+                revision=told.revision + 1,
+                severity=Severity.INFO,
+                active=False,
+                recommendations={},
+                messages={},
+            )
+            for told in self._told.values()
+            if told.active and told.id not in names
+        ]
+        self._told |= {alert.id: alert for alert in news}
+        return news
+
+
+def _judgement(alert: Alert) -> tuple[object, ...]:
+    """Return the parts of an alert whose change is told."""
+    return (
+        alert.kind,
+        alert.severity,
+        alert.recipients,
+        alert.traffic,
+        sorted((name, repr(each)) for name, each in alert.recommendations.items()),
+    )

@@ -1,0 +1,97 @@
+"""An assistant at an address: it takes slices of the situation, and answers advisories."""
+
+from __future__ import annotations
+
+from pydantic import ValidationError
+
+from airhilt.assistant.decision.alert_ledger import AlertLedger
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.service_messages import AssistantAnswer, ProposedAdvisory
+from airhilt.assistant.decision.slices import READS, Slices
+from airhilt.engines import Engine
+from airhilt.errors import WorkerError, first_problem
+from airhilt.messages import Message, Transcript
+from airhilt.services import USAGE, HttpService, is_service
+from airhilt.units import SECOND_NS
+
+TIMEOUT_S = 5.0
+"""Wall time for one answer: that of ``--step-timeout``."""
+MAXIMUM_BYTES = 1_000_000
+"""Size of the largest answer."""
+PERIOD_NS = SECOND_NS
+"""Least time between two requests, unless a call was recognised."""
+
+
+class HttpAssistant:
+    """Asks a service that answers POST requests with `AssistantRequest` by `AssistantAnswer`.
+
+    It is asked when a call was recognised, and otherwise once a second while something arrives. A
+    request without a valid answer ends it.
+    """
+
+    name = "http"
+    reads: tuple[type[Message], ...] = READS
+
+    def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
+        self._service = HttpService("assistant http", url, timeout_s, MAXIMUM_BYTES, WorkerError)
+        self._slices = Slices()
+        self._ledger = AlertLedger()
+        self._due_ns: int | None = None
+        """Time of the next request; None if nothing has arrived since the last one."""
+        self._earliest_ns = 0
+
+    def receive(self, received: Received) -> None:
+        """Keep one message for the next request."""
+        self._slices.receive(received)
+        is_call = isinstance(received.message, Transcript)
+        due_ns = received.t_ns if is_call else max(received.t_ns, self._earliest_ns)
+        self._due_ns = due_ns if self._due_ns is None else min(self._due_ns, due_ns)
+
+    def decide(self, t_ns: int) -> Decision:
+        """Return what the service says that is new, has changed, or is over.
+
+        Raises
+        ------
+        WorkerError
+            It does not answer in time, or what it answers is not of the schema.
+        """
+        if self._due_ns is None or t_ns < self._due_ns:
+            return Decision(again_ns=self._due_ns)
+        self._due_ns, self._earliest_ns = None, t_ns + PERIOD_NS
+        request = self._slices.request(t_ns).model_dump_json().encode()
+        answer = self._parse(self._service.post(request, "application/json"))
+        return Decision(self._ledger.update([_alert(each) for each in answer.advisories]))
+
+    def _parse(self, data: bytes) -> AssistantAnswer:
+        try:
+            return AssistantAnswer.model_validate_json(data)
+        except ValidationError as error:
+            raise self._service.error(
+                f"answered {data[:60]!r}: {first_problem(error)}",
+                "an AssistantAnswer, see `airhilt schema --services`",
+            ) from None
+
+
+def _alert(proposed: ProposedAdvisory) -> Alert:
+    return Alert(
+        id=proposed.id,
+        revision=0,
+        kind=proposed.kind,
+        severity=proposed.severity,
+        recipients=tuple(dict.fromkeys(proposed.recipients)),
+        traffic=proposed.traffic,
+        evidence=proposed.evidence,
+        recommendations=proposed.recommendations,
+        messages=proposed.messages,
+    )
+
+
+ENGINE = Engine(
+    name="http",
+    summary="service that takes JSON and answers advisories",
+    create=HttpAssistant,
+    takes=is_service,
+    usage=USAGE,
+    is_remote=True,
+)

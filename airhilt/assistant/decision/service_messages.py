@@ -1,0 +1,165 @@
+"""Request and answer of an assistant at an address, as ``airhilt schema --services`` prints them.
+
+Times are whole milliseconds since the start of the run (``ts_ms``), as in the AIRHILT paper.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, Field, StringConstraints, model_validator
+
+from airhilt.messages import (
+    AdvisoryKind,
+    AirportBriefing,
+    CameraView,
+    Confidence,
+    Detection,
+    EmitterCategory,
+    Evidence,
+    Part,
+    Recommendation,
+    RosterEntry,
+    Severity,
+    Word,
+)
+
+MOST_ADVISORIES = 100
+"""Largest number of advisories in one answer."""
+Milliseconds = Annotated[int, Field(ge=0, description="milliseconds since the start of the run")]
+Recipient = Annotated[
+    str,
+    StringConstraints(pattern=r"^[A-Za-z0-9_-]{1,20}$"),
+    Field(description="ATC, a callsign, or an icao24 while there is no callsign"),
+]
+Text = Annotated[str, StringConstraints(min_length=1, max_length=500)]
+
+
+class RadioTurn(Part):
+    """One transmission, as it was recognised."""
+
+    turn_id: str
+    ts_ms: Milliseconds = Field(description="start of the transmission")
+    end_ms: Milliseconds
+    frequency_khz: int
+    text: str
+    words: tuple[Word, ...] = Field(
+        default=(), description="the words of `text` one by one; empty if the engine has none"
+    )
+    confidence: Confidence
+    addressed_callsign: str | None = Field(
+        description="callsign that the words name first; null if they do not begin with one"
+    )
+    speaker: str | None = Field(
+        description="callsign that the words end with, as that of a crew does; null if they do not"
+    )
+    overheard: bool | None = Field(
+        default=None, description="the call was for somebody else; null if that is not known"
+    )
+
+
+class CameraSlice(Part):
+    """Objects found in one picture."""
+
+    camera_id: str
+    ts_ms: Milliseconds = Field(description="end of the exposure")
+    view: CameraView
+    detections: tuple[Detection, ...]
+
+
+class TrackSlice(Part):
+    """Last ADS-B report of one aircraft or vehicle."""
+
+    icao24: str
+    callsign: str | None
+    ts_ms: Milliseconds = Field(description="the squitter reached the receiver")
+    latitude_deg: float
+    longitude_deg: float
+    altitude_ft: float | None = Field(description="pressure altitude; null on the ground")
+    on_ground: bool
+    emitter_category: EmitterCategory | None
+    ground_speed_kt: float
+    track_deg: float
+    vertical_rate_fpm: float
+    nacp: int
+
+
+class FlightContext(Part):
+    """Facts that all participants know before the run begins; see `airhilt.messages.Briefing`."""
+
+    controller: str
+    horizontal_separation_nm: float
+    vertical_separation_ft: float
+    roster: tuple[RosterEntry, ...]
+    airport: AirportBriefing | None
+    animals: tuple[str, ...]
+
+
+class AssistantRequest(Part):
+    """What the assistant may know at ``ts_ms``: the last minutes of each modality."""
+
+    ts_ms: Milliseconds
+    context: FlightContext | None = Field(description="null before the briefing")
+    radio: tuple[RadioTurn, ...] = Field(description="the calls of the last two minutes")
+    cameras: tuple[CameraSlice, ...] = Field(description="the pictures of the last second")
+    tracks: tuple[TrackSlice, ...] = Field(description="those heard in the last 15 s")
+
+
+class ProposedAdvisory(Part):
+    """One conflict, as the assistant judges it now, for all its recipients."""
+
+    id: str = Field(
+        pattern=r"^[A-Za-z0-9_.-]{1,60}$",
+        description="name of the conflict, the same in all answers",
+    )
+    kind: AdvisoryKind
+    severity: Severity
+    recipients: tuple[Recipient, ...] = Field(min_length=1)
+    traffic: tuple[str, ...] = Field(
+        min_length=1, description="callsigns (or icao24) of those in conflict"
+    )
+    messages: dict[str, Text] = Field(
+        default_factory=dict,
+        description="text for each recipient that has its own; the wording words the others",
+    )
+    recommendations: dict[str, Recommendation] = Field(
+        default_factory=dict, description="recommended action of each recipient that should act"
+    )
+    evidence: Evidence = Evidence(sources=())
+
+    @model_validator(mode="after")
+    def _tells_recipients_only(self) -> Self:
+        for what in ("messages", "recommendations"):
+            others = sorted(set(getattr(self, what)) - set(self.recipients))
+            if others:
+                raise ValueError(f"{what} for {', '.join(others)}; expected recipients only")
+        return self
+
+
+class AssistantAnswer(Part):
+    """All conflicts that hold now. One that is not listed any more is over."""
+
+    advisories: tuple[ProposedAdvisory, ...] = Field(max_length=MOST_ADVISORIES)
+
+    @model_validator(mode="after")
+    def _names_each_once(self) -> Self:
+        names = [each.id for each in self.advisories]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ValueError(f"two advisories with the id {twice[0]!r}; expected one a conflict")
+        return self
+
+
+SERVICE_MESSAGES: dict[str, type[BaseModel]] = {
+    "assistant (request)": AssistantRequest,
+    "assistant (answer)": AssistantAnswer,
+}
+"""Bodies of POST requests to services, and of their answers."""
+
+
+def service_schemas() -> dict[str, Any]:
+    """Return the schemas of all services in one JSON object."""
+    return {
+        name: {"title": model.__name__, **model.model_json_schema()}
+        for name, model in SERVICE_MESSAGES.items()
+    }

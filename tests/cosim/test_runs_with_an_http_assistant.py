@@ -1,0 +1,59 @@
+"""Runs whose assistant is at an address: decided there, recorded here, replayed without it."""
+
+from __future__ import annotations
+
+import runpy
+import threading
+from http.server import HTTPServer
+from pathlib import Path
+from typing import Any
+
+import airhilt
+from airhilt import Scenario
+from airhilt.cosim.replay import replay
+from airhilt.messages import Event, Severity
+from airhilt.record import read_log
+from paths import ROOT
+from services import answering, nobody, service
+
+OPTIONS: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
+
+
+def test_the_example_warns_both_crews_and_its_run_replays_without_it(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    handler = runpy.run_path(str(ROOT / "examples" / "http_assistant.py"))["Handler"]
+    with HTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.02,))
+        thread.start()
+        url = f"http://127.0.0.1:{server.server_port}/advise"
+        try:
+            result = airhilt.run(encounter, out=tmp_path / "run", assistant=url, **OPTIONS)
+        finally:
+            server.shutdown()
+            thread.join()
+    summary = result.summary
+    assert summary.assistant == url
+    assert [each.severity for each in summary.advisories] == [Severity.CAUTION]
+    reactions = [
+        event
+        for logged in read_log(result.folder / "log.mcap")
+        if logged.key == "truth/event"
+        and (event := Event.model_validate_json(logged.data)).kind == "pilot_reacts"
+    ]
+    assert {event.subject for event in reactions} == {"AAL123", "DAL456"}
+    assert replay(result.folder).identical
+
+
+def test_a_service_that_fails_is_a_lost_worker_and_the_run_goes_on(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    down = airhilt.run(encounter, out=tmp_path / "down", assistant=nobody(), **OPTIONS)
+    assert down.summary.modalities["decision"] == "lost"
+    assert down.summary.outcome == "finished"
+    assert replay(down.folder).identical
+
+    with service(answering(b'{"advisories": [{"id": "x"}]}')) as url:
+        invalid = airhilt.run(encounter, out=tmp_path / "invalid", assistant=url, **OPTIONS)
+    assert invalid.summary.modalities["decision"] == "lost"
+    assert not invalid.summary.advisories
