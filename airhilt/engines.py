@@ -11,15 +11,18 @@ from __future__ import annotations
 
 import importlib.metadata
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.plugins import Family, Members, missing
 from airhilt.services import is_service
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
 ASR = "embedded"
 """Recogniser of a run unless another is named."""
@@ -102,7 +105,8 @@ class Engine(Generic[T_co]):
         Description in a few words.
     create
         Returns the engine. It is given what follows ``NAME:``, or the whole text if `takes` has
-        recognised that; empty if there is nothing.
+        recognised that; empty if there is nothing. If there is a `configuration`, an instance of it
+        is the second argument.
     argument
         Word for what may follow ``NAME:``, such as ``FOLDER``; empty if nothing may.
     is_argument_required
@@ -116,17 +120,40 @@ class Engine(Generic[T_co]):
     is_remote
         True if it asks a program elsewhere, which may answer differently another time: a replay
         takes its results from the record.
+    configuration
+        Model of its configuration, whose fields all have defaults; None: it has none. For decision
+        engines, ``--assistant-config`` gives the values.
     """
 
     name: str
     summary: str
-    create: Callable[[str], T_co]
+    create: Callable[..., T_co]
     argument: str = ""
     is_argument_required: bool = False
     takes: Callable[[str], bool] = _takes_nothing
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
     is_remote: bool = False
+    configuration: type[BaseModel] | None = None
+
+    def configured(self, given: Mapping[str, Any] | None) -> BaseModel | None:
+        """Return its configuration with some values; None if it has none.
+
+        Raises
+        ------
+        AirhiltError
+            It has none but is given one, or a name or a value is wrong.
+        """
+        if self.configuration is not None:
+            # Not at the top: the help of the command line does without pydantic.
+            from airhilt.configuration import configured
+
+            return configured(self.configuration, given or {}, f"configuration of {self.name!r}")
+        if given is None:
+            return None
+        raise AirhiltError(
+            f"configuration of {self.name!r}: it has none; expected none to be given"
+        )
 
     def forms(self) -> str:
         """Return what to write on the command line."""
@@ -162,7 +189,9 @@ class EngineFamily(Family, Generic[T]):
     protocol: type[Engine[T]] = Engine
     product: type[Any] = object
 
-    def create(self, text: str, also: Sequence[str] = ()) -> T:
+    def create(
+        self, text: str, also: Sequence[str] = (), configuration: Mapping[str, Any] | None = None
+    ) -> T:
         """Return the engine for what a person has written.
 
         Parameters
@@ -172,6 +201,8 @@ class EngineFamily(Family, Generic[T]):
         also
             Words that the caller takes in the place of an engine, such as ``none``, for error
             messages.
+        configuration
+            Values of its configuration; None: the defaults.
 
         Raises
         ------
@@ -179,7 +210,8 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or it cannot be made. The error is of the class
             that the family declares.
         """
-        return self.make(*self.choose(text, also))
+        engine, argument = self.choose(text, also)
+        return self.make(engine, argument, engine.configured(configuration))
 
     def require_known(self, text: str, also: Sequence[str] = ()) -> None:
         """Complain about a text that means no engine; one that is named is not loaded.
@@ -199,8 +231,13 @@ class EngineFamily(Family, Generic[T]):
         if text not in also and not is_own and name not in self.names():
             self.choose(text, also)
 
-    def make(self, engine: Engine[T], argument: str) -> T:
+    def make(self, engine: Engine[T], argument: str, configuration: BaseModel | None = None) -> T:
         """Return what an engine makes of an argument, checked against the family's protocol.
+
+        Parameters
+        ----------
+        configuration
+            Its configuration; None: the one with the defaults, if it has one.
 
         Raises
         ------
@@ -208,8 +245,11 @@ class EngineFamily(Family, Generic[T]):
             It cannot be made, or is no such thing.
         """
         text = f"{engine.name}:{argument}" if argument else engine.name
+        if configuration is None:
+            configuration = engine.configured(None)
+        more = () if configuration is None else (configuration,)
         try:
-            made = engine.create(argument)
+            made = engine.create(argument, *more)
             fits = isinstance(made, self.product)
         except AirhiltError:
             raise

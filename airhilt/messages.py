@@ -890,6 +890,10 @@ class WorkerDescription(Part):
         description="name of the decision engine in AIRHILT's decision worker, such as reference; "
         "empty for other workers",
     )
+    configuration: dict[str, Any] = Field(
+        default_factory=dict,
+        description="rules and thresholds of that engine, whole; empty if it has none",
+    )
 
 
 class GrantInput(Part):

@@ -15,6 +15,7 @@ from typing import Annotated, Any
 from pydantic import (
     AfterValidator,
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
     ValidationError,
@@ -23,6 +24,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
+from airhilt.configuration import read_configuration
 from airhilt.engines import ASR, DETECTOR, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.library import nearest
@@ -77,6 +79,11 @@ def _one_chunk(name: str) -> str:
     return name
 
 
+def _contents(given: Any) -> Any:
+    """Return what a file holds, if it is the path of one."""
+    return read_configuration(Path(given)) if isinstance(given, str | Path) else given
+
+
 Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
 
 
@@ -101,6 +108,18 @@ class Options(BaseModel):
             "service, none, or external (a worker or program of yours).",
             "NAME",
             default="reference, external if a worker or program of yours may decide",
+        ),
+    ] = None
+    assistant_config: Annotated[
+        dict[str, Any] | None,
+        BeforeValidator(_contents),
+        Flag(
+            "--assistant-config",
+            "Rules and thresholds of the assistant, a JSON file; `airhilt schema --assistant NAME` "
+            "prints what it may hold.",
+            "FILE",
+            default="the assistant's own",
+            needs=("assistant",),
         ),
     ] = None
     pace: Annotated[

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
@@ -40,6 +40,8 @@ class Engines(NamedTuple):
     detector: str | None = None
     wording: str = WORDING
     llm: LanguageModelSettings | None = None
+    configuration: Mapping[str, Any] | None = None
+    """Configuration of the decision engine; None: its own defaults."""
 
 
 class RadioSetup(Protocol):
@@ -77,7 +79,7 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
-    asr, tts, detector, wording, llm = engines
+    asr, tts, detector, wording, llm, configuration = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
     if tts is not None and "tts" not in taken and is_assisted:
@@ -87,7 +89,16 @@ def reference_workers(
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
         also = (NO_ASSISTANT, EXTERNAL)
-        workers.append(decision_worker(assistant, wording, is_gated=is_gated, also=also, llm=llm))
+        workers.append(
+            decision_worker(
+                assistant,
+                wording,
+                configuration=configuration,
+                is_gated=is_gated,
+                also=also,
+                llm=llm,
+            )
+        )
     return workers
 
 
@@ -95,6 +106,7 @@ def decision_worker(
     engine: str = ASSISTANT,
     wording: str = WORDING,
     *,
+    configuration: Mapping[str, Any] | None = None,
     is_gated: bool = False,
     name: str = "decision",
     also: Sequence[str] = (),
@@ -104,6 +116,8 @@ def decision_worker(
 
     Parameters
     ----------
+    configuration
+        Values of the configuration of the engine; None: the defaults.
     also
         Words that the caller takes in the place of an engine, such as ``none``, for error messages.
     llm
@@ -119,7 +133,7 @@ def decision_worker(
     from airhilt.assistant.decision.worker import DecisionWorker
     from airhilt.assistant.wording.engines import advisory_wording
 
-    parts = decision_engine(engine, also), advisory_wording(wording)
+    parts = decision_engine(engine, also, configuration), advisory_wording(wording)
     _connect_language_model(parts, llm)
     return DecisionWorker(*parts, is_gated=is_gated, name=name)
 
@@ -166,7 +180,7 @@ def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     AirhiltError
         There is no engine of such a name here.
     """
-    asr, tts, detector, wording, _ = engines
+    asr, tts, detector, wording, *_ = engines
     names = {
         "airhilt.asr": ("asr", asr),
         "airhilt.tts": ("tts", tts),
@@ -199,6 +213,7 @@ def reference_worker(
     name: str | None = None,
     style: Style = "faa",
     also: Sequence[str] = (),
+    configuration: Mapping[str, Any] | None = None,
 ) -> Worker:
     """Return one worker with its default settings.
 
@@ -212,6 +227,8 @@ def reference_worker(
         Style in which ``tts`` says numbers.
     also
         Words that the caller takes in the place of an engine, such as ``none``, for error messages.
+    configuration
+        Values of the configuration of a decision engine; None: the defaults.
 
     Raises
     ------
@@ -241,6 +258,9 @@ def reference_worker(
             )
         case "decision":
             return decision_worker(
-                ASSISTANT if engine is None else engine, name=name or kind, also=also
+                ASSISTANT if engine is None else engine,
+                configuration=configuration,
+                name=name or kind,
+                also=also,
             )
     raise WorkerError(f"no reference worker {kind!r}; expected decision, asr, tts or vision")

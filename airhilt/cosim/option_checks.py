@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from airhilt.assistant.decision.engines import FAMILY
 from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, NO_DETECTOR, families
-from airhilt.errors import AirhiltError
+from airhilt.engines import ASSISTANT
+from airhilt.errors import AirhiltError, shown
 from airhilt.options import Options, flag_of
 from airhilt.scenario import Scenario
 
@@ -27,9 +29,12 @@ def check_options(options: Options, scenario: Scenario) -> None:
         if name == "asr" and options.speech and topology == "asr_first":
             continue  # Crews get the transcript, whoever decides.
         for other in _against(options, name, flag.needs):
-            shown = flag.name if value is True else f"{flag.name} {value!r}"
-            raise AirhiltError(f"{shown} would do nothing {other}")
+            given = flag.name if value is True else f"{flag.name} {shown(value)}"
+            raise AirhiltError(f"{given} would do nothing {other}")
     _require_known_engines(options)
+    if options.assistant_config is not None:
+        assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)
+        assistant.configured(options.assistant_config)
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
@@ -43,7 +48,7 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
             elif not getattr(options, need):
                 yield f"with {spelling}; expected only one of the two"
         elif options.assistant == NO_ASSISTANT or (
-            options.assistant == EXTERNAL and name in ("wording", "llm")
+            options.assistant == EXTERNAL and name in ("wording", "llm", "assistant_config")
         ):
             yield f"with {spelling} {options.assistant}; expected only one of the two"
 

@@ -98,6 +98,7 @@ def connect(
     else:
         may_decide = "decision" in taken or bool(programs)
         assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
+    _require_used(options, assistant)
     engines = _engines(options, scenario)
     if not recorded.is_replay:
         for sentence in other_machines(assistant, engines):
@@ -121,6 +122,21 @@ def _external_assistant(options: Options) -> str:
             f"assistant {options.assistant!r}, but a worker of yours decides; expected one of them"
         )
     return EXTERNAL
+
+
+def _require_used(options: Options, assistant: str) -> None:
+    """Complain about a configuration that nobody has.
+
+    Raises
+    ------
+    WorkerError
+        A worker or program of the user decides.
+    """
+    if assistant == EXTERNAL and options.assistant_config is not None:
+        raise WorkerError(
+            "--assistant-config would do nothing: a worker or program of yours decides; expected "
+            "only one of the two"
+        )
 
 
 def _participant(worker: Worker, where: Where) -> Participant:
@@ -147,6 +163,7 @@ def _engines(options: Options, scenario: Scenario) -> Engines:
         detector=_detector(options, scenario),
         wording=options.wording,
         llm=_language_model(options),
+        configuration=options.assistant_config,
     )
 
 

@@ -93,6 +93,7 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             update={
                 "out": Path(scratch) / "run",
                 "assistant": info.assistant,
+                "assistant_config": _configuration(info),
                 "renderer": info.renderer or info.options.renderer,
                 "run_name": info.run,
                 **AS_RECORDED,
@@ -102,6 +103,14 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
         result = run(scenario, options, observer, recorded)
         repeated = list(read_log(RunFolder(result.folder).log_path))
     return _compare(recorded_log, repeated, info)
+
+
+def _configuration(info: RunInfo) -> dict[str, Any] | None:
+    """Return the configuration that the assistant had, whole; None if it had none."""
+    for worker in info.workers:
+        if worker.description.modality == "decision" and worker.where == "in process":
+            return worker.description.configuration or None
+    return None
 
 
 def _require_comparable(info: RunInfo, folder: RunFolder) -> None:

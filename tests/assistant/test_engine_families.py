@@ -106,8 +106,9 @@ class Deer:
 ENGINE = Engine("everything_is_a_deer", "finds a deer in every picture", lambda _: Deer())
 """
 )
-ASSISTANT, WORDING = re.findall(
-    r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), flags=re.DOTALL
+BLOCKS = re.findall(r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), flags=re.DOTALL)
+ASSISTANT, WORDING = (
+    next(block for block in BLOCKS if f"class {name}:" in block) for name in ("Nervous", "Shouting")
 )
 """The examples of the guide."""
 UNUSABLE = (

@@ -18,6 +18,7 @@ from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
+from decisions import reference
 
 
 def test_a_wrong_name_is_answered_with_the_nearest_right_one() -> None:
@@ -70,6 +71,29 @@ def test_run_json_holds_the_options_whole(encounter: Scenario, tmp_path: Path) -
     )  # fmt: skip
     airhilt.run(encounter, **dict(given))
     assert RunFolder(tmp_path / "run").info().options == given
+
+
+def test_run_json_holds_the_configuration_of_the_assistant_and_a_replay_has_it(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    file = tmp_path / "mine.json"
+    file.write_text('{"separation": {"caution_s": 90}}')
+    airhilt.run(
+        encounter, out=tmp_path / "run", assistant_config=file, latency="fixed", speech=False,
+        cameras=False,
+    )  # fmt: skip
+    file.unlink()
+    (decision,) = RunFolder(tmp_path / "run").info().workers
+    separation = decision.description.configuration["separation"]
+    assert (separation["caution_s"], separation["warning_s"]) == (90.0, 60.0)
+    assert replay(tmp_path / "run").identical
+
+
+def test_a_configuration_of_a_worker_of_the_user_is_refused(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    with pytest.raises(AirhiltError, match="--assistant-config would do nothing: a worker"):
+        airhilt.run(encounter, out=tmp_path / "run", assistant_config={}, workers=[reference()])
 
 
 def test_a_record_of_the_first_format_is_understood(encounter: Scenario, tmp_path: Path) -> None:
@@ -138,6 +162,7 @@ def test_a_run_begins_with_no_engine_that_is_not_there(
         ({"detector": "yolo:FILE", "assistant": "none"}, "would do nothing with --assistant none"),
         ({"asr": "whisper:FOLDER", "speech": False}, "would do nothing with --no-speech"),
         ({"asr": "whisper:FOLDER", "assistant": "none"}, "would do nothing with --assistant none"),
+        ({"assistant_config": {}, "assistant": "none"}, "^--assistant-config {} would do nothing"),
         ({"video": True, "cameras": False}, "^--video would do nothing with --no-cameras"),
     ],
 )

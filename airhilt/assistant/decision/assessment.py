@@ -28,8 +28,9 @@ def threats_now(situation: Situation, config: RunwayConfig, t_ns: int) -> Iterat
 def worst_threats(
     config: RunwayConfig, situation: Situation, t_ns: int
 ) -> dict[tuple[str, ...], Threat]:
-    """Return the most severe threat of each key."""
-    return worst(threats_now(situation, config, t_ns))
+    """Return the most severe threat of each key, by the rules that are applied."""
+    found = threats_now(situation, config, t_ns)
+    return worst(threat for threat in found if not set(threat.rules).isdisjoint(config.rules))
 
 
 def worst(found: Iterable[Threat]) -> dict[tuple[str, ...], Threat]:

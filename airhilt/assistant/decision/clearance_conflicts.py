@@ -65,6 +65,7 @@ def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]
         NotReadBack(callsign, given, activity[0]),
         sources=("radio", "adsb"),
         kind="readback_mismatch",
+        rules=("readback_missing",),
     )
 
 
@@ -123,4 +124,5 @@ def _opposed(outlook: Outlook) -> Iterator[Threat]:
             parties,
             OpposedClearances(parties, (first.runway, second.runway)),
             sources=("radio",),
+            rules=("opposed_clearances",),
         )

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
+from pydantic import BaseModel
+
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.messages import Message, ModelExchange
 
@@ -68,6 +70,16 @@ class DecisionEngine(Protocol):
 
     def decide(self, t_ns: int) -> Decision:
         """Return what is new or has changed at simulation time ``t_ns``."""
+        ...
+
+
+@runtime_checkable
+class HasConfiguration(Protocol):
+    """Part that a decision engine may have besides: rules and thresholds that can be set."""
+
+    @property
+    def configuration(self) -> BaseModel:
+        """The configuration that it decides by, whole; ``run.json`` has it."""
         ...
 
 

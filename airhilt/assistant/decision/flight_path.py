@@ -67,7 +67,14 @@ def _aloft(outlook: Outlook, use: Use, thing: SeenAloft) -> Iterator[Threat]:
         if thing.are_birds:
             what, unnamed = "birds", WILDLIFE
         yield obstruction(
-            use, how, what, severity, time_to_go_s, ("vision", "adsb"), unnamed=unnamed
+            use,
+            how,
+            what,
+            severity,
+            time_to_go_s,
+            ("vision", "adsb"),
+            unnamed=unnamed,
+            rule="flight_path",
         )
 
 

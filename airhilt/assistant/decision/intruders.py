@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from pydantic import Field, model_validator
+
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import Approach, approach_of
 from airhilt.assistant.decision.escalation import Escalation
@@ -22,8 +24,8 @@ from airhilt.assistant.decision.visual_tracks import (
     BLIND_NS,
     VisualTrack,
     VisualTracks,
-    is_established,
 )
+from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import (
     CONTROLLER,
     CameraView,
@@ -60,8 +62,7 @@ UNRELIABLE_S = 90.0
 """Longest time to contact that is told, in s."""
 
 
-@dataclass(frozen=True)
-class IntruderConfig:
+class IntruderConfig(Configuration):
     """Thresholds for aircraft that only cameras show.
 
     An airliner's camera finds a light aircraft at some 2 or 3 km: there is a quarter of a minute
@@ -69,17 +70,39 @@ class IntruderConfig:
     and a doubtful WARNING is told.
     """
 
-    advisory_s: float = 90.0
-    caution_s: float = 60.0
-    warning_s: float = 25.0
-    near_sizes: float = 25.0
-    """Distance in its own sizes at which an aircraft passes near: 275 m for a light one."""
-    warning_sizes: float = 12.0
-    """Likewise for a WARNING: 130 m, less than the 500 ft between VFR and IFR levels."""
-    persistence_s: float = 0.4
-    """Time for which a severity must hold before it is told, in s."""
-    release_s: float = 20.0
-    """Time for which it must be past before that is told, in s: overtaking is slow."""
+    advisory_s: Seconds = Field(
+        90.0, description="time to contact from which it is an ADVISORY, in s; chosen"
+    )
+    caution_s: Seconds = Field(60.0, description="likewise for a CAUTION, in s; chosen")
+    warning_s: Seconds = Field(25.0, description="likewise for a WARNING, in s; chosen")
+    near_sizes: float = Field(
+        25.0,
+        gt=0.0,
+        le=1000.0,
+        description="distance in its own sizes at which an aircraft passes near: 275 m for a light "
+        "one; chosen",
+    )
+    warning_sizes: float = Field(
+        12.0,
+        gt=0.0,
+        le=1000.0,
+        description="likewise for a WARNING: 130 m, less than the 500 ft between VFR and IFR "
+        "levels (14 CFR 91.159)",
+    )
+    persistence_s: Seconds = Field(
+        0.4, description="time for which a severity must hold before it is told, in s; chosen"
+    )
+    release_s: Seconds = Field(
+        20.0,
+        description="time for which it must be past before that is told, in s: overtaking is slow; "
+        "chosen",
+    )
+
+    @model_validator(mode="after")
+    def _in_order(self) -> IntruderConfig:
+        require_order(self, "warning_s", "caution_s", "advisory_s")
+        require_order(self, "warning_sizes", "near_sizes")
+        return self
 
 
 class _Encounter(NamedTuple):
@@ -200,7 +223,7 @@ class IntruderWatch:
             return None
         if left_s < 0.0:
             return None
-        is_certain = is_established((track,)) and approach.is_growing
+        is_certain = self._visual_tracks.shows((track,)) and approach.is_growing
         if is_certain and left_s <= config.warning_s and miss <= config.warning_sizes:
             return Severity.WARNING
         if is_certain and left_s <= config.caution_s:

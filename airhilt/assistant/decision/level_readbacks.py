@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
 from airhilt.assistant.decision.guard import Doubt, Guard, call_of
-from airhilt.assistant.decision.loss_prediction import SeparationConfig
+from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import Transcript
@@ -45,7 +45,7 @@ class LevelReadbacks:
         """The doubt about the last level of each callsign."""
 
     def take_transcript(
-        self, t_ns: int, transcript: Transcript, config: SeparationConfig
+        self, t_ns: int, transcript: Transcript, config: SeparationStandard
     ) -> LevelMisread | None:
         """Update levels with a call, and return a wrong readback with traffic at that level."""
         call = call_of(transcript, [track.callsign for track in self._tracks])
@@ -88,7 +88,7 @@ class LevelReadbacks:
         altitude_ft: float,
         given: _Clearance | None,
         doubt: Doubt | None,
-        config: SeparationConfig,
+        config: SeparationStandard,
     ) -> LevelMisread | None:
         """Compare a readback with its instruction, and expect its level if it is certain."""
         agrees = given is not None and given.altitude_ft == altitude_ft
@@ -117,7 +117,7 @@ class LevelReadbacks:
         else:
             self._doubts[track.callsign] = doubt
 
-    def doubts(self, t_ns: int, config: SeparationConfig) -> Iterator[tuple[Doubt, str]]:
+    def doubts(self, t_ns: int, config: SeparationStandard) -> Iterator[tuple[Doubt, str]]:
         """Yield what is in doubt about a level, and who is near that level."""
         for callsign, doubt in self._doubts.items():
             since_ns = t_ns - doubt.transcript.t_end_ns
@@ -130,7 +130,7 @@ class LevelReadbacks:
                 yield doubt, threatened.callsign
 
     def _threatened(
-        self, t_ns: int, track: Track, altitude_ft: float, config: SeparationConfig
+        self, t_ns: int, track: Track, altitude_ft: float, config: SeparationStandard
     ) -> Track | None:
         """Return who would lose separation if the aircraft flew to the level read back."""
         own = track.at(t_ns)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
+
+from pydantic import Field, model_validator
 
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.tracks import Track
+from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.geodesy.relative_motion import (
     Minima,
     Relative,
@@ -18,30 +20,77 @@ from airhilt.geodesy.relative_motion import (
 from airhilt.messages import Evidence, Severity
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 
+SeparationRule = Literal["loss_of_separation", "level_readback"]
+"""Rules that find conflicts in the air."""
+SEPARATION_RULES: tuple[SeparationRule, ...] = get_args(SeparationRule)
 
-@dataclass(frozen=True)
-class SeparationConfig:
-    """Thresholds for conflicts in the air.
+
+class SeparationConfig(Configuration):
+    """Rules and thresholds for conflicts in the air; the briefing has the separation minima.
 
     The look-ahead times follow those of ground-based short-term conflict alert, about two
     minutes (EUROCONTROL-GUID-159, edition 1.0), with an earlier ADVISORY and a later WARNING.
     """
 
+    rules: tuple[SeparationRule, ...] = Field(
+        SEPARATION_RULES,
+        description="rules that are applied, by the names that evidence gives them",
+    )
+    vertical_tolerance_ft: float = Field(
+        75.0,
+        ge=0.0,
+        le=500.0,
+        description="allowance for level keeping, the 25 ft steps of ADS-B and the spread of its "
+        "rate, in ft; chosen",
+    )
+    advisory_s: Seconds = Field(
+        180.0, description="time to the loss from which it is an ADVISORY, in s; chosen"
+    )
+    caution_s: Seconds = Field(
+        120.0, description="likewise for a CAUTION, in s; EUROCONTROL-GUID-159"
+    )
+    warning_s: Seconds = Field(60.0, description="likewise for a WARNING, in s; chosen")
+    persistence_s: Seconds = Field(
+        1.0, description="time for which a severity must hold before it is told, in s; chosen"
+    )
+    release_s: Seconds = Field(
+        8.0, description="time for which a conflict must be over before that is told, in s; chosen"
+    )
+    stale_s: Seconds = Field(
+        15.0,
+        description="silence after which a track is dropped, in s: late reports are carried on to "
+        "the present; chosen",
+    )
+    readback_window_s: Seconds = Field(
+        30.0,
+        description="a readback later than this after its clearance, in s, belongs to something "
+        "else; chosen",
+    )
+
+    @model_validator(mode="after")
+    def _in_order(self) -> SeparationConfig:
+        require_order(self, "warning_s", "caution_s", "advisory_s")
+        return self
+
+    def severity_of(self, time_to_loss_s: float | None) -> Severity | None:
+        """Return how severe a loss of separation is that is so far ahead; None if it is none."""
+        if time_to_loss_s is None or time_to_loss_s > self.advisory_s:
+            return None
+        if time_to_loss_s <= self.warning_s:
+            return Severity.WARNING
+        return Severity.CAUTION if time_to_loss_s <= self.caution_s else Severity.ADVISORY
+
+
+class SeparationStandard(SeparationConfig):
+    """The rules and thresholds with the separation minima of the briefing."""
+
     horizontal_m: float = 5.0 * NAUTICAL_MILE
     vertical_m: float = 1000.0 * FOOT
-    vertical_tolerance_m: float = 75.0 * FOOT
-    """Allowance for level keeping, the 25 ft steps of ADS-B and the spread of its rate, in m."""
-    advisory_s: float = 180.0
-    caution_s: float = 120.0
-    warning_s: float = 60.0
-    persistence_s: float = 1.0
-    """Time for which a severity must hold before it is told, in s."""
-    release_s: float = 8.0
-    """Time for which a conflict must be over before that is told, in s."""
-    stale_s: float = 15.0
-    """Silence after which a track is dropped, in s: late reports are carried on to the present."""
-    readback_window_s: float = 30.0
-    """A readback later than this after its clearance, in s, belongs to something else."""
+
+    @property
+    def vertical_tolerance_m(self) -> float:
+        """Allowance for level keeping and for the errors of ADS-B, in m."""
+        return self.vertical_tolerance_ft * FOOT
 
     @property
     def standard(self) -> Minima:
@@ -52,14 +101,6 @@ class SeparationConfig:
     def infringed(self) -> Minima:
         """The distances below which separation counts as lost."""
         return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_m)
-
-    def severity_of(self, time_to_loss_s: float | None) -> Severity | None:
-        """Return how severe a loss of separation is that is so far ahead; None if it is none."""
-        if time_to_loss_s is None or time_to_loss_s > self.advisory_s:
-            return None
-        if time_to_loss_s <= self.warning_s:
-            return Severity.WARNING
-        return Severity.CAUTION if time_to_loss_s <= self.caution_s else Severity.ADVISORY
 
 
 class Prediction(NamedTuple):
@@ -101,7 +142,7 @@ class Prediction(NamedTuple):
 def predict(
     first: Track,
     second: Track,
-    config: SeparationConfig,
+    config: SeparationStandard,
     zone: TrafficZone | None,
     is_on_ground: bool,
 ) -> Prediction:
@@ -134,7 +175,7 @@ def predict(
     )
 
 
-def _is_over(motion: Relative, config: SeparationConfig) -> bool:
+def _is_over(motion: Relative, config: SeparationStandard) -> bool:
     """Return whether two will not come within the horizontal minimum, even if one turns again."""
     interval = motion.interval_within(config.horizontal_m)
     if interval is not None:

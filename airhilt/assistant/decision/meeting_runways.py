@@ -34,7 +34,9 @@ def _head_on(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
         severity = Severity.WARNING
     if severity is not None:
         other, where = second.mobile.callsign, first.strip.name
-        yield obstruction(first, "opposite", other, severity, time_to_go_s, where=where)
+        yield obstruction(
+            first, "opposite", other, severity, time_to_go_s, where=where, rule="meeting"
+        )
 
 
 def _crossing(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
@@ -52,4 +54,6 @@ def _crossing(outlook: Outlook, first: Use, second: Use) -> Iterator[Threat]:
         return
     severity = Severity.WARNING if time_to_go_s <= config.warning_s else Severity.CAUTION
     other, where = second.mobile.callsign, second.direction.ident
-    yield obstruction(first, "on crossing", other, severity, time_to_go_s, where=where)
+    yield obstruction(
+        first, "on crossing", other, severity, time_to_go_s, where=where, rule="meeting"
+    )

@@ -17,7 +17,6 @@ from airhilt.assistant.decision.visual_tracks import (
     VisualTrack,
     VisualTracks,
     belief_in,
-    is_established,
 )
 from airhilt.messages import CameraView, VisibleClass
 from airhilt.units import SECOND_NS
@@ -44,18 +43,10 @@ class SeenOnGround(NamedTuple):
     is_animal: bool
     fix: GroundFix
     belief: float
+    is_established: bool
+    """True if cameras show it surely enough to say that it is there."""
     tracks: tuple[VisualTrack, ...]
     """Its visual tracks, the one with the highest belief first."""
-
-    @property
-    def is_established(self) -> bool:
-        """True if cameras show it surely enough to say that it is there."""
-        return is_established(self.tracks)
-
-    @property
-    def t_ns(self) -> int:
-        """Time of the last picture that shows it."""
-        return max(track.last.t_ns for track in self.tracks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +111,7 @@ def seen_on_ground(
             is_animal,
             fix,
             belief_in(together),
+            visual_tracks.shows(together),
             tuple(together),
         )
 
@@ -175,13 +167,13 @@ def seen_aloft(visual_tracks: VisualTracks, aerodrome: Aerodrome) -> Iterator[Se
     ]
     located: set[int] = set()
     for first, second in itertools.combinations(flying, 2):
-        if first.camera != second.camera and is_established((first, second)):
+        if first.camera != second.camera and visual_tracks.shows((first, second)):
             flock = _flock(first, second, aerodrome)
             if flock is not None:
                 located |= {id(first), id(second)}
                 yield flock
     for bird in (track for track in flying if track.label == "bird"):
-        if id(bird) not in located and is_established([bird]):
+        if id(bird) not in located and visual_tracks.shows([bird]):
             line = _line(bird.last, aerodrome, bird.last.geometry.foot(bird.last.box))
             if line.ray.up > 2.0 * line.error_rad:
                 places = tuple(_along(bird.last, aerodrome))

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.findings import Obstructs
-from airhilt.assistant.decision.ladder import fused_severity
+from airhilt.assistant.decision.ladder import Score
 from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.mobiles import Mobile, Use
 from airhilt.assistant.decision.situation import Obstacle, SeenObstacle
@@ -87,7 +87,9 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
     elif not seen.is_certain:
         reported = outlook.situation.has_wildlife(use.strip, outlook.t_ns)
         is_told = reported if thing.is_animal else callsign is not None
-        hinted = fused_severity(seen.weight, 1.0, float(is_told))
+        config = outlook.config.score
+        score = Score.of(config, vision=seen.weight, asr=1.0, context=float(is_told))
+        hinted = score.severity(config)
         if hinted is None:
             return
         severity = min(severity, hinted, key=lambda each: each.rank)
@@ -100,7 +102,16 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
         how, what, sources = "on, by camera", callsign, (*sources, "radio")
     else:
         how, unnamed = "unidentified on", UNIDENTIFIED
-    yield obstruction(use, how, what, severity, time_to_go_s, sources, unnamed=unnamed)
+    yield obstruction(
+        use,
+        how,
+        what,
+        severity,
+        time_to_go_s,
+        sources,
+        unnamed=unnamed,
+        rule="occupancy" if seen.is_certain else "score",
+    )
 
 
 def _sent_there(outlook: Outlook, strip: Strip, vehicle: bool) -> str | None:
@@ -177,7 +188,13 @@ def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
         if clearance.action == "cross" and left_ns / SECOND_NS <= time_to_go_s:
             continue
         yield obstruction(
-            use, "cleared on to", callsign, Severity.CAUTION, time_to_go_s, ("adsb", "radio")
+            use,
+            "cleared on to",
+            callsign,
+            Severity.CAUTION,
+            time_to_go_s,
+            ("adsb", "radio"),
+            rule="cleared_on",
         )
 
 
@@ -198,4 +215,5 @@ def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
             time_to_go_s,
             ("adsb", "radio"),
             unnamed=WILDLIFE,
+            rule="reported_wildlife",
         )

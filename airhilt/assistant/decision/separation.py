@@ -6,7 +6,7 @@ clearances. A conflict has one alert, which escalates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
@@ -16,7 +16,12 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import LevelMisread, LossOfSeparation
 from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
-from airhilt.assistant.decision.loss_prediction import Prediction, SeparationConfig, predict
+from airhilt.assistant.decision.loss_prediction import (
+    Prediction,
+    SeparationConfig,
+    SeparationStandard,
+    predict,
+)
 from airhilt.assistant.decision.resolution import resolve
 from airhilt.messages import (
     CONTROLLER,
@@ -53,7 +58,7 @@ class SeparationWatch:
     """
 
     def __init__(self, config: SeparationConfig, guard: Guard) -> None:
-        self.config = config
+        self.config = SeparationStandard(**config.model_dump())
         self._zone: TrafficZone | None = None
         self._tracks = AirTracks()
         self._readbacks = LevelReadbacks(self._tracks, guard)
@@ -71,10 +76,11 @@ class SeparationWatch:
 
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the minima, and where a tower separates."""
-        self.config = replace(
-            self.config,
-            horizontal_m=briefing.horizontal_separation_nm * NAUTICAL_MILE,
-            vertical_m=briefing.vertical_separation_ft * FOOT,
+        self.config = self.config.model_copy(
+            update={
+                "horizontal_m": briefing.horizontal_separation_nm * NAUTICAL_MILE,
+                "vertical_m": briefing.vertical_separation_ft * FOOT,
+            }
         )
         self._zone = TrafficZone.of(briefing.airport) if briefing.airport else None
 
@@ -85,7 +91,7 @@ class SeparationWatch:
     def take_transcript(self, t_ns: int, t_in_ns: int, transcript: Transcript) -> None:
         """Update cleared levels with a call; a wrong readback is told when judged next."""
         misread = self._readbacks.take_transcript(t_ns, transcript, self.config)
-        if misread is not None:
+        if misread is not None and "level_readback" in self.config.rules:
             self._misread.append(self._misread_alert(misread, t_in_ns))
 
     def _misread_alert(self, misread: LevelMisread, t_in_ns: int) -> Alert:
@@ -124,7 +130,9 @@ class SeparationWatch:
         """Predict one pair, and tell it if that changes what is known of its conflict."""
         conflict = self._conflicts.get(pair)
         prediction = self._predict(t_ns, pair)
-        level = self.config.severity_of(prediction.time_to_loss_s)
+        level = None
+        if "loss_of_separation" in self.config.rules:
+            level = self.config.severity_of(prediction.time_to_loss_s)
         if conflict is None:
             if level is None:
                 return []

@@ -54,8 +54,8 @@ class SeenObstacle(NamedTuple):
     ----------
     exit_m
         Distance straight on to where it leaves the area, in m.
-    chance
-        Probability that it is in the area, if it is there.
+    weight
+        Probability that it is there and in the area.
     is_certain
         True if both count as certain.
     """
@@ -63,13 +63,8 @@ class SeenObstacle(NamedTuple):
     thing: SeenOnGround
     speed_m_s: float
     exit_m: float
-    chance: float
+    weight: float
     is_certain: bool
-
-    @property
-    def weight(self) -> float:
-        """Probability that it is there and in the area."""
-        return self.thing.belief * self.chance
 
     @property
     def clear_s(self) -> float | None:
@@ -150,7 +145,7 @@ class Situation:
             thing,
             speed_m_s=math.hypot(east, north),
             exit_m=0.0 if ahead is None else ahead.exit_m,
-            chance=chance,
+            weight=thing.belief * chance,
             is_certain=thing.is_established and chance >= CERTAIN_CHANCE,
         )
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
+
+from pydantic import Field, model_validator
 
 from airhilt.assistant.decision.aerodrome import Strip, Vector
 from airhilt.assistant.decision.clearances import Clearance
@@ -18,8 +20,10 @@ from airhilt.assistant.decision.findings import (
     RecipientUnclear,
     RunwayMisread,
 )
+from airhilt.assistant.decision.ladder import ScoreConfig
 from airhilt.assistant.decision.mobiles import BRAKING_M_S2, Use
 from airhilt.assistant.decision.situation import Situation
+from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import Severity
 from airhilt.phraseology import Action
 
@@ -41,27 +45,64 @@ RunwayFinding = (
 """Findings about runways."""
 
 
-@dataclass(frozen=True)
-class RunwayConfig:
-    """Thresholds for conflicts on runways.
+RunwayRule = Literal[
+    "readback_mismatch",
+    "recipient_ambiguity",
+    "readback_missing",
+    "opposed_clearances",
+    "occupancy",
+    "cleared_on",
+    "reported_wildlife",
+    "flight_path",
+    "meeting",
+    "score",
+]
+"""Rules that find threats on runways."""
+RUNWAY_RULES: tuple[RunwayRule, ...] = get_args(RunwayRule)
+
+
+class RunwayConfig(Configuration):
+    """Rules and thresholds for conflicts on runways.
 
     Surface alerting first looks at an arrival 30 s before the threshold in good visibility
     (EUROCONTROL-SPEC-171). A WARNING comes 5 s before that, for the way that an advisory takes,
     and a CAUTION well ahead of it.
     """
 
-    caution_s: float = 60.0
-    warning_s: float = 35.0
-    late_s: float = PAPER_TIME_TO_GO_S
-    """Time to go, in s, from which somebody on the runway is in the way even if about to leave."""
-    leaving_margin_s: float = 8.0
-    """Least time between somebody's leaving and the next user, in s."""
-    crossing_margin_s: float = 10.0
-    """Least time between two that pass the crossing of two runways, in s."""
-    persistence_s: float = 1.0
-    """Time for which a severity must hold before it is told, in s."""
-    release_s: float = 5.0
-    """Time for which a conflict must be over before that is told, in s."""
+    rules: tuple[RunwayRule, ...] = Field(
+        RUNWAY_RULES, description="rules that are applied, by the names that evidence gives them"
+    )
+    caution_s: Seconds = Field(
+        60.0, description="time to go from which an occupied runway is a CAUTION, in s; chosen"
+    )
+    warning_s: Seconds = Field(
+        35.0,
+        description="likewise for a WARNING, in s; 5 s more than in EUROCONTROL-SPEC-171",
+    )
+    late_s: Seconds = Field(
+        PAPER_TIME_TO_GO_S,
+        description="time to go from which somebody on the runway is in the way even if about to "
+        "leave, in s; time to go of arXiv 2511.18718",
+    )
+    leaving_margin_s: Seconds = Field(
+        8.0, description="least time between somebody's leaving and the next user, in s; chosen"
+    )
+    crossing_margin_s: Seconds = Field(
+        10.0,
+        description="least time between two at the crossing of their runways, in s; chosen",
+    )
+    persistence_s: Seconds = Field(
+        1.0, description="time for which a severity must hold before it is told, in s; chosen"
+    )
+    release_s: Seconds = Field(
+        5.0, description="time for which a conflict must be over before that is told, in s; chosen"
+    )
+    score: ScoreConfig = Field(ScoreConfig(), description="weak hints together")
+
+    @model_validator(mode="after")
+    def _in_order(self) -> RunwayConfig:
+        require_order(self, "warning_s", "caution_s")
+        return self
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +139,7 @@ class Threat:
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
-    rules: tuple[str, ...] = ()
+    rules: tuple[RunwayRule, ...] = ()
     shares: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -189,7 +230,7 @@ def obstruction(
     *,
     unnamed: str | None = None,
     where: str | None = None,
-    rules: tuple[str, ...] = (),
+    rule: RunwayRule = "occupancy",
 ) -> Threat:
     """Return the threat that somebody or something is in the way of a runway's user.
 
@@ -201,8 +242,8 @@ def obstruction(
         `WILDLIFE` or `UNIDENTIFIED` for what has no callsign.
     where
         Runway on which it is; None: the one that is used.
-    rules
-        Names of the rules that were triggered.
+    rule
+        Rule that found it.
     """
     own, other, runway = use.mobile.callsign, unnamed or what, use.direction.ident
     return Threat(
@@ -215,5 +256,5 @@ def obstruction(
         finding=Obstruction(own, use.kind, runway, how, what, where or runway),
         time_to_go_s=time_to_go_s,
         sources=sources,
-        rules=rules,
+        rules=(rule,),
     )

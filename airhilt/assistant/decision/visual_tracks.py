@@ -8,17 +8,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from pydantic import Field
+
 from airhilt.assistant.decision.line_of_sight import PictureGeometry, Ray
 from airhilt.assistant.decision.traffic import Traffic
+from airhilt.configuration import Configuration, Seconds, Share
 from airhilt.messages import AdsbReport, Box, Briefing, Detection, Detections, VisibleClass
 from airhilt.units import FOOT, SECOND_NS
 
-TAU_VIS = 0.7
-"""Least belief with which something is there: tau_vis of the paper's ladder (arXiv 2511.18718)."""
-AGREEING_CAMERAS = 2
-"""Number of cameras that suffice if they show the same thing."""
-PERSISTENCE_NS = SECOND_NS
-"""Time for which one camera alone must show something, in ns."""
 LOOK_NS = SECOND_NS // 2
 """Length of one look, in ns: the errors of the pictures within it are alike."""
 LOOKS = 6
@@ -37,6 +34,25 @@ MOVED_PX = 4.0
 UNTRACKED_SHIFT = 1.5
 """Largest movement between pictures of what has no track id, in sizes of its box and pixels."""
 UNTRACKED_SHIFT_PX = 6.0
+
+
+class SightConfig(Configuration):
+    """Thresholds for what cameras show."""
+
+    tau_vis: Share = Field(
+        0.7, description="least belief with which something is there; arXiv 2511.18718"
+    )
+    cameras: int = Field(
+        2,
+        ge=1,
+        le=100,
+        description="number of cameras that suffice if they show the same thing: K of "
+        "arXiv 2511.18718; its value is an assumption",
+    )
+    persistence_s: Seconds = Field(
+        1.0,
+        description="time for which fewer cameras must show something, in s; an assumption",
+    )
 
 
 class Observation(NamedTuple):
@@ -177,20 +193,6 @@ class VisualTrack:
         self._looks[-1].pictures += 1
 
 
-def is_established(
-    tracks: Iterable[VisualTrack],
-    tau_vis: float = TAU_VIS,
-    cameras: int = AGREEING_CAMERAS,
-    persistence_ns: int = PERSISTENCE_NS,
-) -> bool:
-    """Return whether something is there: enough cameras agree, or one has shown it long enough."""
-    together = list(tracks)
-    if not together or belief_in(together) < tau_vis:
-        return False
-    seen_by = {track.camera for track in together}
-    return len(seen_by) >= cameras or max(t.age_ns for t in together) >= persistence_ns
-
-
 def belief_in(tracks: Iterable[VisualTrack]) -> float:
     """Return the belief that something is there which one or more cameras show."""
     return 1.0 - math.prod(1.0 - track.belief for track in tracks)
@@ -199,7 +201,8 @@ def belief_in(tracks: Iterable[VisualTrack]) -> float:
 class VisualTracks:
     """All visual tracks of all cameras; those known by ADS-B are marked."""
 
-    def __init__(self) -> None:
+    def __init__(self, config: SightConfig | None = None) -> None:
+        self.config = config or SightConfig()
         self.traffic = Traffic()
         self._tracks: dict[str, dict[int, VisualTrack]] = {}
         """Tracks by camera and by the detector's number."""
@@ -208,6 +211,16 @@ class VisualTracks:
     def __iter__(self) -> Iterator[VisualTrack]:
         for followed in self._tracks.values():
             yield from followed.values()
+
+    def shows(self, tracks: Iterable[VisualTrack]) -> bool:
+        """Return whether something is there: enough cameras agree, or it was shown long enough."""
+        together = list(tracks)
+        if not together or belief_in(together) < self.config.tau_vis:
+            return False
+        if len({track.camera for track in together}) >= self.config.cameras:
+            return True
+        longest_ns = max(track.age_ns for track in together)
+        return longest_ns >= self.config.persistence_s * SECOND_NS
 
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the elevation of the airport."""

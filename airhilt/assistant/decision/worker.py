@@ -8,7 +8,12 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import DecisionEngine, NamesInputs, Received
+from airhilt.assistant.decision.engine import (
+    DecisionEngine,
+    HasConfiguration,
+    NamesInputs,
+    Received,
+)
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
 from airhilt.errors import WorkerError, first_problem
@@ -99,6 +104,7 @@ class DecisionWorker:
             inputs=tuple(InputSpec(key=key, policy="batch") for key in self._models),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
             engine=engine.name,
+            configuration=_configuration(engine),
         )
         for wanted in self.description.inputs:
             require_no_truth(name, wanted.key)
@@ -172,6 +178,13 @@ class DecisionWorker:
                 evidence=alert.evidence,
                 t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
             )
+
+
+def _configuration(engine: DecisionEngine) -> dict[str, Any]:
+    """Return the configuration of an engine, whole; empty if it has none."""
+    if not isinstance(engine, HasConfiguration):
+        return {}
+    return engine.configuration.model_dump(mode="json")
 
 
 def _named_by(engine: DecisionEngine) -> dict[str, Any]:

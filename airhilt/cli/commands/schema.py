@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import click
 
@@ -13,18 +14,27 @@ Examples:
   airhilt schema > messages.json
   airhilt schema --scenario > scenario.schema.json
   airhilt schema --services > services.schema.json
+  airhilt schema --assistant reference
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
 @click.option("--services", is_flag=True, help="The schemas of requests to services instead.")
-def schema(scenario: bool, services: bool) -> None:
+@click.option(
+    "--assistant", metavar="NAME", help="The schema of an assistant's configuration instead."
+)
+def schema(scenario: bool, services: bool, assistant: str | None) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    if scenario and services:
-        raise click.UsageError("--scenario and --services: expected one of the two")
+    if sum((scenario, services, assistant is not None)) > 1:
+        raise click.UsageError("--scenario, --services, --assistant: expected one of them")
+    document: dict[str, Any]
     if services:
         from airhilt.assistant.decision.service_messages import service_schemas
 
         document = service_schemas()
+    elif assistant is not None:
+        from airhilt.assistant.decision.engines import configuration_model
+
+        document = configuration_model(assistant).model_json_schema()
     elif scenario:
         from airhilt.scenario import Scenario
 

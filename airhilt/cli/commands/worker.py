@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from airhilt.cli.parameters import SECONDS
@@ -17,6 +19,12 @@ Examples:
 )
 @click.argument("kind", type=click.Choice(["decision", "asr", "tts", "vision"]))
 @click.option("--engine", metavar="ENGINE", help="Engine, as for `airhilt cosim`.")
+@click.option(
+    "--assistant-config",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Configuration of a decision engine, as for `airhilt cosim`.",
+)
 @click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."
@@ -33,6 +41,7 @@ Examples:
 def worker(
     kind: str,
     engine: str | None,
+    assistant_config: Path | None,
     connect: str,
     run_name: str | None,
     name: str | None,
@@ -40,9 +49,16 @@ def worker(
 ) -> None:
     """Attach a reference worker to a run from this process."""
     from airhilt.assistant.reference import reference_worker
+    from airhilt.configuration import read_configuration
     from airhilt.workers import serve
 
-    serve(reference_worker(kind, engine, name or kind), connect, run_name, patience)
+    configuration = None
+    if assistant_config is not None:
+        if kind != "decision":
+            raise click.UsageError(f"--assistant-config would do nothing for a worker of {kind}")
+        configuration = read_configuration(assistant_config)
+    made = reference_worker(kind, engine, name or kind, configuration=configuration)
+    serve(made, connect, run_name, patience)
 
 
 COMMAND = worker

@@ -16,8 +16,9 @@ from airfield import (
     takes_off,
 )
 from airhilt.assistant.decision.engines.paper import PaperEngine
+from airhilt.assistant.decision.ladder import Score, ScoreConfig
 from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.paper.score import Score
+from airhilt.assistant.decision.visual_tracks import SightConfig
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.messages import RosterEntry, Severity
@@ -67,14 +68,18 @@ def test_an_empty_runway_is_nothing() -> None:
     assert flown(arrival(), Mover("OPS1", NORTH, stands(800, -90)), seconds=85.0).told == []
 
 
+LASTING = PaperConfig(sight=SightConfig(persistence_s=1000.0))
+THREE = PaperConfig(sight=SightConfig(persistence_s=1000.0, cameras=3))
+
+
 @pytest.mark.parametrize(
     ("config", "cameras", "is_warned"),
     [
         pytest.param(PaperConfig(), 2, True, id="two cameras agree"),
-        pytest.param(PaperConfig(persistence_s=1e3), 2, True, id="two agree at once"),
+        pytest.param(LASTING, 2, True, id="two agree at once"),
         pytest.param(PaperConfig(), 1, True, id="one persists"),
-        pytest.param(PaperConfig(persistence_s=1e3), 1, False, id="one does not persist"),
-        pytest.param(PaperConfig(persistence_s=1e3, cameras=3), 2, False, id="K is not reached"),
+        pytest.param(LASTING, 1, False, id="one does not persist"),
+        pytest.param(THREE, 2, False, id="K is not reached"),
     ],
 )
 def test_cameras_show_that_a_runway_is_occupied_if_enough_agree_or_one_persists(
@@ -162,9 +167,10 @@ def test_it_is_over_when_one_of_them_is_named() -> None:
 def test_the_score_has_the_papers_weights(
     terms: tuple[float, float, float], severity: Severity | None
 ) -> None:
-    assert Score.of(PaperConfig(), *terms).severity(PaperConfig()) is severity
+    assert Score.of(ScoreConfig(), *terms).severity(ScoreConfig()) is severity
 
 
 def test_shares_add_up_to_one() -> None:
-    shares = Score.of(PaperConfig(), 0.5, 1.0, 0.0).shares
+    score = Score.of(ScoreConfig(), 0.5, 1.0, 0.0)
+    shares = score.shares(vision=score.vision, radio=score.asr, adsb=score.context)
     assert shares == {"vision": pytest.approx(0.25 / 0.6), "radio": pytest.approx(0.35 / 0.6)}

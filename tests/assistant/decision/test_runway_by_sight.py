@@ -20,7 +20,7 @@ from airfield import (
     stands,
     takes_off,
 )
-from airhilt.assistant.decision.ladder import fused_severity
+from airhilt.assistant.decision.ladder import Score, ScoreConfig
 from airhilt.messages import Severity
 from airhilt.units import DEGREE
 from field_cameras import at, beside_threshold, camera, on_tower, silent
@@ -332,7 +332,9 @@ def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_ca
 def test_hints_are_weighed_as_in_the_paper(
     vision: float, activity: float, communication: float, severity: Severity | None
 ) -> None:
-    assert fused_severity(vision, activity, communication) is severity
+    assert (
+        Score.of(ScoreConfig(), vision, activity, communication).severity(ScoreConfig()) is severity
+    )
 
 
 def test_a_faint_sighting_is_for_the_controller_alone_until_somebody_reports_the_same() -> None:

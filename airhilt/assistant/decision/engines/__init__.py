@@ -6,10 +6,14 @@ names its `airhilt.engines.Engine`, such as ``mine = "my_package.assistant:ENGIN
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic import BaseModel
 
 from airhilt.assistant.decision.engine import DecisionEngine
 from airhilt.engines import EngineFamily
+from airhilt.errors import AirhiltError
 
 FAMILY = EngineFamily[DecisionEngine](
     "assistant",
@@ -20,17 +24,40 @@ FAMILY = EngineFamily[DecisionEngine](
 )
 
 
-def decision_engine(name: str, also: Sequence[str] = ()) -> DecisionEngine:
+def decision_engine(
+    name: str, also: Sequence[str] = (), configuration: Mapping[str, Any] | None = None
+) -> DecisionEngine:
     """Return the decision engine of a name such as ``reference``.
 
     Parameters
     ----------
     also
         Words that the caller takes in the place of a name, such as ``none``, for error messages.
+    configuration
+        Values of its configuration; None: the defaults.
 
     Raises
     ------
     AirhiltError
-        There is none of that name, or it cannot be loaded.
+        There is none of that name, or it cannot be loaded, or its configuration is wrong.
     """
-    return FAMILY.create(name, also)
+    return FAMILY.create(name, also, configuration)
+
+
+def configuration_model(name: str) -> type[BaseModel]:
+    """Return the model of the configuration of an engine.
+
+    Raises
+    ------
+    AirhiltError
+        There is no engine of that name, or it has no configuration.
+    """
+    engine, _ = FAMILY.choose(name)
+    if engine.configuration is None:
+        having = [
+            each for each in FAMILY.names() if FAMILY.choose(each)[0].configuration is not None
+        ]
+        raise AirhiltError(
+            f"assistant {name!r} has no configuration; expected one that has: {', '.join(having)}"
+        )
+    return engine.configuration

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from airhilt.assistant.decision.engines.reference import ReferenceEngine
+from airhilt.assistant.decision.engines.reference import ReferenceConfig, ReferenceEngine
 from airhilt.engines import Engine
 from airhilt.messages import AdsbReport, Briefing, Message
 
@@ -21,5 +21,6 @@ class AdsbOnlyEngine(ReferenceEngine):
 ENGINE = Engine(
     name="adsb_only",
     summary="the rules of reference by ADS-B alone, as a baseline; ships with AIRHILT",
-    create=lambda _: AdsbOnlyEngine(),
+    create=lambda _, configuration: AdsbOnlyEngine(configuration),
+    configuration=ReferenceConfig,
 )

@@ -28,9 +28,9 @@ class PaperEngine:
     name = "paper"
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
 
-    def __init__(self, config: PaperConfig | None = None) -> None:
-        config = config or PaperConfig()
-        self.visual_tracks = VisualTracks()
+    def __init__(self, configuration: PaperConfig | None = None) -> None:
+        self.configuration = config = configuration or PaperConfig()
+        self.visual_tracks = VisualTracks(config.sight)
         self.ambiguous = AmbiguousCalls()
         ladder = Ladder(config, self.visual_tracks, self.ambiguous)
         timing = RunwayConfig(persistence_s=0.0, release_s=config.release_s)
@@ -64,5 +64,6 @@ class PaperEngine:
 ENGINE = Engine(
     name="paper",
     summary="the decision ladder of the AIRHILT paper, for conflicts on runways",
-    create=lambda _: PaperEngine(),
+    create=lambda _, configuration: PaperEngine(configuration),
+    configuration=PaperConfig,
 )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from types import MappingProxyType
+
+from pydantic import Field
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
@@ -14,7 +15,8 @@ from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.runway import RunwayWatch
 from airhilt.assistant.decision.separation import COASTING_NS, SeparationWatch
 from airhilt.assistant.decision.threats import RunwayConfig
-from airhilt.assistant.decision.visual_tracks import VisualTracks
+from airhilt.assistant.decision.visual_tracks import SightConfig, VisualTracks
+from airhilt.configuration import Configuration, Share
 from airhilt.engines import Engine
 from airhilt.messages import (
     AdsbReport,
@@ -28,20 +30,20 @@ from airhilt.messages import (
 from airhilt.phraseology import TAU_ASR
 
 
-@dataclass(frozen=True)
-class ReferenceConfig:
-    """Thresholds of the reference engine.
+class ReferenceConfig(Configuration):
+    """Rules and thresholds of the reference engine."""
 
-    Attributes
-    ----------
-    tau_asr
-        Confidence below which a slot of a call is in doubt; 0 believes every word.
-    """
-
-    tau_asr: float = TAU_ASR
-    separation: SeparationConfig = field(default_factory=SeparationConfig)
-    runways: RunwayConfig = field(default_factory=RunwayConfig)
-    intruders: IntruderConfig = field(default_factory=IntruderConfig)
+    tau_asr: Share = Field(
+        TAU_ASR,
+        description="confidence below which a slot of a call is in doubt and asked for; 0 believes "
+        "every word; arXiv 2511.18718",
+    )
+    separation: SeparationConfig = Field(SeparationConfig(), description="conflicts in the air")
+    runways: RunwayConfig = Field(RunwayConfig(), description="conflicts on runways")
+    intruders: IntruderConfig = Field(
+        IntruderConfig(), description="aircraft that only cameras show"
+    )
+    sight: SightConfig = Field(SightConfig(), description="what cameras show")
 
 
 class ReferenceEngine:
@@ -55,9 +57,9 @@ class ReferenceEngine:
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
     inputs: Mapping[str, object] = MappingProxyType({"radio/*/audio": TransmissionAudio})
 
-    def __init__(self, config: ReferenceConfig | None = None) -> None:
-        config = config or ReferenceConfig()
-        self.visual_tracks = VisualTracks()
+    def __init__(self, configuration: ReferenceConfig | None = None) -> None:
+        self.configuration = config = configuration or ReferenceConfig()
+        self.visual_tracks = VisualTracks(config.sight)
         guard = Guard(config.tau_asr)
         self.separation = SeparationWatch(config.separation, guard)
         self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
@@ -97,5 +99,6 @@ class ReferenceEngine:
 ENGINE = Engine(
     name="reference",
     summary="fixed rules for conflicts in the air and on runways; ships with AIRHILT",
-    create=lambda _: ReferenceEngine(),
+    create=lambda _, configuration: ReferenceEngine(configuration),
+    configuration=ReferenceConfig,
 )

@@ -2,34 +2,40 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Literal, get_args
 
+from pydantic import Field
+
+from airhilt.assistant.decision.ladder import ScoreConfig
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S
-from airhilt.assistant.decision.visual_tracks import AGREEING_CAMERAS, PERSISTENCE_NS, TAU_VIS
+from airhilt.assistant.decision.visual_tracks import SightConfig
+from airhilt.configuration import Configuration, Seconds, Share
 from airhilt.phraseology import TAU_ASR
-from airhilt.units import SECOND_NS
+
+Rung = Literal["readback_mismatch", "occupancy", "recipient_ambiguity", "score"]
+"""Rungs of the ladder."""
+RUNGS: tuple[Rung, ...] = get_args(Rung)
 
 
-@dataclass(frozen=True)
-class PaperConfig:
-    """Thresholds of the paper's ladder; those of arXiv 2511.18718 unless called an assumption."""
+class PaperConfig(Configuration):
+    """Rungs and thresholds of the ladder; those of arXiv 2511.18718 unless called an assumption."""
 
-    time_to_go_s: float = PAPER_TIME_TO_GO_S
-    """Time to go, in s, from which an occupied runway is a WARNING."""
-    tau_asr: float = TAU_ASR
-    """Confidence below which a slot of a call is in doubt, and asked for."""
-    tau_vis: float = TAU_VIS
-    """Least belief with which cameras show that a runway is occupied."""
-    cameras: int = AGREEING_CAMERAS
-    """Number of cameras that must agree (K); its value is an assumption."""
-    persistence_s: float = PERSISTENCE_NS / SECOND_NS
-    """Time for which one camera alone must show it, in s; an assumption."""
-    vision_weight: float = 0.50
-    asr_weight: float = 0.35
-    context_weight: float = 0.15
-    caution_from: float = 0.75
-    """Score from which it is a CAUTION."""
-    advisory_from: float = 0.50
-    """Score from which it is an ADVISORY."""
-    release_s: float = 5.0
-    """Time for which a conflict must be over before that is told, in s; an assumption."""
+    rules: tuple[Rung, ...] = Field(
+        RUNGS, description="rungs that are applied, by the names that evidence gives them"
+    )
+    tau_asr: Share = Field(
+        TAU_ASR,
+        description="confidence below which a slot of a call is in doubt and asked for; 0 believes "
+        "every word; arXiv 2511.18718",
+    )
+    time_to_go_s: Seconds = Field(
+        PAPER_TIME_TO_GO_S,
+        description="time to go from which an occupied runway is a WARNING, in s; arXiv 2511.18718",
+    )
+    sight: SightConfig = Field(SightConfig(), description="what cameras show")
+    score: ScoreConfig = Field(ScoreConfig(), description="weak hints together")
+    release_s: Seconds = Field(
+        5.0,
+        description="time for which a conflict must be over before that is told, in s; an "
+        "assumption",
+    )

@@ -14,11 +14,11 @@ from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.assessment import worst
 from airhilt.assistant.decision.clearance_conflicts import activity_of, misread
 from airhilt.assistant.decision.findings import Obstructs, Occupied, RecipientUnclear
+from airhilt.assistant.decision.ladder import Score
 from airhilt.assistant.decision.mobiles import Use
 from airhilt.assistant.decision.paper.ambiguity import AmbiguousCall, AmbiguousCalls
 from airhilt.assistant.decision.paper.config import PaperConfig
 from airhilt.assistant.decision.paper.occupants import Occupant, occupants
-from airhilt.assistant.decision.paper.score import Score
 from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import Snapshot, Threat, obstruction
 from airhilt.assistant.decision.visual_tracks import VisualTracks
@@ -38,7 +38,8 @@ class Ladder:
     def threats(self, situation: Situation, t_ns: int) -> Mapping[tuple[str, ...], Threat]:
         """Return the threats at a time, each by its key."""
         snapshot = Snapshot(situation, t_ns)
-        fired = [*self._by_words(snapshot), *self._by_occupancy(snapshot)]
+        found = (*self._by_words(snapshot), *self._by_occupancy(snapshot))
+        fired = [threat for threat in found if not set(threat.rules).isdisjoint(self._config.rules)]
         busy = {threat.strip.name for threat in fired}
         scored = [
             threat
@@ -69,9 +70,11 @@ class Ladder:
 
         Where a rung has fired, they stay open without being told.
         """
+        if "score" not in self._config.rules:
+            return
         for occupant in self._occupants(snapshot, strip):
             score = self._score(snapshot, strip, occupant)
-            severity = score.severity(self._config)
+            severity = score.severity(self._config.score)
             if severity is not None:
                 yield _scored(
                     snapshot, strip, occupant, score, Severity.INFO if has_fired else severity
@@ -88,14 +91,14 @@ class Ladder:
             each for each in snapshot.cleared_on(strip) if each.callsign != occupant.callsign
         ]
         return Score.of(
-            self._config,
+            self._config.score,
             vision=occupant.belief,
             asr=float(bool(cleared)),
             context=float(bool(others)),
         )
 
     def _occupants(self, snapshot: Snapshot, strip: Strip) -> Iterator[Occupant]:
-        return occupants(snapshot.situation, strip, self._visual_tracks, self._config)
+        return occupants(snapshot.situation, strip, self._visual_tracks)
 
 
 def _time_to_go_s(snapshot: Snapshot, use: Use, occupant: Occupant) -> float | None:
@@ -138,7 +141,6 @@ def _in_way(use: Use, occupant: Occupant, severity: Severity, time_s: float | No
         time_s,
         (*sources, "adsb"),
         unnamed=None if occupant.callsign else occupant.name,
-        rules=("occupancy",),
     )
 
 
@@ -157,6 +159,7 @@ def _scored(
     known = [] if occupant.callsign is None else [occupant.callsign]
     parties = tuple(dict.fromkeys((*uses, *cleared, *known)))
     runway = strip.directions[0].ident
+    shares = score.shares(vision=score.vision, radio=score.asr, adsb=score.context)
     return Threat(
         key=("score", strip.name, occupant.name),
         severity=severity,
@@ -165,7 +168,7 @@ def _scored(
         parties=parties,
         traffic=tuple(dict.fromkeys((*parties, occupant.name))),
         finding=Occupied(occupant.callsign or occupant.label, runway),
-        sources=tuple(score.shares),
+        sources=tuple(shares),
         rules=("score",),
-        shares=score.shares,
+        shares=shares,
     )

@@ -6,16 +6,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Strip, Vector
-from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.situation import CERTAIN_CHANCE, Situation
+from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
 from airhilt.assistant.decision.visual_tracks import (
     VisualTrack,
     VisualTracks,
     belief_in,
-    is_established,
 )
-from airhilt.units import SECOND_NS
 
 
 class Occupant(NamedTuple):
@@ -53,7 +50,7 @@ class Occupant(NamedTuple):
 
 
 def occupants(
-    situation: Situation, strip: Strip, visual_tracks: VisualTracks, config: PaperConfig
+    situation: Situation, strip: Strip, visual_tracks: VisualTracks
 ) -> Iterator[Occupant]:
     """Yield who or what is on a runway.
 
@@ -68,18 +65,12 @@ def occupants(
             yield Occupant(mobile.callsign, "", False, mobile.point, belief_in(shown), True, shown)
     for seen in situation.seen(strip):
         thing = seen.thing
-        is_shown = is_established(
-            thing.tracks,
-            config.tau_vis,
-            config.cameras,
-            round(config.persistence_s * SECOND_NS),
-        )
         yield Occupant(
             None,
             str(thing.label),
             thing.is_animal,
             thing.fix.point,
             seen.weight,
-            is_shown and seen.chance >= CERTAIN_CHANCE,
+            seen.is_certain,
             thing.tracks,
         )
