@@ -14,8 +14,8 @@ import argparse
 import json
 import multiprocessing
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from fnmatch import fnmatch
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
@@ -75,10 +75,11 @@ def _run(cases: Sequence[Case], folder: Path, workers: int) -> list[Row]:
     folder.mkdir(parents=True, exist_ok=True)
     missing = [case for case in cases if not (folder / case.file_name).exists()]
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=context, max_tasks_per_child=20) as pool:
-        done = as_completed([pool.submit(run_case, case, folder) for case in missing])
-        for future in track(done, "running", total=len(missing), console=Console(stderr=True)):
-            future.result()
+    # Not concurrent.futures: in Python 3.11 it stops for ever when it replaces a worker (115634).
+    with context.Pool(workers, maxtasksperchild=20) as pool:
+        done = pool.imap_unordered(partial(run_case, folder=folder), missing)
+        for _ in track(done, "running", total=len(missing), console=Console(stderr=True)):
+            pass
     return [Row.model_validate_json((folder / case.file_name).read_text()) for case in cases]
 
 

@@ -56,6 +56,13 @@ class SeparationConfig(Configuration):
     release_s: Seconds = Field(
         8.0, description="time for which a conflict must be over before that is told, in s; chosen"
     )
+    hysteresis_m: float = Field(
+        180.0,
+        ge=0.0,
+        le=5000.0,
+        description="added to the horizontal minimum once a CAUTION was told, in m: the error of a "
+        "velocity of 3 m/s (NACv 2 of DO-260B, 95 %) over 60 s",
+    )
     stale_s: Seconds = Field(
         15.0,
         description="silence after which a track is dropped, in s: late reports are carried on to "
@@ -102,6 +109,13 @@ class SeparationStandard(SeparationConfig):
         """The distances below which separation counts as lost."""
         return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_m)
 
+    def infringed_by(self, is_told: bool) -> Minima:
+        """Return `infringed`, with hysteresis if a CAUTION about the two has been told."""
+        return Minima(
+            self.infringed.horizontal_m + (self.hysteresis_m if is_told else 0.0),
+            self.infringed.vertical_m,
+        )
+
 
 class Prediction(NamedTuple):
     """The predicted encounter of two aircraft, as of now.
@@ -145,6 +159,7 @@ def predict(
     config: SeparationStandard,
     zone: TrafficZone | None,
     is_on_ground: bool,
+    is_told: bool,
 ) -> Prediction:
     """Return the predicted encounter of two aircraft.
 
@@ -154,12 +169,15 @@ def predict(
         Airspace in which a tower keeps aircraft apart by sight.
     is_on_ground
         True if either is on the ground by its last report.
+    is_told
+        True if a CAUTION about the two has been told: they must then pass with hysteresis.
     """
     motion = relative(first, second)
     profiles = (first.profile(), second.profile())
-    interval = motion.interval_within(config.horizontal_m)
+    infringed = config.infringed_by(is_told)
+    interval = motion.interval_within(infringed.horizontal_m)
     is_near = interval is not None and interval[1] > 0.0 and interval[0] <= config.advisory_s
-    loss_s = time_to_loss_s(motion, *profiles, config.infringed) if is_near else None
+    loss_s = time_to_loss_s(motion, *profiles, infringed) if is_near else None
     is_over = _is_over(motion, config)
     if is_on_ground or _is_towers(first, second, loss_s, zone):
         is_over, loss_s = True, None

@@ -150,7 +150,10 @@ class SeparationWatch:
     def _predict(self, t_ns: int, pair: Pair) -> Prediction:
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
         is_on_ground = self._tracks.is_grounded(first) or self._tracks.is_grounded(second)
-        return predict(first, second, self.config, self._zone, is_on_ground)
+        conflict = self._conflicts.get(pair)
+        told = conflict.escalation.severity if conflict is not None else None
+        is_told = told is not None and told.rank >= Severity.CAUTION.rank
+        return predict(first, second, self.config, self._zone, is_on_ground, is_told)
 
     def _calm(self, t_ns: int, conflict: _Conflict, prediction: Prediction) -> list[Alert]:
         """End a conflict once it is over for good.
