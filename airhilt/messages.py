@@ -84,7 +84,7 @@ class Clock(Message):
 FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}
 """Names that modalities had up to version 0.4, still understood, by what they are now."""
 Modality = Annotated[
-    Literal["adsb", "radio", "asr", "tts", "vision", "decision"],
+    Literal["adsb", "radio", "asr", "tts", "vision", "decision", "equipment"],
     BeforeValidator(
         lambda given: FORMER_MODALITIES.get(given, given) if isinstance(given, str) else given
     ),
@@ -686,6 +686,19 @@ class ModelExchange(Message):
     rejections: tuple[Rejection, ...] = ()
 
 
+class EquipmentAlert(Message):
+    """``equipment/<equipment>/<recipient>``: alert of equipment that is in the world.
+
+    It is no advice of the assistant under test. Its recipient hears it at once, by a voice or a
+    light of the equipment's own.
+    """
+
+    equipment: str = Field(
+        pattern=r"^[a-z0-9_-]{1,40}$", description="its name", examples=["tcas", "conflict_alert"]
+    )
+    advisory: Advisory
+
+
 class AdvisoryAudio(Header):
     """``tts/<advisory id>``: attachment to the audio of an advisory, PCM 16 kHz mono.
 
@@ -958,6 +971,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "advisory/{recipient}": Advisory,
     "tts/{id}": AdvisoryAudio,
     "llm/{worker}": ModelExchange,
+    "equipment/{equipment}/{recipient}": EquipmentAlert,
     "command/{actor}": ActorCommand,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
@@ -982,8 +996,10 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
     "advisory": Advisory,
     "tts": AdvisoryAudio,
     "llm": ModelExchange,
+    "equipment": EquipmentAlert,
 }
-"""Messages that a worker may publish, by the first part of the key; never sensors or truth."""
+"""Messages that a worker may publish, by the first part of the key; never sensors or truth. Only
+equipment of the world publishes on ``equipment``."""
 
 
 def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str, Any]:

@@ -297,6 +297,16 @@ class Options(BaseModel):
     cockpit: Annotated[
         bool, Flag("--cockpit", "Publish what the instruments of all aircraft show.")
     ] = False
+    equipment: Annotated[
+        tuple[str, ...],
+        Flag(
+            "--equipment",
+            "A decision engine in the world besides the assistant: tcas, conflict_alert, "
+            "runway_status_lights. May be given again.",
+            "NAME",
+            default="that of the scenario",
+        ),
+    ] = ()
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
 
     @model_validator(mode="before")

@@ -121,6 +121,14 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         },
         "evidence": {"sources": ["adsb"], "time_to_loss_s": 61.5},
     },
+    "EquipmentAlert": {
+        "equipment": "tcas",
+        "advisory": {
+            "id": "e-1", "revision": 0, "recipient": "AAL1", "recipients": ["AAL1"],
+            "kind": "loss_of_separation", "severity": "WARNING", "traffic": ["AAL1", "DAL2"],
+            "message": "climb, climb", "evidence": {"sources": ["tcas"]}, "t_ready_ns": 5,
+        },
+    },
     "AdvisoryAudio": {
         "id": "s-1", "revision": 2, "recipient": "AAL1", "text": "traffic", "t_dec_ns": 5,
         "engine": "espeak", "samples": 3, "sha256": "ab",

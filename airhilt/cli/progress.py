@@ -138,6 +138,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
             f"{_seconds(summary.margin_over_tcas_ta_s)} / "
             f"{_seconds(summary.margin_over_tcas_ra_s)}",
         ),
+        *_equipment_rows(summary),
         (
             "least separation",
             f"horizontal {_distance(summary.min_horizontal_separation_m)} while vertical was lost, "
@@ -177,6 +178,17 @@ def _part_rows(parts: WarningParts | None) -> list[tuple[str, str]]:
         "voice": parts.voice_s,
     }
     return [("consists of", ", ".join(f"{name} {_seconds(span)}" for name, span in spans.items()))]
+
+
+def _equipment_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row for each piece of equipment, on when it warned and told what to do."""
+    return [
+        (
+            f"equipment {each.equipment}",
+            f"warning {_seconds(each.t_first_warning_s)}, action {_seconds(each.t_first_action_s)}",
+        )
+        for each in summary.equipment
+    ]
 
 
 def _approach_rows(summary: Summary) -> list[tuple[str, str]]:

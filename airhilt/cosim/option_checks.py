@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from airhilt.assistant.decision.engines import FAMILY
 from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, NO_DETECTOR, families
@@ -35,6 +35,7 @@ def check_options(options: Options, scenario: Scenario) -> None:
     if options.assistant_config is not None:
         assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)
         assistant.configured(options.assistant_config)
+    require_known_equipment((*scenario.equipment, *options.equipment))
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
@@ -65,3 +66,19 @@ def _require_known_engines(options: Options) -> None:
         text, also = named[family.group]
         if text is not None:
             family.require_known(text, also)
+
+
+def require_known_equipment(names: Iterable[str]) -> None:
+    """Check that equipment is made of decision engines that are there.
+
+    Raises
+    ------
+    AirhiltError
+        An engine is not there, or asks a program elsewhere.
+    """
+    for name in names:
+        if FAMILY.choose(name)[0].is_remote:
+            raise AirhiltError(
+                f"equipment {name!r}: it asks a program elsewhere; expected an engine that "
+                "decides by itself"
+            )

@@ -9,6 +9,7 @@ from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import EXTERNAL, NO_DETECTOR, Engines, reference_workers
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
+from airhilt.cosim.equipment import equipment_of, require_no_equipment
 from airhilt.cosim.other_machines import other_machines
 from airhilt.cosim.recorded import Recorded
 from airhilt.engines import ASSISTANT
@@ -90,6 +91,8 @@ def connect(
         for worker, description in attached
         if description is not None
     ]
+    if not recorded.is_replay:
+        require_no_equipment(workers)
     programs = [worker.name for worker, description in attached if description is None]
     programs = programs or list(recorded.programs)
     taken = {worker.description.modality for worker in workers}
@@ -105,6 +108,7 @@ def connect(
             notice(sentence)
     reference = reference_workers(assistant, scenario.radio, taken, engines)
     workers += [_participant(worker, "in process") for worker in reference]
+    workers += equipment_of(scenario, [worker.description.name for worker in workers])
     _require_different_names(workers, programs)
     return Participants(assistant, tuple(workers), tuple(programs))
 

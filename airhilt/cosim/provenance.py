@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from airhilt.assistant.decision.engines import FAMILY as DECISION_ENGINES
 from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, families
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
@@ -66,3 +67,6 @@ def _engines(
         if is_used:
             with suppress(AirhiltError):  # A replay takes its results from the record.
                 yield family, *family.choose(text)
+    for name in setup.scenario.equipment:
+        with suppress(AirhiltError):
+            yield DECISION_ENGINES, *DECISION_ENGINES.choose(name)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
+from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
@@ -32,11 +33,12 @@ from airhilt.sensors.radio.backends import RadioBackend, TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
+from airhilt.workers.pool import EQUIPMENT
 from airhilt.world.actors import Actor, build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
-STAGES = ("adsb", "asr", "vision", "decision", "tts")
+STAGES = ("adsb", "asr", "vision", "decision", "tts", EQUIPMENT)
 """Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
@@ -117,6 +119,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     scenario = with_requested_sensors(
         scenario, options.radar, options.cockpit, options.surface_surveillance
     )
+    scenario = with_requested_equipment(scenario, options.equipment)
     latency = recorded.latency or _latency(options.latency, given, options.seed)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{given.name}-{options.seed}"
@@ -170,7 +173,8 @@ def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
                 f"{', '.join(STAGES)}{nearest(stage, list(STAGES))}"
             )
     if spec.replay_of is None:
-        return spec
+        # Equipment of the world is as late as it is, however late the assistant is.
+        return replace(spec, stages={EQUIPMENT: LatencySpec("fixed"), **spec.stages})
     earlier = RunFolder.open(Path(spec.replay_of))
     info = earlier.info()
     name = info.scenario.get("name")

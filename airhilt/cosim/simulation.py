@@ -419,6 +419,8 @@ class Simulation:
         self._modalities.set("tts", "on" if does("tts") else "off")
         self._modalities.set("vision", *self._vision.state)
         self._modalities.set("decision", "on" if self._programs.has_decision else "off")
+        if does("equipment"):
+            self._modalities.set("equipment", "on")
 
     def _publish_clock(self) -> None:
         _tell_clock(self._bus, self._director.now_ns, self._phase, self._director.pace)

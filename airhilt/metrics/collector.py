@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     ConflictTruth,
+    EquipmentAlert,
     Event,
     Message,
     Modality,
@@ -19,6 +21,7 @@ from airhilt.messages import (
 from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
 from airhilt.metrics.detection_scores import DetectionScores
+from airhilt.metrics.equipment import EquipmentRecords
 from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
@@ -92,9 +95,11 @@ class Collector:
         self._calls = CallRecords()
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
-        self._advisories = AdvisoryRecords(
-            callsigns_of(scenario), pair, monitor, self._detections.was_seen
+        new_records = partial(
+            AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
         )
+        self._advisories = new_records()
+        self._equipment = EquipmentRecords(scenario.equipment, new_records)
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Receive a published message."""
@@ -109,6 +114,8 @@ class Collector:
                 self.ended_actors[callsign] = cause
             case Advisory():
                 self._take_advisory(message)
+            case EquipmentAlert():
+                self._equipment.take(message)
             case AdvisoryAudio():
                 self._advisories.add_audio(message)
                 self._first_warning.heard(message)
@@ -147,6 +154,7 @@ class Collector:
             nuisance_alerts=self._advisories.nuisance_alerts(incursions),
             clarifications=self._advisories.clarifications(),
             advisories=self._advisories.summaries(incursions),
+            equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
             radio=self._calls.statistics(
                 roster_of(self._scenario),
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
@@ -210,6 +218,11 @@ class Collector:
         warning_ns, closed_ns = self._first_warning.t_ns, self.window.closed_ns
         return warning_ns is not None and (closed_ns is None or warning_ns <= closed_ns)
 
+    def _is_first_to_warn_in_time(self) -> bool:
+        """Return true if the assistant warned in time, before equipment told anybody what to do."""
+        warning_ns = self._first_warning.t_ns
+        return self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
+
     def _as_declared(self, assistant: str) -> bool | None:
         """Return true if what the scenario declares came about without an assistant.
 
@@ -232,7 +245,7 @@ class Collector:
             "collision": outcome.happened("collision"),
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
-            "avoided": outcome.avoided(was_warned=self._is_warned_in_time()),
+            "avoided": outcome.avoided(was_warned=self._is_first_to_warn_in_time()),
         }
 
 

@@ -90,6 +90,24 @@ class AdvisorySummary(BaseModel):
     nuisance: bool
 
 
+class EquipmentSummary(BaseModel):
+    """Alerts of one piece of equipment of the world; null where there was none."""
+
+    model_config = ConfigDict(frozen=True)
+    equipment: str
+    t_first_warning_s: float | None = Field(
+        description="first alert of CAUTION or above about the annotated conflict"
+    )
+    t_first_action_s: float | None = Field(
+        description="first of these that told somebody what to do"
+    )
+    margin_s: float | None = Field(
+        description="how long before t_first_warning_s the assistant's first warning came; "
+        "negative if the equipment was first"
+    )
+    alerts: list[AdvisorySummary]
+
+
 class RecognitionStatistics(BaseModel):
     """Recognition of the calls that had words and were not blocked."""
 
@@ -281,7 +299,7 @@ class Summary(BaseModel):
     avoided: bool | None = Field(
         description="somebody was warned of the annotated conflict, and the pair neither lost "
         "separation, nor came to an NMAC or an incursion of category A or B, nor collided; null "
-        "if nobody was warned and nothing of that happened"
+        "if nobody was warned, or equipment of the world acted first, and nothing of that happened"
     )
     unassisted_as_declared: bool | None = Field(
         default=None,
@@ -296,6 +314,9 @@ class Summary(BaseModel):
         default=0, description="advisories that ask to confirm what was heard in doubt"
     )
     advisories: list[AdvisorySummary]
+    equipment: list[EquipmentSummary] = Field(
+        default=[], description="equipment of the world, which is no part of the assistant"
+    )
     radio: RadioStatistics
     vision: VisionStatistics
     language_model: LanguageModelStatistics | None = Field(

@@ -95,6 +95,14 @@ def _advisory(message: Json, _: Logged) -> Json:
     }
 
 
+def _equipment(message: Json, logged: Logged) -> Json:
+    """Return the row of an alert of equipment, which says that it is one."""
+    row = _advisory(message["advisory"], logged)
+    name = message["equipment"].replace("_", " ")
+    over = "" if row["active"] else "over: "
+    return row | {"kind": "equipment", "equipment": name, "text": f"{name}: {over}{row['text']}"}
+
+
 def _exchange(message: Json, logged: Logged) -> Json | None:
     """Return the row of an answer of a language model that was not used, or not as a whole."""
     rejected = [f"{each['subject']}: {each['reason']}" for each in message["rejections"]]
@@ -173,6 +181,7 @@ def _command_text(command: Json) -> str:
 
 MAKERS = {
     "advisory": _advisory,
+    "equipment": _equipment,
     "asr": _transcript,
     "llm": _exchange,
     "status": _status,

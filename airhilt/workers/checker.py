@@ -33,6 +33,7 @@ OUTPUTS: dict[Modality, tuple[str, ...]] = {
     "tts": ("tts",),
     "vision": ("vision",),
     "decision": ("advisory", "llm"),
+    "equipment": ("equipment",),
 }
 """First parts of the keys on which a worker of each modality publishes."""
 PATIENCE_S = 5.0

@@ -19,6 +19,7 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     Detections,
+    EquipmentAlert,
     Header,
     Message,
     ModelExchange,
@@ -32,6 +33,8 @@ NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """First chunk of a key that stands for itself only; a wildcard there would take in truth."""
 
 
+EQUIPMENT = "equipment"
+"""Modality of the workers that are equipment of the world."""
 Where = Literal["in process", "attached", "caller"]
 """Place where a worker runs: made by the run, in another process, or given by the run's caller."""
 
@@ -87,6 +90,9 @@ class WorkerPool:
         self._inputs: list[tuple[Server, dict[str, Policy]]] = []
         self._routes: dict[str, list[tuple[Server, Policy]]] = {}
         self.servers: dict[str, Server] = {}
+        self._equipment = {
+            each.description.name for each in participants if each.description.modality == EQUIPMENT
+        }
         for participant in participants:
             description = participant.description
             server = Server(
@@ -142,6 +148,11 @@ class WorkerPool:
         message = parse_output(
             worker, output.key, output.payload, self._director.now_ns, output.attachment
         )
+        if isinstance(message, EquipmentAlert) and worker not in self._equipment:
+            raise WorkerError(
+                f"worker {worker!r} published on {output.key!r}; expected a key under advisory: "
+                "only equipment of the world publishes there"
+            )
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         raw = output.payload if isinstance(message, Header) else None
         self._publish(output.key, stamped, worker, raw)
@@ -194,9 +205,8 @@ def parse_output(
     who = "a program" if worker == UNREGISTERED else f"worker {worker!r}"
     model = WORKER_OUTPUTS.get(key.split("/")[0])
     if model is None:
-        raise WorkerError(
-            f"{who} published on {key!r}; expected a key under {', '.join(sorted(WORKER_OUTPUTS))}"
-        )
+        own = ", ".join(sorted(WORKER_OUTPUTS.keys() - {EQUIPMENT}))
+        raise WorkerError(f"{who} published on {key!r}; expected a key under {own}")
     message: Message
     try:
         if issubclass(model, Header):
@@ -231,6 +241,11 @@ def _check_key(who: str, worker: str, key: str, message: Message) -> None:
             what, part = f"what is in a picture of camera {message.camera!r}", "camera"
         case Advisory() if key != f"advisory/{message.recipient}":
             what, part = f"an advisory for {message.recipient!r}", "recipient"
+        case EquipmentAlert() if (
+            key != f"equipment/{message.equipment}/{message.advisory.recipient}"
+        ):
+            what = f"an alert of {message.equipment!r} for {message.advisory.recipient!r}"
+            part = "equipment and the recipient"
         case ModelExchange() if key != f"llm/{worker}":
             what, part = "answers of a language model", "worker's own name"
         case _:

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
-import pytest
-
-from airhilt import load
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.messages import Advisory
 from airhilt.options import Options
 from airhilt.record import read_log
-from airhilt.scenario import Scenario
-from airhilt.world.loading import load_text
+from meetings import meeting
 
 
 class Notices(Observer):
@@ -28,22 +23,10 @@ class Notices(Observer):
         self.texts.append(text)
 
 
-@pytest.fixture(scope="module")
-def meeting() -> Scenario:
-    """Two minutes of a head-on encounter that begins just before the traffic advisory."""
-    document = load("s02a_headon").model_dump(mode="json")
-    for actor in document["actors"]:
-        actor["initial"]["position"]["distance_nm"] = 7.5
-    document |= {"duration_s": 75.0, "cameras": [], "perturbations": []}
-    return load_text(json.dumps(document), "meeting")
-
-
-def test_tcas_warns_both_crews_and_they_pass_without_a_near_collision(
-    meeting: Scenario, tmp_path: Path
-) -> None:
+def test_tcas_warns_both_crews_and_they_pass_without_a_near_collision(tmp_path: Path) -> None:
     notices = Notices()
     options = Options(out=tmp_path / "run", assistant="tcas", latency="fixed", speech=False)
-    result = run(meeting, options, notices)
+    result = run(meeting(), options, notices)
     log = list(read_log(result.folder / "log.mcap"))
     keys = {logged.key for logged in log}
     assert {"tcas/AAL123", "tcas/DAL456", "cockpit/AAL123", "cockpit/DAL456"} <= keys

@@ -29,8 +29,10 @@ def json_blocks(page: str) -> list[str]:
 
 
 def test_the_examples_of_the_scenario_guide_are_valid() -> None:
-    scenario, line, perturbation, cameras = json_blocks("scenarios.md")
+    scenario, line, perturbation, equipment, cameras = json_blocks("scenarios.md")
     assert load_text(scenario, "guide").name == "crossing"
+    equipped = json.loads(scenario) | {"equipment": json.loads(equipment)["equipment"]}
+    assert load_text(json.dumps(equipped), "guide").equipment == ("tcas", "conflict_alert")
     RadioLine.model_validate_json(line)
     Perturbation.model_validate_json(perturbation)
     assert len(TypeAdapter(tuple[Camera, ...]).validate_json(cameras)) == 2

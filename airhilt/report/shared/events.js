@@ -3,7 +3,7 @@
 
 /** Kinds of events in words, in the order of the filters. */
 const KINDS = {
-  radio: "Radio call", transcript: "Transcript", WARNING: "WARNING", CAUTION: "CAUTION", ADVISORY: "ADVISORY", INFO: "INFO",
+  radio: "Radio call", transcript: "Transcript", WARNING: "WARNING", CAUTION: "CAUTION", ADVISORY: "ADVISORY", INFO: "INFO", equipment: "Equipment",
   failure: "Failure", unable: "Unable", pilot_reacts: "Reaction", command: "Command", conflict: "Conflict", worker_lost: "Worker lost", actor_ended: "Actor ended", status: "Modality", run: "Run",
 };
 const kindOf = (event) => (event.kind === "advisory" ? event.severity : event.kind in KINDS ? event.kind : "run");
@@ -27,4 +27,4 @@ const incursionText = (event) => {
   const apart = known(event.horizontal_m) ? `, ${metres(event.horizontal_m)} and ${feet(event.vertical_m / METRE_PER_FT)} apart` : "";
   return `runway incursion: ${intruder} on runway ${event.runway}${user ? `, in the way of ${user}${apart}` : ", where it has no business"}`;
 };
-const whoOf = (event) => (event.kind === "radio" && event.to ? `${event.who} to ${event.to}` : event.kind === "advisory" ? `to ${event.who}` : event.who);
+const whoOf = (event) => (event.kind === "radio" && event.to ? `${event.who} to ${event.to}` : ["advisory", "equipment"].includes(event.kind) ? `to ${event.who}` : event.who);

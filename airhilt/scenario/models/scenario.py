@@ -54,6 +54,12 @@ class Scenario(Model):
         max_length=500,
         description="aircraft whose TCAS II interrogates others; the replies are published",
     )
+    equipment: tuple[str, ...] = Field(
+        default=(),
+        max_length=20,
+        description="decision engines that are in the world besides the assistant under test",
+        examples=[["tcas", "conflict_alert"]],
+    )
     sensors: dict[Identifier, dict[str, JsonValue]] = Field(
         default={}, description="settings of sensors from other packages, by the sensor's name"
     )

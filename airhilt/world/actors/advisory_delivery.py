@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from airhilt.messages import Advisory, AdvisoryAudio, EventKind, Message
+from airhilt.messages import Advisory, AdvisoryAudio, EquipmentAlert, EventKind, Message
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
@@ -31,7 +31,10 @@ class AdvisoryDelivery:
 
     An active advisory at or above `FOLLOWED_FROM` is spoken: its recipient gets it when the voice
     begins to be heard. All others, and all in a run without a voice, are read as soon as they are
-    published.
+    published. So are alerts of equipment, which has a voice or a light of its own.
+
+    While equipment tells a crew what to do, the crew does that, whatever the assistant says: a
+    resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2).
 
     Parameters
     ----------
@@ -55,6 +58,8 @@ class AdvisoryDelivery:
         self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
+        self._in_force: dict[str, set[str]] = {}
+        """Ids of the alerts of equipment that tell a recipient what to do."""
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Receive a message of the bus."""
@@ -71,6 +76,9 @@ class AdvisoryDelivery:
                 if waiting is not None and waiting.revision == revision:
                     del self._unspoken[identity, recipient]
                     self._deliver(waiting)
+            case EquipmentAlert(advisory=advisory) if advisory.recipient in self._by_address:
+                self._note(advisory)
+                self._deliver(advisory, is_equipment=True)
 
     def voice_lost(self) -> None:
         """Go on without a voice: deliver now what waits for it."""
@@ -83,16 +91,28 @@ class AdvisoryDelivery:
     def _is_spoken(self, advisory: Advisory) -> bool:
         return self._is_voiced and advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
 
-    def _deliver(self, advisory: Advisory) -> None:
+    def _note(self, advisory: Advisory) -> None:
+        """Note whether equipment tells a recipient what to do."""
+        in_force = self._in_force.setdefault(advisory.recipient, set())
+        if advisory.active and advisory.recommendation is not None:
+            in_force.add(advisory.id)
+        else:
+            in_force.discard(advisory.id)
+
+    def _deliver(self, advisory: Advisory, *, is_equipment: bool = False) -> None:
         actor = self._by_address[advisory.recipient]
         reaction = actor.hear(advisory)
         if reaction is not None:
             due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
-            react = partial(self._react, actor, advisory, reaction)
+            react = partial(self._react, actor, advisory, reaction, is_equipment)
             self._director.at(due_ns, react, Priority.SCRIPT)
 
-    def _react(self, actor: Actor, advisory: Advisory, reaction: Reaction) -> None:
+    def _react(
+        self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool
+    ) -> None:
         if actor.body.ended is not None:
+            return
+        if advisory.active and not is_equipment and self._in_force.get(advisory.recipient):
             return
         try:
             if reaction.act():

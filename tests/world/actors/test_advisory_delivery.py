@@ -7,7 +7,14 @@ from typing import Any, cast
 
 import pytest
 
-from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
+from airhilt.messages import (
+    Advisory,
+    AdvisoryAudio,
+    EquipmentAlert,
+    Evidence,
+    MaintainLevel,
+    Severity,
+)
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Reaction, Unable
@@ -127,3 +134,37 @@ def test_an_advisory_for_somebody_else_reaches_nobody() -> None:
 def test_what_cannot_be_done_is_told() -> None:
     told = Told((1.0, advisory()), voiced=False, unable=True)
     assert told.events == [("unable", "AAL123", "unable to turn", 3.0)]
+
+
+def equipment(revision: int = 0, active: bool = True, tells: bool = True) -> EquipmentAlert:
+    level = MaintainLevel(altitude_ft=35_000.0) if tells else None
+    update = {"id": "e-1", "recommendation": level}
+    return EquipmentAlert(
+        equipment="tcas", advisory=advisory(revision, active=active).model_copy(update=update)
+    )
+
+
+def test_an_alert_of_equipment_needs_no_voice_of_the_assistant() -> None:
+    told = Told((1.0, equipment()))
+    assert told.events == [("pilot_reacts", "AAL123", "follows turn (e-1)", 3.0)]
+
+
+def test_the_assistant_is_not_followed_while_equipment_tells_what_to_do() -> None:
+    told = Told((1.0, advisory()), (2.0, equipment()), (3.0, advisory(1)), voiced=False)
+    assert [event[2] for event in told.events] == ["follows turn (e-1)"]
+
+
+def test_an_alert_that_tells_nobody_what_to_do_leaves_the_assistant_in_force() -> None:
+    told = Told((1.0, equipment(tells=False)), (2.0, advisory()), voiced=False)
+    assert "follows turn (d-1)" in [event[2] for event in told.events]
+
+
+def test_once_equipment_is_silent_the_assistant_is_followed_again() -> None:
+    told = Told((1.0, equipment()), (4.0, equipment(1, active=False)), (5.0, advisory(1)),
+                voiced=False)  # fmt: skip
+    assert told.events[-1][2] == "follows turn (d-1)"
+
+
+def test_the_end_of_an_advisory_is_heard_whatever_equipment_says() -> None:
+    told = Told((1.0, equipment()), (2.0, advisory(1, active=False)), voiced=False)
+    assert "follows turn (d-1)" in [event[2] for event in told.events]

@@ -1,0 +1,77 @@
+"""Alerts of equipment that is in the world besides the assistant under test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from airhilt.messages import EquipmentAlert
+from airhilt.metrics.advisories import AdvisoryRecords
+from airhilt.metrics.summary import EquipmentSummary, RunwayIncursion
+from airhilt.units import SECOND_NS
+
+
+class EquipmentRecords:
+    """What each piece of equipment has warned of, and when.
+
+    Parameters
+    ----------
+    engines
+        Decision engines that are the equipment of the scenario.
+    new_records
+        Returns empty records of advisories.
+    """
+
+    def __init__(self, engines: Iterable[str], new_records: Callable[[], AdvisoryRecords]) -> None:
+        names = [engine.partition(":")[0] for engine in engines]
+        self._records: Mapping[str, AdvisoryRecords] = {name: new_records() for name in names}
+        self._warned_ns: dict[str, int] = {}
+        self._acted_ns: dict[str, int] = {}
+
+    def take(self, alert: EquipmentAlert) -> None:
+        """Receive an alert."""
+        records = self._records.get(alert.equipment)
+        if records is None:
+            return
+        advisory = alert.advisory.model_copy(update={"t_ns": alert.t_ns})
+        records.add(advisory)
+        if records.warns_of_conflict(advisory):
+            self._warned_ns.setdefault(alert.equipment, alert.t_ns)
+            if advisory.recommendation is not None:
+                self._acted_ns.setdefault(alert.equipment, alert.t_ns)
+
+    def acts_before(self, t_ns: int | None) -> bool:
+        """Return true if any told somebody what to do about the conflict before a time.
+
+        None stands for the end of the run.
+        """
+        return any(t_ns is None or acted_ns < t_ns for acted_ns in self._acted_ns.values())
+
+    def summaries(
+        self, warning_ns: int | None, incursions: Iterable[RunwayIncursion]
+    ) -> list[EquipmentSummary]:
+        """Return what each piece did.
+
+        Parameters
+        ----------
+        warning_ns
+            Time of the assistant's first warning; None if there was none.
+        """
+        incursions = list(incursions)
+        return [
+            EquipmentSummary(
+                equipment=name,
+                t_first_warning_s=_seconds(self._warned_ns.get(name)),
+                t_first_action_s=_seconds(self._acted_ns.get(name)),
+                margin_s=_seconds(_difference(self._warned_ns.get(name), warning_ns)),
+                alerts=records.summaries(incursions),
+            )
+            for name, records in self._records.items()
+        ]
+
+
+def _seconds(t_ns: int | None) -> float | None:
+    return None if t_ns is None else t_ns / SECOND_NS
+
+
+def _difference(later_ns: int | None, earlier_ns: int | None) -> int | None:
+    return None if later_ns is None or earlier_ns is None else later_ns - earlier_ns
