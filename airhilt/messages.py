@@ -627,6 +627,11 @@ class Evidence(Part):
         description="share of each modality in the judgement, by its name in `sources`; they add "
         "up to 1; empty: not told",
     )
+    inconsistencies: tuple[str, ...] = Field(
+        default=(),
+        description="faults of the data that the advisory rests on",
+        examples=[["ADS-B of AAL123 inconsistent"]],
+    )
 
 
 AdvisoryKind = Literal[

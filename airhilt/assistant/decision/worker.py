@@ -16,7 +16,7 @@ from airhilt.assistant.decision.engine import (
 )
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
-from airhilt.errors import WorkerError, first_problem
+from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -162,22 +162,37 @@ class DecisionWorker:
     def _advisories(
         self, alert: Alert, messages: Mapping[tuple[str, str], str], t_ready_ns: int
     ) -> Iterator[Advisory]:
-        """Yield the advisory for each recipient."""
-        for recipient in alert.recipients:
-            yield Advisory(
-                id=f"{self._name}-{alert.id}",
-                revision=alert.revision,
-                recipient=recipient,
-                recipients=alert.recipients,
-                kind=alert.kind,
-                severity=alert.severity,
-                active=alert.active,
-                traffic=alert.traffic,
-                message=messages[alert.id, recipient],
-                recommendation=alert.recommendations.get(recipient),
-                evidence=alert.evidence,
-                t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
-            )
+        """Yield the advisory for each recipient.
+
+        Raises
+        ------
+        WorkerError
+            The alert is none that can be published.
+        """
+        try:
+            for recipient in alert.recipients:
+                yield self._advisory(alert, recipient, messages[alert.id, recipient], t_ready_ns)
+        except ValidationError as error:
+            raise WorkerError(
+                f"assistant {self._engine.name!r} gave an alert {shown(alert.id)} that makes no "
+                f"Advisory: {first_problem(error)}; see `airhilt schema`"
+            ) from None
+
+    def _advisory(self, alert: Alert, recipient: str, message: str, t_ready_ns: int) -> Advisory:
+        return Advisory(
+            id=f"{self._name}-{alert.id}",
+            revision=alert.revision,
+            recipient=recipient,
+            recipients=alert.recipients,
+            kind=alert.kind,
+            severity=alert.severity,
+            active=alert.active,
+            traffic=alert.traffic,
+            message=message,
+            recommendation=alert.recommendations.get(recipient),
+            evidence=alert.evidence,
+            t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
+        )
 
 
 def _configuration(engine: DecisionEngine) -> dict[str, Any]:

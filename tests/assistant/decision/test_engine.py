@@ -257,7 +257,9 @@ def test_what_is_told_depends_on_nothing_but_what_was_heard() -> None:
 def test_the_engine_declares_what_it_listens_to_and_never_truth() -> None:
     description = reference().description
     heard = {wanted.key for wanted in description.inputs}
-    assert heard == {"briefing", "adsb/*", "asr/*", "vision/*", "radio/*/audio"}
+    assert heard == {
+        "briefing", "adsb/*", "asr/*", "vision/*", "radio/*/audio", "camera/*/info",
+    }  # fmt: skip
     assert description.modality == "decision"
 
 

@@ -10,6 +10,7 @@ from pydantic import Field
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.runway import RunwayWatch
@@ -21,6 +22,7 @@ from airhilt.engines import Engine
 from airhilt.messages import (
     AdsbReport,
     Briefing,
+    CameraInfo,
     Detections,
     Message,
     Transcript,
@@ -55,10 +57,13 @@ class ReferenceEngine:
 
     name = "reference"
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
-    inputs: Mapping[str, object] = MappingProxyType({"radio/*/audio": TransmissionAudio})
+    inputs: Mapping[str, object] = MappingProxyType(
+        {"radio/*/audio": TransmissionAudio, "camera/*/info": CameraInfo}
+    )
 
     def __init__(self, configuration: ReferenceConfig | None = None) -> None:
         self.configuration = config = configuration or ReferenceConfig()
+        self.checks = InputChecks()
         self.visual_tracks = VisualTracks(config.sight)
         guard = Guard(config.tau_asr)
         self.separation = SeparationWatch(config.separation, guard)
@@ -70,16 +75,19 @@ class ReferenceEngine:
     def receive(self, received: Received) -> None:
         """Update tracks, clearances and belief with one message."""
         match received.message:
-            case AdsbReport() as report:
+            case AdsbReport() as report if self.checks.believes_report(report, received.t_ns):
                 for part in (self.separation, self.runways, self.visual_tracks):
                     part.take_report(report, received.t_ns)
-            case Detections() as detections:
-                self.visual_tracks.take_detections(detections, received.t_ns)
+            case CameraInfo() as info:
+                self.checks.take_camera(info)
+            case Detections() as seen if self.checks.believes_detections(seen, received.t_ns):
+                self.visual_tracks.take_detections(seen, received.t_ns)
             case TransmissionOpened() as opened:
                 self.runways.take_opening(opened)
             case Transcript() as transcript:
-                self.runways.take_transcript(transcript)
-                self.separation.take_transcript(received.t_ns, received.t_in_ns, transcript)
+                for call in self.checks.in_order(transcript, received.t_ns):
+                    self.runways.take_transcript(call)
+                    self.separation.take_transcript(received.t_ns, received.t_in_ns, call)
             case Briefing() as briefing:
                 self.separation.take_briefing(briefing)
                 self.runways.take_briefing(briefing)
@@ -93,7 +101,8 @@ class ReferenceEngine:
         for watch in watches:
             alerts += watch.judge(t_ns)
         has_conflict = any(watch.has_conflict for watch in watches)
-        return Decision(alerts, again_ns=t_ns + COASTING_NS if has_conflict else None)
+        marked = [self.checks.marked(alert, t_ns) for alert in alerts]
+        return Decision(marked, again_ns=t_ns + COASTING_NS if has_conflict else None)
 
 
 ENGINE = Engine(
