@@ -12,10 +12,10 @@ from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 
 
-def go(scenario: str, assistant: str, folder: Path) -> Summary:
+def go(scenario: str, assistant: str, folder: Path, equipment: tuple[str, ...] = ()) -> Summary:
     return run(
         load(scenario), out=folder, latency="fixed", cameras=False, speech=False,
-        assistant=assistant,
+        assistant=assistant, equipment=equipment,
     ).summary  # fmt: skip
 
 
@@ -36,6 +36,11 @@ def test_intersection_lights_stop_a_crew_that_takes_off_across_a_landing(tmp_pat
     assert summary.avoided
     assert recipients(tmp_path / "run") == {"DAL456"}
     assert replay(tmp_path / "run").identical
+
+
+def test_the_lights_of_the_airport_stop_it_without_an_assistant_too(tmp_path: Path) -> None:
+    lights = ("runway_status_lights",)
+    assert not go("s01a_intersecting", "none", tmp_path / "run", lights).collision
 
 
 @pytest.mark.parametrize("assistant", ["surf_a", "runway_status_lights"])

@@ -157,6 +157,7 @@ def test_a_go_around_puts_them_out() -> None:
 def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning() -> None:
     standing = lit(arrival(), comes_to_hold(0.0))
     assert not standing.red("OPS1", "WARNING")
+    assert all(told.recommendation is None for _, told in standing.told)
     driving = lit(arrival(), Mover("OPS1", NORTH, drives(20.0), category="C2"))
     assert driving.red("OPS1", "WARNING")
 
@@ -217,5 +218,5 @@ def test_intersection_lights_are_red_before_a_departure_while_somebody_lands_acr
     field = lit(crossing, Mover("DAL456", NORTH, takes_off(500.0)))
     told = next(told for _, told in field.told)
     assert told.recipient == "DAL456"
-    assert told.message.startswith("DAL456 cancel takeoff, intersection lights red for runway 01")
+    assert told.message == "DAL456 intersection lights red for runway 01, traffic AAL123"
     assert field.out("DAL456")

@@ -98,7 +98,7 @@ class RunwayStatusLightEngine:
                 ),
                 rules=(f"{red.lights} lights",),
             ),
-            recommendations={viewer: _response(red)} if red.can_stop else {},
+            recommendations=_response(red, viewer),
         )
 
     def _name(self, target: Target, traffic: SurfaceTraffic) -> str | None:
@@ -109,11 +109,16 @@ class RunwayStatusLightEngine:
         return next(iter(missing)) if len(missing) == 1 else None
 
 
-def _response(red: RedLights) -> Recommendation:
-    """Return what is done on red: stop short of the runway, or do not take off."""
+def _response(red: RedLights, viewer: str) -> dict[str, Recommendation]:
+    """Return what the viewer does on red: stop short of the runway, or break off the take-off.
+
+    Who does not move on against the lights has nothing to do.
+    """
+    if not (red.is_disregarded and red.can_stop):
+        return {}
     if red.lights == "entrance":
-        return HoldPosition(runway=red.runway)
-    return CancelTakeoff(runway=red.runway)
+        return {viewer: HoldPosition(runway=red.runway)}
+    return {viewer: CancelTakeoff(runway=red.runway)}
 
 
 ENGINE = Engine(
