@@ -42,6 +42,9 @@ ROLLING_M_S = 25.0 * KNOT
 ACCELERATING_FROM_M_S = 5.0
 GAIN_M_S = 3.0
 """Excess of the speed over its slow mean, in m/s, by which a slow departure is known."""
+SLOWING_M_S = 0.5
+"""Deficit of the speed to its slow mean, in m/s, by which one that brakes is known: about 1 kt, the
+step of reported speeds."""
 SLOW_SPEED_MEMORY = 0.9
 """Weight of the earlier speed in the slow mean; about 5 s."""
 BESIDE_M = 25.0
@@ -89,6 +92,15 @@ class Mobile:
         gain_m_s = self.speed_m_s - self.slow_speed_m_s
         gathers = self.speed_m_s >= ACCELERATING_FROM_M_S and gain_m_s >= GAIN_M_S
         return self.speed_m_s >= ROLLING_M_S or (gathers and not self.landed)
+
+    def travelled_m(self, t_ns: int) -> float:
+        """Return how far it has come since its last report, in m; 0 for one that slows down.
+
+        One that slows down may be about to stop.
+        """
+        if self.slow_speed_m_s - self.speed_m_s >= SLOWING_M_S:
+            return 0.0
+        return self.speed_m_s * max(t_ns - self.t_ns, 0) / SECOND_NS
 
     @classmethod
     def of(cls, report: AdsbReport, point: Vector) -> Mobile:

@@ -55,6 +55,7 @@ def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
     coming = None if other is use.mobile else outlook.coming(use, other.point)
     if coming is None or (enters and not _enters(outlook, obstacle, use.strip)):
         return
+    enters = enters and not _has_entered(outlook, obstacle, use.strip)
     severity, time_to_go_s = coming
     clear_s, is_allowed = _clear_s(outlook, obstacle, use), _is_allowed(outlook, other, use.strip)
     if _is_harmless(outlook, clear_s, is_allowed, severity, time_to_go_s):
@@ -141,15 +142,37 @@ def _is_harmless(
 
 
 def _enters(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
-    """Return whether a mobile outside cannot stop short of the runway any more.
+    """Return whether a mobile outside cannot stop short of the runway any more, or has gone on.
 
     One that was told to hold is given the benefit of the doubt.
     """
     mobile = obstacle.mobile
     idents = tuple(direction.ident for direction in strip.directions)
     holds = outlook.situation.clearances.is_holding(mobile.callsign, idents)
-    error_m = NACP_95_PERCENT_M[mobile.nacp] * (1.0 if holds else ONE_SIDED)
-    to_line_m = obstacle.way.entry_m - strip.margin_m(mobile.nacp)
+    travelled_m = 0.0 if holds else mobile.travelled_m(outlook.t_ns)
+    return _cannot_stop(obstacle, strip, 1.0 if holds else ONE_SIDED, travelled_m)
+
+
+def _has_entered(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
+    """Return whether a mobile that was outside when it reported is on the runway now.
+
+    It is if it could not stop short any more, and has come that far since.
+    """
+    travelled_m = obstacle.mobile.travelled_m(outlook.t_ns)
+    return travelled_m >= obstacle.way.entry_m and _cannot_stop(obstacle, strip, 1.0, 0.0)
+
+
+def _cannot_stop(obstacle: Obstacle, strip: Strip, errors: float, travelled_m: float) -> bool:
+    """Return whether a mobile cannot stop short of a runway after it has travelled a distance.
+
+    Parameters
+    ----------
+    errors
+        Error of its position to be reckoned with, as a share of the 95 % radius.
+    """
+    mobile = obstacle.mobile
+    error_m = NACP_95_PERCENT_M[mobile.nacp] * errors
+    to_line_m = obstacle.way.entry_m - strip.margin_m(mobile.nacp) - travelled_m
     braking_m = mobile.speed_m_s**2 / (2.0 * HARD_BRAKING_M_S2)
     return mobile.speed_m_s > LEAST_ENTRY_M_S and to_line_m + error_m <= braking_m
 
@@ -161,7 +184,10 @@ def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
     takes_off = own is not None and own.kind == "departure" and own.strip is use.strip
     if not takes_off and "proceed" in outlook.cleared_to(mobile.callsign, use.strip):
         return None
-    return leaving_s(obstacle, own, use)
+    clear_s = leaving_s(obstacle, own, use)
+    if clear_s is None:
+        return None
+    return max(clear_s - (outlook.t_ns - mobile.t_ns) / SECOND_NS, 0.0)
 
 
 def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:

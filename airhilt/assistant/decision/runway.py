@@ -115,16 +115,31 @@ class RunwayWatch:
             alerts += self._calm(t_ns, key)
         return alerts + self._ask(t_ns, situation)
 
-    def _raise(self, t_ns: int, threat: Threat, situation: Situation) -> list[Alert]:
+    def observe(self, t_ns: int) -> None:
+        """Note what is wrong at a time at which nothing is told."""
+        threats = {} if self._situation is None else self._rules(self._situation, t_ns)
+        for threat in threats.values():
+            if threat.severity is not Severity.INFO:
+                self._ongoing_of(threat).escalation.observe(threat.severity, t_ns)
+        for key, ongoing in self._ongoing.items():
+            if key not in threats or threats[key].severity is Severity.INFO:
+                ongoing.escalation.observe(None, t_ns)
+
+    def _ongoing_of(self, threat: Threat) -> _Ongoing:
+        """Return the conflict of a threat, a new one if it has none."""
         ongoing = self._ongoing.get(threat.key)
-        if threat.severity is Severity.INFO:
-            if ongoing is not None:
-                ongoing.escalation.stays()
-            return []
         if ongoing is None:
             self._count += 1
             ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._count}", threat)
         ongoing.threat = threat
+        return ongoing
+
+    def _raise(self, t_ns: int, threat: Threat, situation: Situation) -> list[Alert]:
+        if threat.severity is Severity.INFO:
+            if threat.key in self._ongoing:
+                self._ongoing[threat.key].escalation.stays()
+            return []
+        ongoing = self._ongoing_of(threat)
         # Speech does not become more certain with time, and what is seen has lasted already.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
         if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):

@@ -115,30 +115,50 @@ class SeparationWatch:
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
         alerts, self._misread = self._misread, []
-        config, tracks = self.config, self._tracks
-        for doubt, traffic in self._readbacks.doubts(t_ns, config):
+        for doubt, traffic in self._readbacks.doubts(t_ns, self.config):
             alerts += self._clarifications.ask(t_ns, doubt, traffic)
-        tracks.begin_step(t_ns - round(config.stale_s * SECOND_NS), self._conflicts)
-        reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
+        tracks = self._tracks
+        pairs = self._pairs_with_news(t_ns)
         silent = [pair for pair in self._conflicts if tracks.silent_ns(pair, t_ns) >= COASTING_NS]
-        for pair in [*tracks.pairs_with_news(reach, self._conflicts), *silent]:
+        for pair in [*pairs, *silent]:
             alerts += self._judge(t_ns, pair)
         tracks.end_step()
         return alerts
 
+    def observe(self, t_ns: int) -> None:
+        """Note the conflicts of a time at which nothing is told; what is news stays news."""
+        for pair in self._pairs_with_news(t_ns):
+            level = self._level(self._predict(t_ns, pair))
+            conflict = self._conflict_of(pair, level)
+            if conflict is not None:
+                conflict.escalation.observe(level, t_ns)
+
+    def _pairs_with_news(self, t_ns: int) -> list[Pair]:
+        config = self.config
+        self._tracks.begin_step(t_ns - round(config.stale_s * SECOND_NS), self._conflicts)
+        reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
+        return list(self._tracks.pairs_with_news(reach, self._conflicts))
+
+    def _level(self, prediction: Prediction) -> Severity | None:
+        if "loss_of_separation" not in self.config.rules:
+            return None
+        return self.config.severity_of(prediction.time_to_loss_s)
+
+    def _conflict_of(self, pair: Pair, level: Severity | None) -> _Conflict | None:
+        """Return the conflict of a pair, a new one if its level is the first."""
+        conflict = self._conflicts.get(pair)
+        if conflict is None and level is not None:
+            self._count += 1
+            conflict = self._conflicts[pair] = _Conflict(f"separation-{self._count}", pair)
+        return conflict
+
     def _judge(self, t_ns: int, pair: Pair) -> list[Alert]:
         """Predict one pair, and tell it if that changes what is known of its conflict."""
-        conflict = self._conflicts.get(pair)
         prediction = self._predict(t_ns, pair)
-        level = None
-        if "loss_of_separation" in self.config.rules:
-            level = self.config.severity_of(prediction.time_to_loss_s)
+        level = self._level(prediction)
+        conflict = self._conflict_of(pair, level)
         if conflict is None:
-            if level is None:
-                return []
-            self._count += 1
-            conflict = _Conflict(f"separation-{self._count}", pair)
-            self._conflicts[pair] = conflict
+            return []
         if level is None:
             return self._calm(t_ns, conflict, prediction)
         if not conflict.escalation.rises(level, t_ns, self.config.persistence_s):

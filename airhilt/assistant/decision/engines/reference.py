@@ -30,6 +30,12 @@ from airhilt.messages import (
     TransmissionOpened,
 )
 from airhilt.phraseology import TAU_ASR
+from airhilt.units import SECOND_NS
+
+WAITED_NS = SECOND_NS
+"""Time for which evidence has waited for the engine, in ns, from which it is judged by itself."""
+OBSERVED_EVERY_NS = SECOND_NS // 2
+"""Time between two looks at such evidence, in ns: that between two position reports."""
 
 
 class ReferenceConfig(Configuration):
@@ -65,6 +71,7 @@ class ReferenceEngine:
         self.configuration = config = configuration or ReferenceConfig()
         self.checks = InputChecks()
         self.visual_tracks = VisualTracks(config.sight)
+        self._observed_ns = 0
         guard = Guard(config.tau_asr)
         self.separation = SeparationWatch(config.separation, guard)
         self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
@@ -74,6 +81,7 @@ class ReferenceEngine:
 
     def receive(self, received: Received) -> None:
         """Update tracks, clearances and belief with one message."""
+        self._catch_up(received)
         match received.message:
             case AdsbReport() as report if self.checks.believes_report(report, received.t_ns):
                 for part in (self.separation, self.runways, self.visual_tracks):
@@ -92,6 +100,19 @@ class ReferenceEngine:
                 self.separation.take_briefing(briefing)
                 self.runways.take_briefing(briefing)
                 self.visual_tracks.take_briefing(briefing)
+
+    def _catch_up(self, received: Received) -> None:
+        """Note what was wrong when a message arrived that had to wait, before it is taken in.
+
+        A busy engine gets many messages at once. What they show together has lasted since the
+        first of them, although nothing was told meanwhile.
+        """
+        arrived_ns = received.t_in_ns
+        has_waited = received.t_ns - arrived_ns >= WAITED_NS
+        if has_waited and arrived_ns - self._observed_ns >= OBSERVED_EVERY_NS:
+            self._observed_ns = arrived_ns
+            self.separation.observe(arrived_ns)
+            self.runways.observe(arrived_ns)
 
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new, have risen, or are over."""
