@@ -31,6 +31,8 @@ STYLES = {
     Severity.CAUTION: "yellow",
     Severity.WARNING: "bold red",
 }
+LEAST_STALE_SHARE = 0.01
+"""Share of the time, from which it is told that evidence was stale."""
 
 
 class ProgressLine(Observer):
@@ -155,6 +157,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
         *_vision_rows(summary.vision),
+        *_evidence_rows(summary),
         ("modalities", ", ".join(_modalities(summary))),
         *((f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()),
     ]
@@ -205,6 +208,16 @@ def _declared_rows(summary: Summary) -> list[tuple[str, str]]:
     if summary.unassisted_as_declared is not False:
         return []
     return [("as declared", "no: nobody was warned, and the declared outcome did not come about")]
+
+
+def _evidence_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row if the assistant had nothing fresh to judge by for some of the time."""
+    stale = [
+        f"{modality} {each.stale_share:.0%} of the time, up to {each.max_s:.0f} s old"
+        for modality, each in summary.evidence.items()
+        if each.stale_share >= LEAST_STALE_SHARE
+    ]
+    return [("stale evidence", "; ".join(stale))] if stale else []
 
 
 def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:

@@ -178,6 +178,11 @@ class Simulation:
             world.monitor,
             world.runways,
             Plans(setup.lines, setup.ends_ns),
+            [
+                worker.description.name
+                for worker in self._participants.workers
+                if worker.description.modality == "decision"
+            ],
         )
 
     def _connect_workers(self) -> WorkerPool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -22,6 +22,7 @@ from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
 from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
+from airhilt.metrics.evidence_ages import EvidenceAges
 from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
@@ -62,6 +63,8 @@ class Collector:
         Height of the ground above WGS84, in m.
     monitor, runways
         Monitors of the run; runways is None away from airports.
+    deciders
+        Names of the workers that decide.
 
     Attributes
     ----------
@@ -82,6 +85,7 @@ class Collector:
         monitor: ConflictMonitor,
         runways: RunwayMonitor | None,
         plans: Plans,
+        deciders: Collection[str] = (),
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
@@ -93,6 +97,7 @@ class Collector:
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
         self._latencies = StageLatencies()
         self._calls = CallRecords()
+        self._evidence = EvidenceAges(deciders)
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
         new_records = partial(
@@ -125,12 +130,14 @@ class Collector:
                     self._first_warning.voice_lost(now_ns)
         self._latencies.take(message)
         self._calls.take(message)
+        self._evidence.take(message)
         self._detections.take(message)
         self._language_model.take(message)
 
     def step(self, record: StepRecord) -> None:
         """Receive a finished step of a worker."""
         self._latencies.step(record)
+        self._evidence.step(record)
 
     def _take_advisory(self, advisory: Advisory) -> None:
         if self._advisories.add(advisory):
@@ -162,6 +169,7 @@ class Collector:
             vision=self._detections.statistics(run["inputs_dropped"]),
             language_model=self._language_model.statistics(),
             latencies=self._latencies.statistics(),
+            evidence=self._evidence.statistics(now_ns),
             modalities={**self.modalities},
             ended_actors=self.ended_actors,
             **run,

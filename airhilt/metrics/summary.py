@@ -236,6 +236,20 @@ class LanguageModelStatistics(BaseModel):
     )
 
 
+STALE_S = 5.0
+"""Age in s from which evidence is stale: ten times the interval of position reports; an arrival
+flies 350 m in it. An assumption."""
+
+
+class EvidenceAge(BaseModel):
+    """Age of the newest evidence of a modality that decisions rested on; of calls, their delay."""
+
+    model_config = ConfigDict(frozen=True)
+    mean_s: float
+    max_s: float
+    stale_share: float = Field(description="share of the time in which it was above 5 s")
+
+
 class Summary(BaseModel):
     """``summary.json``; null where a number does not apply."""
 
@@ -324,6 +338,10 @@ class Summary(BaseModel):
     )
     latencies: dict[Stage, LatencyStatistics]
     inputs_dropped: dict[str, int]
+    evidence: dict[str, EvidenceAge] = Field(
+        default_factory=dict,
+        description="age of what the assistant had to judge by, by modality; empty: nobody decided",
+    )
     modalities: dict[str, ModalityState]
     """State of each modality at the end; ``speech`` and ``voice`` are former names of ``asr`` and
     ``tts``, kept for scripts that read them."""

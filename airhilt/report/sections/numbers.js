@@ -25,7 +25,7 @@ function numberTiles() {
   const nearest = closest ? tile("Closest approach", distance(closest.horizontal_m), `and ${feet(closest.vertical_m / METRE_PER_FT)}${closeUp ? "" : ` (${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m)`}`,
     `at ${seconds(closest.t_s)}, nearest in three dimensions${closeUp ? ", between centres" : ""}`) : tile("Closest approach", none, "", "no pair was followed");
   const nuisance = tile("Nuisance alerts", String(s.nuisance_alerts), "", "of CAUTION or above, about traffic in no conflict", s.nuisance_alerts ? "warn" : "");
-  if (closeUp) return [incursionTile(), ...outcomeTiles(), ...warnings, nearest, failuresTile(), nuisance];
+  if (closeUp) return [incursionTile(), ...outcomeTiles(), ...warnings, nearest, failuresTile(), nuisance, ...staleTile()];
   return [
     ...warnings,
     margin("Margin over TCAS TA", s.margin_over_tcas_ta_s),
@@ -34,6 +34,7 @@ function numberTiles() {
     least("Least vertical separation", s.min_vertical_separation_m, "ft", "horizontal", minimumFt * METRE_PER_FT),
     nearest,
     nuisance,
+    ...staleTile(),
     ...(failures.length ? [failuresTile()] : []),
   ];
 }
@@ -55,6 +56,13 @@ function outcomeTiles() {
       ? (known(summary.t_window_s) ? `the conflict window opened at ${seconds(summary.t_window_s)}` : "a warning came before the conflict window opened")
       : "the conflict window never opened, and nobody was warned", summary.avoided ? "good" : known(summary.avoided) ? "bad" : ""),
   ];
+}
+
+function staleTile() {
+  const worst = Object.entries(s.evidence ?? {}).sort(([, a], [, b]) => b.stale_share - a.stale_share)[0];
+  if (!worst || worst[1].stale_share < 0.01) return [];
+  const [modality, age] = worst;
+  return [tile("Stale evidence", whole(100 * age.stale_share), "% of the time", `newest evidence of ${modality} above 5 s old, up to ${whole(age.max_s)} s`, "warn")];
 }
 
 function failuresTile() {

@@ -1,0 +1,79 @@
+"""How old the evidence was that decisions rested on."""
+
+from __future__ import annotations
+
+import pytest
+
+from airhilt.messages import AdsbReport, Transcript
+from airhilt.metrics.evidence_ages import EvidenceAges
+from airhilt.sim import StepRecord
+from airhilt.units import seconds_to_ns
+
+
+def report(observed_s: float, t_s: float) -> AdsbReport:
+    return AdsbReport.model_construct(
+        t_ns=seconds_to_ns(t_s), t_adsb_in_ns=seconds_to_ns(observed_s), icao24="a1b2c3"
+    )
+
+
+def call(end_s: float, t_s: float) -> Transcript:
+    return Transcript.model_construct(t_ns=seconds_to_ns(t_s), t_end_ns=seconds_to_ns(end_s))
+
+
+def step(start_s: float, latency_s: float, worker: str = "decision") -> StepRecord:
+    start_ns = seconds_to_ns(start_s)
+    return StepRecord(worker, 0, start_ns, start_ns, seconds_to_ns(latency_s), 0.0, 0)
+
+
+def test_a_worker_that_keeps_up_is_never_without_fresh_reports() -> None:
+    ages = EvidenceAges(["decision"])
+    for second in range(20):
+        ages.take(report(second, second + 0.1))
+        ages.step(step(second + 0.1, 0.2))
+    age = ages.statistics(seconds_to_ns(20))["adsb"]
+    assert age.stale_share == 0.0
+    assert age.max_s == pytest.approx(1.3)
+    assert age.mean_s == pytest.approx(0.8, abs=0.05)
+
+
+def test_what_a_slow_worker_judges_by_is_stale_for_most_of_the_time() -> None:
+    ages = EvidenceAges(["decision"])
+    for second in range(40):
+        ages.take(report(second, second))
+        if second % 10 == 0:
+            ages.step(step(second, 10.0))
+    age = ages.statistics(seconds_to_ns(40))["adsb"]
+    assert age.max_s == pytest.approx(20.0)
+    assert age.stale_share == pytest.approx(35.0 / 40.0)
+
+
+def test_an_outage_makes_evidence_stale() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(report(0.0, 0.0))
+    for second in range(20):
+        ages.step(step(second, 0.0))
+    assert ages.statistics(seconds_to_ns(20))["adsb"].stale_share == pytest.approx(0.75)
+
+
+def test_a_quiet_frequency_is_not_stale_and_a_call_that_waits_is() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(call(10.0, 10.0))
+    ages.step(step(10.0, 1.0))
+    quiet = ages.statistics(seconds_to_ns(110))["asr"]
+    assert (quiet.stale_share, quiet.max_s) == (0.0, pytest.approx(1.0))
+    ages.take(call(50.0, 60.0))
+    ages.step(step(65.0, 0.0))
+    assert ages.statistics(seconds_to_ns(110))["asr"].stale_share == pytest.approx(0.1)
+
+
+def test_steps_of_others_judge_nothing() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(call(10.0, 10.0))
+    ages.step(step(10.0, 0.0, worker="tts"))
+    assert ages.statistics(seconds_to_ns(20))["asr"].stale_share == pytest.approx(0.5)
+
+
+def test_where_nobody_decides_there_is_nothing_to_tell() -> None:
+    ages = EvidenceAges([])
+    ages.take(report(0.0, 0.0))
+    assert ages.statistics(seconds_to_ns(20)) == {}
