@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
 import pytest
 
-from airhilt.messages import AdsbReport, Transcript
+from airhilt.messages import AdsbReport, Message, Transcript
 from airhilt.metrics.evidence_ages import EvidenceAges
 from airhilt.sim import StepRecord
 from airhilt.units import seconds_to_ns
 
 
-def report(observed_s: float, t_s: float) -> AdsbReport:
-    return AdsbReport.model_construct(
-        t_ns=seconds_to_ns(t_s), t_adsb_in_ns=seconds_to_ns(observed_s), icao24="a1b2c3"
-    )
+def report(observed_s: float, t_s: float) -> Message:
+    known = {"t_ns": seconds_to_ns(t_s), "t_adsb_in_ns": seconds_to_ns(observed_s)}
+    return AdsbReport.model_construct(**cast(Any, known))
 
 
-def call(end_s: float, t_s: float) -> Transcript:
-    return Transcript.model_construct(t_ns=seconds_to_ns(t_s), t_end_ns=seconds_to_ns(end_s))
+def call(end_s: float, t_s: float) -> Message:
+    known = {"t_ns": seconds_to_ns(t_s), "t_end_ns": seconds_to_ns(end_s)}
+    return Transcript.model_construct(**cast(Any, known))
 
 
 def step(start_s: float, latency_s: float, worker: str = "decision") -> StepRecord:
