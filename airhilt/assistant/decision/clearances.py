@@ -105,6 +105,8 @@ class Clearances:
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
         self._silence = ReadbackSilence()
+        self._answered_ns: dict[int, int] = {}
+        """Begin of the last call that does not begin with a callsign, by frequency."""
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that somebody has begun to transmit."""
@@ -113,6 +115,8 @@ class Clearances:
     def take(self, call: Call, transcript: Transcript) -> None:
         """Update clearances and discrepancies with a call."""
         self._silence.take_transcript(transcript)
+        if not call.addressed_first:
+            self._answered_ns[transcript.frequency_khz] = transcript.t_tx_ns
         said = tuple(each for each in call.instructions if each.action not in REPORTS)
         callsign = call.match.callsign
         if callsign is None:
@@ -188,7 +192,7 @@ class Clearances:
             is_due = (
                 doubt.is_answered
                 or since_ns > READBACK_WINDOW_NS
-                or self._silence.is_followed(said)
+                or self._answered_ns.get(said.frequency_khz, 0) >= said.t_end_ns
                 or self._silence.is_late(said, t_ns)
             )
             if is_due and since_ns <= DISCREPANCY_NS:

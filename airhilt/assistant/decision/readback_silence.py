@@ -30,8 +30,6 @@ class ReadbackSilence:
 
     def __init__(self) -> None:
         self._heard: dict[str, _Heard] = {}
-        self._understood_ns: dict[int, int] = {}
-        """Begin of the last transmission whose words are known, by frequency."""
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that a transmission has begun."""
@@ -41,15 +39,9 @@ class ReadbackSilence:
 
     def take_transcript(self, transcript: Transcript) -> None:
         """Note that the words of a transmission are known."""
-        before_ns = self._understood_ns.get(transcript.frequency_khz, 0)
-        self._understood_ns[transcript.frequency_khz] = max(before_ns, transcript.t_tx_ns)
         heard = self._heard.get(transcript.id)
         if heard is not None:
             heard.t_end_ns = transcript.t_end_ns
-
-    def is_followed(self, instruction: Transcript) -> bool:
-        """Return whether the words of a later transmission on the frequency are known."""
-        return self._understood_ns.get(instruction.frequency_khz, 0) >= instruction.t_end_ns
 
     def is_late(self, instruction: Transcript, t_ns: int) -> bool:
         """Return whether an instruction that nobody has read back should have been by now.

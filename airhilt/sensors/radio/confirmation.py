@@ -22,7 +22,7 @@ class Confirmations:
     """Lets controllers and crews do what an advisory recommends by `Confirm`.
 
     Who is asked says the call again if it was its own, and else asks its speaker to. The other
-    reads an instruction back as it has taken it; who has not taken it yet takes it now.
+    reads an instruction back as it has taken it. A call that was not taken is made once more.
 
     Parameters
     ----------
@@ -30,6 +30,8 @@ class Confirmations:
         Calls by the ids of their transmissions, in the order in which they were made.
     readback_of
         Returns the readback in the script of a call by somebody, None if there is none.
+    call_again
+        Makes a call that was not taken once more.
     say
         Makes a call.
     """
@@ -42,6 +44,7 @@ class Confirmations:
         said: Mapping[str, RadioCall],
         *,
         readback_of: Callable[[RadioCall, str], RadioCall | None],
+        call_again: Callable[[RadioCall], None],
         say: Callable[[RadioCall], None],
     ) -> None:
         self._director = director
@@ -49,6 +52,7 @@ class Confirmations:
         self._answers = answers
         self._said = said
         self._readback_of = readback_of
+        self._call_again = call_again
         self._say = say
         self._asked: set[tuple[str, str]] = set()
         """Advisories that were answered, by id and recipient."""
@@ -63,13 +67,23 @@ class Confirmations:
             return
         call = self._call(advisory, recommended.callsign)
         asked = None if call is None else self._asked_of(call, advisory.recipient)
-        if call is None or asked is None or call.is_due_again:
+        if call is None or asked is None:
             return
         self._asked.add(key)
-        again = self._again(call)
-        due = again if asked == call.speaker else self._question(call, asked, again)
         due_ns = self._director.now_ns + seconds_to_ns(CONFIRM_AFTER_S)
-        self._director.at(due_ns, partial(self._say, due), Priority.SCRIPT)
+        self._director.at(due_ns, partial(self._confirm, call, asked), Priority.SCRIPT)
+
+    def _confirm(self, call: RadioCall, asked: str) -> None:
+        """Let whoever is asked speak, unless the call is about to be made again anyway."""
+        if call.is_due_again:
+            return
+        has_taken = call.addressed is None or call.addressed in call.taken_by
+        if asked != call.speaker:
+            self._say(self._question(call, asked, self._again(call)))
+        elif has_taken:
+            self._say(self._again(call))
+        else:
+            self._call_again(call)
 
     def _call(self, advisory: Advisory, callsign: str) -> RadioCall | None:
         """Return the call in doubt: that of the evidence, or else the last of the callsign."""
@@ -91,35 +105,24 @@ class Confirmations:
 
     def _again(self, call: RadioCall) -> RadioCall:
         """Return a call as it is said again, with its readback."""
-        text, commands = call.said, call.meant
-        if call.scripted is not None and call.scripted.deaf:  # As in a repetition: all can hear it.
-            text, commands = call.scripted.declared.text, call.scripted.declared.commands
         times = self._times[call.id] = self._times.get(call.id, 0) + 1
         again = RadioCall(
             f"{call.id}.confirmation-{times}",
             call.frequency_khz,
             call.speaker,
             call.addressed,
-            text,
-            tuple(each for each in commands if each.actor not in call.taken_by),
+            call.said,
             in_reply_to=call,
         )
         self._originals[again.id] = call
         listener = call.addressed
-        if listener is None:
-            return again
-        has_taken = listener in call.taken_by
-        in_script = self._readback_of(call, listener)
-        if not has_taken:  # A readback of the script follows from its taking the call now.
-            again.once_taken_by(listener, partial(call.take, listener))
-        if self._stations.is_actor(listener) and (has_taken or in_script is None):
-            again.answer = self._readback(call, again, listener, in_script)
+        if listener is not None and self._stations.is_actor(listener):
+            again.answer = self._readback(call, again, listener)
         return again
 
-    def _readback(
-        self, call: RadioCall, again: RadioCall, listener: str, before: RadioCall | None
-    ) -> RadioCall:
+    def _readback(self, call: RadioCall, again: RadioCall, listener: str) -> RadioCall:
         """Return the readback of a call that is said again: as before, if it was read back."""
+        before = self._readback_of(call, listener)
         if before is not None and before.times_said:
             text = before.said
         else:

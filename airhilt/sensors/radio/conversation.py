@@ -125,6 +125,7 @@ class RadioConversation:
             Answers(radio.phraseology),
             self._said,
             readback_of=self._policy.readback_in_script,
+            call_again=self._policy.call_again,
             say=self._say,
         )
 

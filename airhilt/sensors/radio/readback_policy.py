@@ -57,7 +57,7 @@ class ReadbackPolicy:
         self._check: ControllerCheck | None = None
         if radio.controller_checks_readbacks:
             self._check = ControllerCheck(
-                stations, self._answers, call_again=self._call_again, say=self._answer
+                stations, self._answers, call_again=self.call_again, say=self._answer
             )
 
     def follow_up(
@@ -78,7 +78,8 @@ class ReadbackPolicy:
     def _answer(self, call: RadioCall) -> None:
         self._say_later(call, ANSWER_AFTER_S)
 
-    def _call_again(self, call: RadioCall) -> None:
+    def call_again(self, call: RadioCall) -> None:
+        """Let the speaker of a call make it once more, as if its addressee had asked for it."""
         self._repeat(call, ANSWER_AFTER_S)
 
     def _say_later(self, call: RadioCall, delay_s: float) -> None:
@@ -97,7 +98,7 @@ class ReadbackPolicy:
         if listener != call.addressed:
             return
         if call.asks_for is not None:
-            self._call_again(call.asks_for)
+            self.call_again(call.asks_for)
         if call.answer is not None:
             self._answer(call.answer)
         if self._check is not None:

@@ -352,7 +352,7 @@ def test_who_had_missed_the_call_takes_it_when_it_is_said_again() -> None:
     world = World(CLEARANCE, READBACK, failures=[failure])
     asked(world, "ATC", "clearance")
     world.run_until(60.0)
-    assert world.said() == ["clearance", "clearance.confirmation-1", "readback"]
+    assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
     assert [callsign for callsign, _, _ in world.done] == ["AAL123"]
 
 
