@@ -80,7 +80,7 @@ def test_sections_stand_in_their_order() -> None:
     sections, problems = load_sections()
     outer = [section.name for section in sections if not section.within]
     assert problems == []
-    assert outer[:6] == ["header", "numbers", "warning", "flight", "radio", "cameras"]
+    assert outer[:5] == ["header", "numbers", "warning", "evidence", "flight"]
     assert outer[-3:] == ["timeline", "latencies", "draws"]
     assert [one.name for one in sections if one.within == "flight"][:2] == ["plan", "profile"]
 

@@ -52,6 +52,11 @@ class AirTracks:
         else:
             track.update(report, report.altitude_ft)
 
+    def addresses(self, *callsigns: str) -> tuple[str, ...]:
+        """Return the addresses of the aircraft that have some callsigns."""
+        found = (self.by_callsign(callsign) for callsign in callsigns)
+        return tuple(track.icao24 for track in found if track is not None)
+
     def by_callsign(self, callsign: str) -> Track | None:
         """Return the track of a callsign, None if there is none."""
         return next((t for t in self._tracks.values() if t.callsign == callsign), None)

@@ -45,6 +45,7 @@ def misread(outlook: Snapshot, discrepancy: Discrepancy) -> Iterator[Threat]:
         ),
         sources=("radio", "adsb"),
         kind="readback_mismatch",
+        radio_ids=discrepancy.radio_ids,
         rules=("readback_mismatch" if len(parties) == 1 else "recipient_ambiguity",),
     )
 
@@ -65,6 +66,7 @@ def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]
         NotReadBack(callsign, given, activity[0]),
         sources=("radio", "adsb"),
         kind="readback_mismatch",
+        radio_ids=(unanswered.radio_id,),
         rules=("readback_missing",),
     )
 
@@ -124,5 +126,6 @@ def _opposed(outlook: Outlook) -> Iterator[Threat]:
             parties,
             OpposedClearances(parties, (first.runway, second.runway)),
             sources=("radio",),
+            radio_ids=(first.radio_id, second.radio_id),
             rules=("opposed_clearances",),
         )

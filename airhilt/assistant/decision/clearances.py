@@ -36,6 +36,8 @@ class Clearance:
 
     Attributes
     ----------
+    radio_id
+        Id of the transmission.
     is_certain
         False if a slot of it is in doubt: it then makes nobody's presence on a runway right.
     """
@@ -44,6 +46,7 @@ class Clearance:
     action: Action
     runway: str | None
     t_end_ns: int
+    radio_id: str
     is_certain: bool = True
 
 
@@ -58,6 +61,8 @@ class Discrepancy:
     given: Instruction | None
     read: Instruction
     t_end_ns: int
+    radio_ids: tuple[str, str]
+    """Ids of the transmissions: the instruction, and its readback."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +72,7 @@ class Unanswered:
     callsign: str
     given: Instruction
     t_end_ns: int
+    radio_id: str
 
 
 @dataclass(slots=True)
@@ -142,7 +148,7 @@ class Clearances:
             given.answered = True
         believed = tuple(each for each in said if each.action not in doubts)
         if believed:
-            self._act_on(callsign, believed, transcript.t_end_ns)
+            self._act_on(callsign, believed, transcript)
         self._suspect(callsign, doubts.values())
 
     def _is_news(self, callsign: str, said: Instruction) -> bool:
@@ -182,7 +188,7 @@ class Clearances:
                 if each.action in RESTRICTING and each.action not in addressed.doubts
             ]
             if given and self._silence.is_late(addressed.transcript, t_ns):
-                yield Unanswered(callsign, given[0], addressed.t_end_ns)
+                yield Unanswered(callsign, given[0], addressed.t_end_ns, addressed.transcript.id)
 
     def doubts(self, t_ns: int) -> Iterator[Doubt]:
         """Yield what is still in doubt; an instruction not before its readback is late."""
@@ -203,9 +209,9 @@ class Clearances:
         clearances = self._in_force.get(callsign, ())
         self._in_force[callsign] = tuple(c for c in clearances if c.action not in actions)
 
-    def _act_on(self, callsign: str, said: tuple[Instruction, ...], t_end_ns: int) -> None:
+    def _act_on(self, callsign: str, said: tuple[Instruction, ...], transcript: Transcript) -> None:
         self._in_force[callsign] = tuple(
-            Clearance(callsign, each.action, each.runway, t_end_ns)
+            Clearance(callsign, each.action, each.runway, transcript.t_end_ns, transcript.id)
             for each in said
             if each.action in LIFETIME_S
         )
@@ -228,8 +234,10 @@ class Clearances:
             self._doubts[callsign] = doubt
             said = doubt.said
             if said.action in LIFETIME_S:
-                t_end_ns = doubt.transcript.t_end_ns
-                maybe = Clearance(callsign, said.action, said.runway, t_end_ns, is_certain=False)
+                heard = doubt.transcript
+                maybe = Clearance(
+                    callsign, said.action, said.runway, heard.t_end_ns, heard.id, is_certain=False
+                )
                 self._in_force[callsign] = (*self._in_force.get(callsign, ()), maybe)
                 self._holding.pop(callsign, None)
 
@@ -274,7 +282,7 @@ class Clearances:
                     doubts[each.action] = own
                 continue
             if doubt is None:
-                self._note(callsign, *wrong, each, transcript.t_end_ns)
+                self._note(callsign, *wrong, each, transcript)
             else:
                 doubts[each.action] = replace(doubt, is_answered=True)
         if given:
@@ -311,9 +319,16 @@ class Clearances:
         addressed: str,
         given: Instruction | None,
         read: Instruction,
-        t_end_ns: int,
+        transcript: Transcript,
     ) -> None:
-        self._discrepancies[callsign] = Discrepancy(callsign, addressed, given, read, t_end_ns)
+        self._discrepancies[callsign] = Discrepancy(
+            callsign,
+            addressed,
+            given,
+            read,
+            transcript.t_end_ns,
+            (self._addressed[addressed].transcript.id, transcript.id),
+        )
 
     def _settle(self, callsign: str) -> None:
         """Drop the discrepancy of somebody's last readback, because there is a new call."""

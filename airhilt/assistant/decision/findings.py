@@ -87,12 +87,15 @@ class LevelMisread:
     ----------
     traffic
         Callsign of an aircraft that it would lose separation from.
+    radio_ids
+        Ids of the transmissions: the instruction, and its readback.
     """
 
     callsign: str
     read_ft: float
     cleared_ft: float
     traffic: str
+    radio_ids: tuple[str, str]
 
     def statement(self) -> str:
         """Return the finding in a few words, without the callsign."""

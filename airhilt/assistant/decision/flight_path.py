@@ -74,6 +74,7 @@ def _aloft(outlook: Outlook, use: Use, thing: SeenAloft) -> Iterator[Threat]:
             time_to_go_s,
             ("vision", "adsb"),
             unnamed=unnamed,
+            tracks=thing.tracks,
             rule="flight_path",
         )
 

@@ -316,6 +316,10 @@ class IntruderWatch:
                 sources=("vision", "adsb") if track.explained_by else ("vision",),
                 time_to_closest_approach_s=left_s,
                 note=_note(encounter),
+                camera_ids=(track.camera,),
+                tracks=self._visual_tracks.traffic.addresses(track.explained_by),
+                rules=("time_to_contact",),
+                shares={} if track.explained_by else {"vision": 1.0},
             ),
             finding=Intruder(
                 carrier=ongoing.carrier,

@@ -28,6 +28,7 @@ class _Clearance:
     t_end_ns: int
     doubt: Doubt | None
     """Doubt about the level."""
+    radio_id: str
 
 
 class LevelReadbacks:
@@ -58,7 +59,7 @@ class LevelReadbacks:
                 track.in_distress = True
                 track.cleared_m = None
                 if call.emergency_descent and not call.addressed_first:
-                    track.descent_ns = t_ns
+                    track.announce_descent(t_ns, transcript.id)
             return None
         if said is None or said.altitude_ft is None:
             return None
@@ -69,7 +70,7 @@ class LevelReadbacks:
             return None
         if call.addressed_first:
             value = self._guard.doubt_of_value(call, said, transcript)
-            told = _Clearance(said.altitude_ft, transcript.t_end_ns, value)
+            told = _Clearance(said.altitude_ft, transcript.t_end_ns, value, transcript.id)
             self._clearances[track.callsign] = told
             self._set_doubt(track, doubt)
             return None
@@ -79,13 +80,14 @@ class LevelReadbacks:
             given = None
         if given is not None:
             doubt = self._guard.doubt_of_value(call, said, transcript)
-        return self._read_back(t_ns, track, said.altitude_ft, given, doubt, config)
+        return self._read_back(t_ns, track, said.altitude_ft, transcript.id, given, doubt, config)
 
     def _read_back(
         self,
         t_ns: int,
         track: Track,
         altitude_ft: float,
+        radio_id: str,
         given: _Clearance | None,
         doubt: Doubt | None,
         config: SeparationStandard,
@@ -96,7 +98,7 @@ class LevelReadbacks:
             self._set_doubt(track, doubt)
             track.cleared_m = None
             return None
-        track.clear(altitude_ft * FOOT, t_ns)
+        track.clear(altitude_ft * FOOT, t_ns, radio_id)
         disputed = None if given is None or agrees else given.doubt
         self._set_doubt(track, disputed and replace(disputed, is_answered=True))
         if given is None or agrees or disputed is not None:
@@ -109,6 +111,7 @@ class LevelReadbacks:
             read_ft=altitude_ft,
             cleared_ft=given.altitude_ft,
             traffic=threatened.callsign,
+            radio_ids=(given.radio_id, radio_id),
         )
 
     def _set_doubt(self, track: Track, doubt: Doubt | None) -> None:

@@ -144,8 +144,13 @@ class Prediction(NamedTuple):
 
     def evidence(self) -> Evidence:
         """Return the prediction as an advisory gives it."""
+        heard = [track.radio_id for track in (self.first, self.second) if track.radio_id]
         return Evidence(
-            sources=("adsb",),
+            sources=("adsb", "radio") if heard else ("adsb",),
+            radio_ids=tuple(heard),
+            tracks=(self.first.icao24, self.second.icao24),
+            rules=("loss_of_separation",),
+            shares={} if heard else {"adsb": 1.0},
             time_to_loss_s=self.time_to_loss_s,
             time_to_closest_approach_s=self.time_to_closest_approach_s,
             horizontal_at_closest_approach_m=self.horizontal_m,

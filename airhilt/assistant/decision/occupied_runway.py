@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from airhilt.assistant.decision.aerodrome import Strip
+from airhilt.assistant.decision.clearances import Clearance
 from airhilt.assistant.decision.findings import Obstructs
 from airhilt.assistant.decision.ladder import Score
 from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.mobiles import Mobile, Use
-from airhilt.assistant.decision.situation import Obstacle, SeenObstacle
+from airhilt.assistant.decision.occupancy import SeenOnGround
+from airhilt.assistant.decision.situation import Obstacle, SeenObstacle, WildlifeReport
 from airhilt.assistant.decision.threats import (
     UNIDENTIFIED,
     WILDLIFE,
@@ -67,64 +69,77 @@ def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
 
 
 def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Threat]:
-    """Yield the threat of something that only cameras show on a runway before its user.
-
-    While it is not certain, it is one hint among others.
-    """
+    """Yield the threat of something that only cameras show on a runway before its user."""
     thing = seen.thing
     coming = outlook.coming(use, thing.fix.point)
     if coming is None:
         return
     severity, time_to_go_s = coming
-    callsign = None
-    if not thing.is_animal:
-        callsign = _sent_there(outlook, use.strip, thing.label != AIRCRAFT)
-    cleared_to = outlook.cleared_to(callsign, use.strip)
-    clear_s = None if "proceed" in cleared_to else seen.clear_s
-    if seen.is_certain and _is_harmless(
-        outlook, clear_s, "cross" in cleared_to, severity, time_to_go_s
-    ):
-        severity = Severity.INFO
-    elif not seen.is_certain:
-        reported = outlook.situation.has_wildlife(use.strip, outlook.t_ns)
-        is_told = reported if thing.is_animal else callsign is not None
-        config = outlook.config.score
-        score = Score.of(config, vision=seen.weight, asr=1.0, context=float(is_told))
-        hinted = score.severity(config)
+    clearance = _sent_there(outlook, use.strip, thing)
+    callsign = None if clearance is None else clearance.callsign
+    sources: tuple[str, ...] = ("vision", "adsb")
+    told: Clearance | WildlifeReport | None = clearance
+    score = None
+    if seen.is_certain:
+        cleared_to = outlook.cleared_to(callsign, use.strip)
+        clear_s = None if "proceed" in cleared_to else seen.clear_s
+        if _is_harmless(outlook, clear_s, "cross" in cleared_to, severity, time_to_go_s):
+            severity = Severity.INFO
+    else:
+        sources = ("adsb", "vision")
+        if thing.is_animal:
+            told = outlook.situation.wildlife_report(use.strip, outlook.t_ns)
+        score = _hint(outlook, seen, told is not None)
+        hinted = score.severity(outlook.config.score)
         if hinted is None:
             return
         severity = min(severity, hinted, key=lambda each: each.rank)
-    sources: tuple[str, ...] = ("vision", "adsb") if seen.is_certain else ("adsb", "vision")
-    how: Obstructs
-    what, unnamed = str(thing.label), None
-    if thing.is_animal:
-        how, unnamed = "animal on", WILDLIFE
-    elif callsign is not None:
-        how, what, sources = "on, by camera", callsign, (*sources, "radio")
-    else:
-        how, unnamed = "unidentified on", UNIDENTIFIED
+    how, what, unnamed = _named(thing, callsign)
     yield obstruction(
         use,
         how,
         what,
         severity,
         time_to_go_s,
-        sources,
+        sources if told is None else (*sources, "radio"),
         unnamed=unnamed,
-        rule="occupancy" if seen.is_certain else "score",
+        tracks=thing.tracks,
+        radio_ids=() if told is None else (told.radio_id,),
+        rule="occupancy" if score is None else "score",
+        shares=score and score.shares(vision=score.vision, adsb=score.asr, radio=score.context),
     )
 
 
-def _sent_there(outlook: Outlook, strip: Strip, vehicle: bool) -> str | None:
-    """Return the only vehicle, or aircraft, without ADS-B that was cleared on to a runway."""
-    situation = outlook.situation
-    names = {
-        clearance.callsign
+def _hint(outlook: Outlook, seen: SeenObstacle, is_told: bool) -> Score:
+    """Return the score of something that is not certain: one hint among others.
+
+    W_A is that somebody uses the runway, by ADS-B; W_C that a call tells of the thing.
+    """
+    config = outlook.config.score
+    return Score.of(config, vision=seen.weight, asr=1.0, context=float(is_told))
+
+
+def _named(thing: SeenOnGround, callsign: str | None) -> tuple[Obstructs, str, str | None]:
+    """Return how something is in the way, what it is, and a word if it has no callsign."""
+    if thing.is_animal:
+        return "animal on", str(thing.label), WILDLIFE
+    if callsign is not None:
+        return "on, by camera", callsign, None
+    return "unidentified on", str(thing.label), UNIDENTIFIED
+
+
+def _sent_there(outlook: Outlook, strip: Strip, thing: SeenOnGround) -> Clearance | None:
+    """Return the clearance of the only vehicle, or aircraft, without ADS-B sent on to a runway."""
+    if thing.is_animal:
+        return None
+    situation, vehicle = outlook.situation, thing.label != AIRCRAFT
+    sent = {
+        clearance.callsign: clearance
         for clearance in outlook.cleared_on(strip)
         if situation.mobile(clearance.callsign) is None
         and situation.is_vehicle(clearance.callsign) == vehicle
     }
-    return names.pop() if len(names) == 1 else None
+    return next(iter(sent.values())) if len(sent) == 1 else None
 
 
 def _is_harmless(
@@ -220,13 +235,15 @@ def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
             Severity.CAUTION,
             time_to_go_s,
             ("adsb", "radio"),
+            radio_ids=(clearance.radio_id,),
             rule="cleared_on",
         )
 
 
 def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
     """Yield the threat of wildlife that was reported on the runway."""
-    if not outlook.situation.has_wildlife(use.strip, outlook.t_ns):
+    report = outlook.situation.wildlife_report(use.strip, outlook.t_ns)
+    if report is None:
         return
     if use.kind == "rollout" or use.is_climbing:
         return
@@ -241,5 +258,6 @@ def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
             time_to_go_s,
             ("adsb", "radio"),
             unnamed=WILDLIFE,
+            radio_ids=(report.radio_id,),
             rule="reported_wildlife",
         )

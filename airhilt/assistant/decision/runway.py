@@ -40,6 +40,8 @@ class _Ongoing:
     threat: Threat
     escalation: Escalation = field(default_factory=Escalation)
     revision: int = 0
+    tracks: tuple[str, ...] = ()
+    """Addresses of those in conflict who are known by ADS-B."""
 
 
 class RunwayWatch:
@@ -140,6 +142,9 @@ class RunwayWatch:
                 self._ongoing[threat.key].escalation.stays()
             return []
         ongoing = self._ongoing_of(threat)
+        if "adsb" in threat.sources:
+            known = (situation.mobile(callsign) for callsign in threat.traffic)
+            ongoing.tracks = tuple(mobile.icao24 for mobile in known if mobile is not None)
         # Speech does not become more certain with time, and what is seen has lasted already.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
         if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):
@@ -196,6 +201,9 @@ class RunwayWatch:
                 runway=threat.runway,
                 time_to_go_s=threat.time_to_go_s,
                 note=threat.finding.statement(),
+                radio_ids=threat.radio_ids,
+                camera_ids=threat.cameras,
+                tracks=ongoing.tracks,
                 rules=threat.rules,
                 shares=dict(threat.shares),
             ),

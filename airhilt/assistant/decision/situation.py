@@ -35,6 +35,13 @@ CERTAIN_CHANCE = 0.8
 ACCURATE_NACP = 11
 
 
+class WildlifeReport(NamedTuple):
+    """A call that reports wildlife on a runway."""
+
+    radio_id: str
+    t_end_ns: int
+
+
 class Obstacle(NamedTuple):
     """A mobile on the ground, by ADS-B, whose straight way leads through a protected area."""
 
@@ -92,8 +99,8 @@ class Situation:
             strip.name: {} for strip in self.aerodrome.strips
         }
         """Obstacles by runway and address."""
-        self._wildlife_ns: dict[str, int] = {}
-        """Time of the last report of wildlife, by runway."""
+        self._wildlife: dict[str, WildlifeReport] = {}
+        """The last report of wildlife, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
         self._seen: dict[str, list[SeenObstacle]] = {}
         """Obstacles that only cameras show, by runway."""
@@ -149,10 +156,10 @@ class Situation:
             is_certain=thing.is_established and chance >= CERTAIN_CHANCE,
         )
 
-    def has_wildlife(self, strip: Strip, t_ns: int) -> bool:
-        """Return whether wildlife was reported on a runway within `WILDLIFE_NS`."""
-        reported_ns = self._wildlife_ns.get(strip.name)
-        return reported_ns is not None and t_ns - reported_ns <= WILDLIFE_NS
+    def wildlife_report(self, strip: Strip, t_ns: int) -> WildlifeReport | None:
+        """Return the report of wildlife on a runway within `WILDLIFE_NS`, None without one."""
+        report = self._wildlife.get(strip.name)
+        return report if report is not None and t_ns - report.t_end_ns <= WILDLIFE_NS else None
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
@@ -215,10 +222,10 @@ class Situation:
         for said in call.instructions:
             if said.action == "wildlife":
                 for strip in self._reported_on(said.runway, call):
-                    self._wildlife_ns[strip.name] = transcript.t_end_ns
+                    self._wildlife[strip.name] = WildlifeReport(transcript.id, transcript.t_end_ns)
             elif said.action == "wildlife_gone":
                 for strip in self._reported_on(said.runway, call):
-                    self._wildlife_ns.pop(strip.name, None)
+                    self._wildlife.pop(strip.name, None)
         self.clearances.take(call, transcript)
         return call
 

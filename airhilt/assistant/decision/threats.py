@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
@@ -23,6 +23,7 @@ from airhilt.assistant.decision.findings import (
 from airhilt.assistant.decision.ladder import ScoreConfig
 from airhilt.assistant.decision.mobiles import BRAKING_M_S2, Use
 from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.visual_tracks import VisualTrack
 from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import Severity
 from airhilt.phraseology import Action
@@ -123,6 +124,10 @@ class Threat:
         The parties, and what else is in the way.
     sources
         Modalities that it rests on, the decisive one first.
+    radio_ids
+        Ids of the transmissions that it rests on.
+    cameras
+        Names of the cameras that it rests on.
     rules
         Names of the rules that were triggered.
     shares
@@ -139,6 +144,8 @@ class Threat:
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
+    radio_ids: tuple[str, ...] = ()
+    cameras: tuple[str, ...] = ()
     rules: tuple[RunwayRule, ...] = ()
     shares: Mapping[str, float] = field(default_factory=dict)
 
@@ -220,6 +227,11 @@ class Outlook(Snapshot):
         return Severity.CAUTION if time_to_go_s <= self.config.caution_s else None
 
 
+def cameras_of(tracks: Iterable[VisualTrack]) -> tuple[str, ...]:
+    """Return the names of the cameras of some visual tracks."""
+    return tuple(sorted({track.camera for track in tracks}))
+
+
 def obstruction(
     use: Use,
     how: Obstructs,
@@ -230,7 +242,10 @@ def obstruction(
     *,
     unnamed: str | None = None,
     where: str | None = None,
+    tracks: Iterable[VisualTrack] = (),
+    radio_ids: tuple[str, ...] = (),
     rule: RunwayRule = "occupancy",
+    shares: Mapping[str, float] | None = None,
 ) -> Threat:
     """Return the threat that somebody or something is in the way of a runway's user.
 
@@ -242,8 +257,14 @@ def obstruction(
         `WILDLIFE` or `UNIDENTIFIED` for what has no callsign.
     where
         Runway on which it is; None: the one that is used.
+    tracks
+        Visual tracks that show it.
+    radio_ids
+        Ids of the transmissions that tell of it.
     rule
         Rule that found it.
+    shares
+        Share of each modality; empty where it cannot be told.
     """
     own, other, runway = use.mobile.callsign, unnamed or what, use.direction.ident
     return Threat(
@@ -256,5 +277,8 @@ def obstruction(
         finding=Obstruction(own, use.kind, runway, how, what, where or runway),
         time_to_go_s=time_to_go_s,
         sources=sources,
+        radio_ids=radio_ids,
+        cameras=cameras_of(tracks),
         rules=(rule,),
+        shares=shares or {},
     )

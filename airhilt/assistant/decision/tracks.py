@@ -49,6 +49,10 @@ class Track:
     """True if it is in distress, and goes where it can."""
     descent_ns: int | None = None
     """Time at which its crew announced an emergency descent; None if they did not."""
+    cleared_id: str = ""
+    """Id of the transmission with that readback."""
+    descent_id: str = ""
+    """Id of the transmission with that announcement."""
 
     @classmethod
     def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
@@ -84,9 +88,13 @@ class Track:
         if not self._is_followed():
             self.cleared_m = None
 
-    def clear(self, level_m: float, t_ns: int) -> None:
+    def clear(self, level_m: float, t_ns: int, radio_id: str) -> None:
         """Expect it at a level that its crew has read back."""
-        self.cleared_m, self.cleared_ns = level_m, t_ns
+        self.cleared_m, self.cleared_ns, self.cleared_id = level_m, t_ns, radio_id
+
+    def announce_descent(self, t_ns: int, radio_id: str) -> None:
+        """Expect an emergency descent that its crew has announced."""
+        self.descent_ns, self.descent_id = t_ns, radio_id
 
     def _is_followed(self) -> bool:
         """Return whether it is at its cleared level, moves to it, or still may begin to.
@@ -123,7 +131,21 @@ class Track:
             self.cleared_ns,
             self.in_distress,
             self.descent_ns,
+            self.cleared_id,
+            self.descent_id,
         )
+
+    @property
+    def _is_about_to_descend(self) -> bool:
+        """True if an emergency descent was announced a moment ago."""
+        return self.descent_ns is not None and self.t_ns - self.descent_ns < UNFOLLOWED_NS
+
+    @property
+    def radio_id(self) -> str:
+        """Id of the transmission that its expected climb or descent rests on; empty if none."""
+        if self._is_about_to_descend:
+            return self.descent_id
+        return "" if self.profile().target_m is None else self.cleared_id
 
     def profile(self) -> VerticalProfile:
         """Return the expected climb or descent: to the cleared level, if it moves towards it.
@@ -131,7 +153,7 @@ class Track:
         An emergency descent is expected from the words on, before it can be seen.
         """
         rate = self.vertical_rate_m_s
-        if self.descent_ns is not None and self.t_ns - self.descent_ns < UNFOLLOWED_NS:
+        if self._is_about_to_descend:
             steepest = min(rate, -EMERGENCY_DESCENT_M_S)
             return VerticalProfile(self.altitude_m, steepest, EMERGENCY_LEVEL_M)
         if abs(rate) < LEVEL_BELOW_M_S:

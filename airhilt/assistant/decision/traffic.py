@@ -62,6 +62,10 @@ class Traffic:
         """Return the last report of the carrier of a camera, None if there is none."""
         return next((r for r in self._reports.values() if _name(r) == view.carrier), None)
 
+    def addresses(self, *callsigns: str | None) -> tuple[str, ...]:
+        """Return the addresses of those who are known by callsigns."""
+        return tuple(r.icao24 for r in self._reports.values() if _name(r) in callsigns)
+
     def learn_ground(self, view: CameraView, t_ns: int) -> None:
         """Update the pressure altitude of the ground from the camera of an aircraft in flight."""
         report = self.carrier(view)

@@ -202,6 +202,7 @@ def test_a_readback_mismatch_with_traffic_there_is_a_caution_to_crew_and_control
         assert (advisory.kind, advisory.severity) == ("readback_mismatch", "CAUTION")
         assert advisory.traffic == CREWS
         assert advisory.evidence.sources == ("radio", "adsb")
+        assert len(advisory.evidence.radio_ids) == len(advisory.evidence.tracks) == 2
         for words in ("34000", "33000", "DAL456"):
             assert words in advisory.message
     assert {a.recommendation for a in told if a.recipient == "AAL123"} == {

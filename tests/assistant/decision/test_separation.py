@@ -108,7 +108,8 @@ def test_a_level_that_was_read_back_lapses_once_the_aircraft_moves_away_from_it(
     rate_fpm: float, is_expected: bool
 ) -> None:
     track = Track.of(report(0.0, 31_000.0, rate_fpm), 31_000.0)
-    track.clear(29_000.0 * FOOT, 0)
+    track.clear(29_000.0 * FOOT, 0, "readback")
+    assert track.radio_id == ("readback" if rate_fpm < 0.0 else "")
     for t_s in range(1, 41):
         altitude_ft = 31_000.0 + rate_fpm / 60.0 * t_s
         track.update(report(float(t_s), altitude_ft, rate_fpm), altitude_ft)

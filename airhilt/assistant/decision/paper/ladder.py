@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.assessment import worst
 from airhilt.assistant.decision.clearance_conflicts import activity_of, misread
+from airhilt.assistant.decision.clearances import Clearance
 from airhilt.assistant.decision.findings import Obstructs, Occupied, RecipientUnclear
 from airhilt.assistant.decision.ladder import Score
 from airhilt.assistant.decision.mobiles import Use
@@ -20,7 +21,7 @@ from airhilt.assistant.decision.paper.ambiguity import AmbiguousCall, AmbiguousC
 from airhilt.assistant.decision.paper.config import PaperConfig
 from airhilt.assistant.decision.paper.occupants import Occupant, occupants
 from airhilt.assistant.decision.situation import Situation
-from airhilt.assistant.decision.threats import Snapshot, Threat, obstruction
+from airhilt.assistant.decision.threats import Snapshot, Threat, cameras_of, obstruction
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import Severity
 
@@ -81,20 +82,12 @@ class Ladder:
                 )
 
     def _score(self, snapshot: Snapshot, strip: Strip, occupant: Occupant) -> Score:
-        situation = snapshot.situation
-        others = [
-            use
-            for use in situation.uses.values()
-            if use.strip is strip and use.mobile.callsign != occupant.callsign
-        ]
-        cleared = [
-            each for each in snapshot.cleared_on(strip) if each.callsign != occupant.callsign
-        ]
+        cleared, users = _others(snapshot, strip, occupant)
         return Score.of(
             self._config.score,
             vision=occupant.belief,
             asr=float(bool(cleared)),
-            context=float(bool(others)),
+            context=float(bool(users)),
         )
 
     def _occupants(self, snapshot: Snapshot, strip: Strip) -> Iterator[Occupant]:
@@ -106,6 +99,23 @@ def _time_to_go_s(snapshot: Snapshot, use: Use, occupant: Occupant) -> float | N
     if use.mobile.callsign == occupant.callsign:
         return None
     return snapshot.time_to_point_s(use, occupant.point)
+
+
+def _others(
+    snapshot: Snapshot, strip: Strip, occupant: Occupant
+) -> tuple[list[Clearance], list[str]]:
+    """Return the certain clearances of others on to a runway, and who else uses it."""
+    cleared = [
+        each
+        for each in snapshot.cleared_on(strip)
+        if each.is_certain and each.callsign != occupant.callsign
+    ]
+    users = [
+        use.mobile.callsign
+        for use in snapshot.situation.uses.values()
+        if use.strip is strip and use.mobile.callsign != occupant.callsign
+    ]
+    return cleared, users
 
 
 def _unclear(snapshot: Snapshot, call: AmbiguousCall) -> Iterator[Threat]:
@@ -123,6 +133,7 @@ def _unclear(snapshot: Snapshot, call: AmbiguousCall) -> Iterator[Threat]:
         finding=RecipientUnclear(call.callsigns, call.said, activity[0]),
         sources=("radio", "adsb"),
         kind="readback_mismatch",
+        radio_ids=(call.id,),
         rules=("recipient_ambiguity",),
     )
 
@@ -141,6 +152,7 @@ def _in_way(use: Use, occupant: Occupant, severity: Severity, time_s: float | No
         time_s,
         (*sources, "adsb"),
         unnamed=None if occupant.callsign else occupant.name,
+        tracks=occupant.tracks,
     )
 
 
@@ -148,16 +160,9 @@ def _scored(
     snapshot: Snapshot, strip: Strip, occupant: Occupant, score: Score, severity: Severity
 ) -> Threat:
     """Return the threat of a runway that is occupied by the weighted score."""
-    cleared = [
-        each.callsign for each in snapshot.cleared_on(strip) if each.callsign != occupant.callsign
-    ]
-    uses = [
-        use.mobile.callsign
-        for use in snapshot.situation.uses.values()
-        if use.strip is strip and use.mobile.callsign != occupant.callsign
-    ]
+    cleared, users = _others(snapshot, strip, occupant)
     known = [] if occupant.callsign is None else [occupant.callsign]
-    parties = tuple(dict.fromkeys((*uses, *cleared, *known)))
+    parties = tuple(dict.fromkeys((*users, *(each.callsign for each in cleared), *known)))
     runway = strip.directions[0].ident
     shares = score.shares(vision=score.vision, radio=score.asr, adsb=score.context)
     return Threat(
@@ -169,6 +174,8 @@ def _scored(
         traffic=tuple(dict.fromkeys((*parties, occupant.name))),
         finding=Occupied(occupant.callsign or occupant.label, runway),
         sources=tuple(shares),
+        radio_ids=tuple(each.radio_id for each in cleared),
+        cameras=cameras_of(occupant.tracks),
         rules=("score",),
         shares=shares,
     )

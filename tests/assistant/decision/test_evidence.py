@@ -1,0 +1,82 @@
+"""An advisory says what it rests on: calls, cameras, tracks, rules, and shares where they are."""
+
+from __future__ import annotations
+
+import pytest
+
+from airfield import NORTH, Airfield, Mover, drives, lands, stands, takes_off
+from airhilt.assistant.decision.engines.paper import PaperEngine
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.wording.engines.template import Template
+from decisions import reference
+from encounters import head_on
+from field_cameras import beside_threshold, on_tower, silent
+from projected import TRUCK
+
+MISREAD = [
+    (20.0, "American 123, runway zero one, cleared to land."),
+    (25.0, "Cleared to land runway one niner, American 123."),
+]
+
+
+def paper() -> DecisionWorker:
+    return DecisionWorker(PaperEngine(), Template())
+
+
+@pytest.mark.parametrize("engine", [reference, paper])
+def test_a_wrong_readback_names_both_calls_and_the_tracks(engine: type) -> None:
+    movers = [Mover("AAL123", NORTH, lands(400.0)), Mover("DAL456", NORTH, takes_off(999.0))]
+    _, told = Airfield(movers, MISREAD, engine()).run(30).first("CAUTION", "readback_mismatch")
+    assert told.evidence.radio_ids == ("0", "1")
+    assert told.evidence.tracks == (movers[0].icao24, movers[1].icao24)
+    assert told.evidence.rules == ("readback_mismatch",)
+    assert told.evidence.shares == {}, "both modalities are needed"
+
+
+@pytest.mark.parametrize("engine", [reference, paper])
+def test_what_cameras_show_names_them(engine: type) -> None:
+    truck = silent(stands(800))
+    cameras = [look(truck.body("truck", TRUCK)) for look in (on_tower, beside_threshold)]
+    movers = [Mover("AAL123", NORTH, lands(30.0)), truck]
+    _, told = Airfield(movers, worker=engine(), cameras=cameras).run(10).first("WARNING")
+    assert told.evidence.camera_ids == ("threshold", "tower")
+    assert told.evidence.tracks == (movers[0].icao24,)
+    assert told.evidence.rules == ("occupancy",)
+    assert told.evidence.time_to_go_s is not None
+
+
+def test_a_clearance_on_to_the_runway_names_its_call() -> None:
+    calls = [(20.0, "Ops one, proceed onto runway zero one for inspection.")]
+    movers = [Mover("AAL123", NORTH, lands(70.0)), silent(stands(800))]
+    _, told = Airfield(movers, calls).run(30).first("CAUTION")
+    assert told.evidence.rules == ("cleared_on",)
+    assert told.evidence.radio_ids == ("0",)
+
+
+def test_a_vehicle_by_ads_b_alone_rests_on_no_call() -> None:
+    movers = [Mover("AAL123", NORTH, lands(90)), Mover("OPS1", NORTH, drives(40), 90.0, "C2")]
+    evidence = Airfield(movers).run(80).first("CAUTION")[1].evidence
+    assert (evidence.radio_ids, evidence.camera_ids) == ((), ())
+    assert len(evidence.tracks) == 2
+
+
+def test_a_score_tells_the_share_of_each_modality() -> None:
+    """One camera has shown the truck for less than the time after which it is there for sure."""
+    truck = silent(stands(800))
+    camera = on_tower(truck.body("truck", TRUCK), confidence=0.6)
+    calls = [(4.0, "American 123, runway zero one, cleared to land.")]
+    field = Airfield([Mover("AAL123", NORTH, lands(30.0)), truck], calls, paper(), cameras=[camera])
+    scored = [a.evidence for _, a in field.run(6).told if a.evidence.rules == ("score",)]
+    assert scored
+    for evidence in scored:
+        assert set(evidence.shares) == set(evidence.sources)
+        assert sum(evidence.shares.values()) == pytest.approx(1.0)
+
+
+def test_a_loss_of_separation_rests_on_the_two_tracks_alone() -> None:
+    told = head_on(240.0).fly().told
+    evidence = next(advisory.evidence for _, advisory in told if advisory.active)
+    assert evidence.sources == ("adsb",)
+    assert len(evidence.tracks) == 2
+    assert evidence.rules == ("loss_of_separation",)
+    assert evidence.shares == {"adsb": 1.0}
