@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, runtime_checkable
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.errors import LanguageModelError, first_problem
+from airhilt.errors import AirhiltError, LanguageModelError, first_problem
 from airhilt.services import HttpService
 
 KEY_VARIABLE = "AIRHILT_LLM_KEY"
@@ -27,6 +28,8 @@ MOST_TOKENS = 1_024
 """Length of the longest answer, in tokens, with what a model thinks before it answers."""
 MOST_FAILURES = 3
 """Number of questions in a row without an answer after which the model is not asked any more."""
+Dialect = Literal["json_schema", "json_object"]
+"""Ways to ask for JSON of a schema: OpenAI's, and that of llama-cpp-python."""
 _PATH = "/chat/completions"
 
 
@@ -95,12 +98,11 @@ class LanguageModel:
     def __init__(self, settings: LanguageModelSettings) -> None:
         self.name = settings.model
         self._settings = settings
-        url = endpoint(settings.url)
-        self._service = HttpService(
-            "language model", url, settings.deadline_s, MAXIMUM_BYTES, LanguageModelError
-        )
+        self._url = endpoint(settings.url)
         self._key = _key()
+        self._dialect: Dialect = "json_schema"
         self._failures = 0
+        self._service(settings.deadline_s)
 
     def ask(self, instructions: str, question: str, schema: Mapping[str, Any]) -> str:
         """Return the answer: a text that should be JSON of a schema; the caller checks that.
@@ -115,19 +117,34 @@ class LanguageModel:
                 f"language model {self.name!r} is not asked any more: {MOST_FAILURES} questions "
                 "in a row had no answer"
             )
-        headers = {"Authorization": f"Bearer {self._key}"} if self._key else {}
-        body = json.dumps(self._request(instructions, question, schema)).encode()
+        begun = time.monotonic()
+        request = self._request(instructions, question)
         self._failures += 1
         try:
-            data = self._service.post(body, "application/json", headers)
+            data = self._post(request | _format(schema, self._dialect), self._settings.deadline_s)
         except LanguageModelError as error:
-            raise LanguageModelError(self._without_key(str(error))) from None
+            left_s = self._settings.deadline_s - (time.monotonic() - begun)
+            if self._dialect != "json_schema" or not _names_format(error) or left_s <= 0.0:
+                raise
+            data = self._post(request | _format(schema, "json_object"), left_s)
+            self._dialect = "json_object"
         self._failures = 0
         return self._content(data)
 
-    def _request(
-        self, instructions: str, question: str, schema: Mapping[str, Any]
-    ) -> dict[str, Any]:
+    def _post(self, request: Mapping[str, Any], timeout_s: float) -> bytes:
+        headers = {"Authorization": f"Bearer {self._key}"} if self._key else {}
+        body = json.dumps(request).encode()
+        try:
+            return self._service(timeout_s).post(body, "application/json", headers)
+        except LanguageModelError as error:
+            raise LanguageModelError(self._without_key(str(error))) from None
+
+    def _service(self, timeout_s: float) -> HttpService:
+        return HttpService(
+            "language model", self._url, timeout_s, MAXIMUM_BYTES, LanguageModelError
+        )
+
+    def _request(self, instructions: str, question: str) -> dict[str, Any]:
         return {
             "model": self._settings.model,
             "messages": [
@@ -137,10 +154,6 @@ class LanguageModel:
             "temperature": 0,
             "seed": self._settings.seed,
             "max_tokens": MOST_TOKENS,
-            "response_format": {
-                "type": "json_schema",
-                "json_schema": {"name": "answer", "strict": True, "schema": schema},
-            },
         }
 
     def _content(self, data: bytes) -> str:
@@ -149,21 +162,35 @@ class LanguageModel:
             choice = _Completion.model_validate_json(data).choices[0]
         except ValidationError as error:
             shown = self._without_key(repr(data[:60]))
-            raise self._service.error(
+            raise self._error(
                 f"answered {shown}: {first_problem(error)}", "a chat completion"
             ) from None
         if choice.message.refusal or not choice.message.content:
             why = self._without_key(choice.message.refusal or "an empty answer")[:200]
-            raise self._service.error(f"refused: {why!r}", "an answer")
+            raise self._error(f"refused: {why!r}", "an answer")
         if choice.finish_reason == "length":
-            raise self._service.error(
-                f"answered more than {MOST_TOKENS} tokens", "no more than that"
-            )
+            raise self._error(f"answered more than {MOST_TOKENS} tokens", "no more than that")
         return self._without_key(choice.message.content)
+
+    def _error(self, what: str, expected: str) -> AirhiltError:
+        return self._service(self._settings.deadline_s).error(what, expected)
 
     def _without_key(self, text: str) -> str:
         """Return a text without the key, which an endpoint may quote."""
         return text.replace(self._key, "***") if self._key else text
+
+
+def _format(schema: Mapping[str, Any], dialect: Dialect) -> dict[str, Any]:
+    """Return the part of a request that asks for JSON of a schema."""
+    if dialect == "json_object":
+        return {"response_format": {"type": "json_object", "schema": schema}}
+    described = {"name": "answer", "strict": True, "schema": schema}
+    return {"response_format": {"type": "json_schema", "json_schema": described}}
+
+
+def _names_format(error: LanguageModelError) -> bool:
+    """Return whether an endpoint refuses the way in which JSON was asked for."""
+    return "HTTP status" in str(error) and "response_format" in str(error)
 
 
 def endpoint(url: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from airhilt.assistant.decision.alerts import Alert
@@ -20,12 +20,19 @@ class AlertLedger:
     def __init__(self) -> None:
         self._told: dict[str, Alert] = {}
 
-    def update(self, holding: Sequence[Alert]) -> list[Alert]:
-        """Return what is to be published; the revisions of the alerts are set here."""
+    def update(self, holding: Sequence[Alert], again: Collection[str] = ()) -> list[Alert]:
+        """Return what is to be published; the revisions of the alerts are set here.
+
+        Parameters
+        ----------
+        again
+            Ids of alerts that are told even if nothing has changed.
+        """
         news: list[Alert] = []
         for alert in holding:
             told = self._told.get(alert.id)
-            if told is None or not told.active or _judgement(told) != _judgement(alert):
+            is_same = told is not None and told.active and _judgement(told) == _judgement(alert)
+            if not is_same or alert.id in again:
                 news.append(replace(alert, revision=0 if told is None else told.revision + 1))
         names = {alert.id for alert in holding}
         news += [
@@ -42,6 +49,10 @@ class AlertLedger:
         ]
         self._told |= {alert.id: alert for alert in news}
         return news
+
+    def holding(self) -> dict[str, Alert]:
+        """Return the alerts that were told and are not over, by their ids."""
+        return {name: alert for name, alert in self._told.items() if alert.active}
 
 
 def _judgement(alert: Alert) -> tuple[object, ...]:

@@ -12,6 +12,7 @@ from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.mobiles import Use
 from airhilt.assistant.decision.runway_advice import advice
 from airhilt.assistant.decision.situation import Situation
 from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
@@ -78,10 +79,18 @@ class RunwayWatch:
 
     def runway_of_arrival(self, callsign: str) -> str | None:
         """Return the runway for which a callsign is on final, None if it is not."""
+        use = self._use(callsign)
+        return None if use is None or use.kind != "arrival" else use.direction.ident
+
+    def runway_in_use(self, callsign: str) -> str | None:
+        """Return the runway that a callsign lands on or departs from, None if it does not."""
+        use = self._use(callsign)
+        return None if use is None else use.direction.ident
+
+    def _use(self, callsign: str) -> Use | None:
         situation = self._situation
         mobile = None if situation is None else situation.mobile(callsign)
-        use = None if situation is None or mobile is None else situation.use(mobile)
-        return None if use is None or use.kind != "arrival" else use.direction.ident
+        return None if situation is None or mobile is None else situation.use(mobile)
 
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the airport, and who is expected there."""

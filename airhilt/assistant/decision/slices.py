@@ -24,7 +24,10 @@ TRACKS_NS = 15 * SECOND_NS
 """Age up to which a report is given; `airhilt.assistant.decision.air_tracks` keeps it as long."""
 READS: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
 """Messages that slices are made of."""
-_MS = 1_000_000
+MS_NS = 1_000_000
+"""Nanoseconds in a millisecond."""
+SECOND_MS = 1_000
+"""Milliseconds in a second, the unit of `ts_ms`."""
 
 
 class Slices:
@@ -71,7 +74,7 @@ class Slices:
         callsigns = self.callsigns()
         radio = sorted(self._radio.values(), key=lambda each: (each.t_tx_ns, each.id))
         return AssistantRequest(
-            ts_ms=t_ns // _MS,
+            ts_ms=t_ns // MS_NS,
             context=self._context,
             radio=tuple(_turn(each, callsigns) for each in radio),
             cameras=tuple(_camera(each) for each in self._cameras),
@@ -96,8 +99,8 @@ def _turn(transcript: Transcript, callsigns: tuple[str, ...]) -> RadioTurn:
     call = parse_call(transcript.text, callsigns)
     return RadioTurn(
         turn_id=transcript.id,
-        ts_ms=transcript.t_tx_ns // _MS,
-        end_ms=transcript.t_end_ns // _MS,
+        ts_ms=transcript.t_tx_ns // MS_NS,
+        end_ms=transcript.t_end_ns // MS_NS,
         frequency_khz=transcript.frequency_khz,
         text=transcript.text,
         words=transcript.words,
@@ -110,7 +113,7 @@ def _turn(transcript: Transcript, callsigns: tuple[str, ...]) -> RadioTurn:
 def _camera(detections: Detections) -> CameraSlice:
     return CameraSlice(
         camera_id=detections.camera,
-        ts_ms=detections.t_frame_ns // _MS,
+        ts_ms=detections.t_frame_ns // MS_NS,
         view=detections.view,
         detections=detections.detections,
     )
@@ -120,7 +123,7 @@ def _track(report: AdsbReport) -> TrackSlice:
     return TrackSlice(
         icao24=report.icao24,
         callsign=report.callsign,
-        ts_ms=report.t_adsb_in_ns // _MS,
+        ts_ms=report.t_adsb_in_ns // MS_NS,
         latitude_deg=report.latitude_deg,
         longitude_deg=report.longitude_deg,
         altitude_ft=report.altitude_ft,

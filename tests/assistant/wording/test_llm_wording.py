@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from http.server import BaseHTTPRequestHandler
 from typing import Any
 
 import pytest
@@ -185,6 +186,29 @@ def test_an_address_with_a_password_is_refused_without_showing_it(url: str) -> N
     with pytest.raises(LanguageModelError) as raised:
         LanguageModel(settings(url))
     assert "word" not in str(raised.value).replace("password", "")
+
+
+def test_an_endpoint_that_wants_the_schema_in_another_way_is_asked_so_from_then_on() -> None:
+    asked: list[Json] = []
+    understood = saying(echo(), asked)
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        if json.loads(body)["response_format"]["type"] == "json_object":
+            understood(handler, body)
+        else:
+            refused.append(body)
+            answering(b"response_format: Input should be 'text' or 'json_object'", 422)(
+                handler, body
+            )
+
+    refused: list[bytes] = []
+    with service(answer) as url:
+        wording = LanguageModelWording()
+        wording.use(settings(url))
+        spoken = [wording.words([ALERT]) for _ in range(2)]
+    assert not any(exchange_of(each).failure for each in spoken)
+    assert (len(refused), len(asked)) == (1, 2)
+    assert asked[0]["response_format"]["schema"]["required"] == ["m1", "m2"]
 
 
 def test_no_radio_call_reaches_the_model() -> None:

@@ -1,0 +1,1 @@
+"""A language model as the decider: what it is asked, and which of its answers the rules accept."""
