@@ -152,8 +152,8 @@ def _connect_language_model(
     if llm is None:
         if asking:
             raise LanguageModelError(
-                f"{asking[0].name!r} asks a language model; expected --llm URL, the address of an "
-                "OpenAI-compatible endpoint"
+                f"{asking[0].name!r} asks a language model; expected --llm URL of `airhilt cosim`, "
+                "the address of an OpenAI-compatible endpoint"
             )
         return
     if not asking:

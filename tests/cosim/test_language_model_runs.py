@@ -81,6 +81,23 @@ def test_a_run_with_a_language_model_replays_identically_without_it(
         assert path.is_dir() or KEY.encode() not in path.read_bytes(), path
 
 
+def test_a_run_that_a_language_model_decides_replays_identically_without_it(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    def withhold(question: Json) -> Json:
+        judgements = [{"alert": each["id"], "severity": "INFO"} for each in question["rules"]]
+        return {"judgements": judgements, "advisories": []}
+
+    with service(saying(withhold)) as url:
+        result = airhilt.run(encounter, out=tmp_path / "run", assistant="llm", llm=url, **OPTIONS)
+    summary = result.summary
+    assert summary.assistant == "llm"
+    assert summary.advisories
+    assert summary.language_model is not None
+    assert summary.language_model.rejections > 0
+    assert replay(result.folder).identical
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
