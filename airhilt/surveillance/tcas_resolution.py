@@ -7,8 +7,10 @@ the closest approach is chosen, but one that does not cross the intruder's altit
 ALIM. Of an aircraft that coordinates, the opposite of its sense is. The strength is the weakest
 that gives ALIM.
 
-Left out: reversals of sense, weakening after ALIM is reached, limits other than level flight, and
-limits of the aircraft's performance. A crew that is told to descend against a second threat from
+Once ALIM is reached, an advisory to climb or descend is weakened to level off, if that keeps ALIM.
+
+Left out: reversals of sense, limits other than level flight, and limits of the aircraft's
+performance. A crew that is told to descend against a second threat from
 below stays with the sense that it was told first.
 """
 
@@ -94,6 +96,16 @@ def is_insufficient(
 ) -> bool:
     """Return whether an advisory that the crew carries out from now on does not give ALIM."""
     return separation_m(own, intruder, resolution, time_s, 0.0) < alim_m
+
+
+def may_weaken(
+    own: Vertical, intruder: Vertical, sense: Sense, time_s: float, alim_m: float
+) -> bool:
+    """Return whether ALIM is reached, and levelling off keeps it to the closest approach."""
+    level = Resolution(sense, 0.0)
+    now_m = own.altitude_m - intruder.altitude_m
+    has_room = (now_m if sense == "climb" else -now_m) >= alim_m
+    return has_room and separation_m(own, intruder, level, time_s, RESPONSE_S) >= alim_m
 
 
 def separation_m(

@@ -35,6 +35,7 @@ from airhilt.surveillance.tcas_resolution import (
     Sense,
     Vertical,
     is_insufficient,
+    may_weaken,
     opposite,
     select,
 )
@@ -173,14 +174,36 @@ class TcasUnit:
             self._encounters[track] = encounter
             if said == "tcas_ta":
                 yield self._alert(track, encounter, own, t_ns, "traffic, traffic")
-        if encounter.resolution is None and said == "tcas_ra":
-            yield self._resolve(track, encounter, own, t_ns)
-        elif encounter.resolution is not None and self._must_strengthen(
-            track, encounter.resolution, encounter.changed_ns, own, t_ns
-        ):
-            yield self._strengthen(track, encounter, own, t_ns)
+        changed = self._resolution(track, encounter, said, own, t_ns)
+        if changed is not None:
+            encounter.severity = Severity.WARNING
+            encounter.resolution, encounter.changed_ns = changed, t_ns
+            yield self._alert(track, encounter, own, t_ns, _aural(changed, own))
         elif self._is_over(track, encounter, said, own, t_ns):
             yield from self._end(track)
+
+    def _resolution(
+        self,
+        track: IntruderTrack,
+        encounter: _Encounter,
+        said: tcas.Alert | None,
+        own: OwnState,
+        t_ns: int,
+    ) -> Resolution | None:
+        """Return a resolution advisory that is new or has changed; None if neither."""
+        present = encounter.resolution
+        if present is None:
+            return self._first_resolution(track, own, t_ns) if said == "tcas_ra" else None
+        has_responded = t_ns - encounter.changed_ns >= RESPONSE_S * SECOND_NS
+        if not has_responded or track.motion(t_ns).rate_m_s >= 0.0:
+            return None
+        encountered = (own.vertical, track.vertical(t_ns))
+        time_s, alim_m = self._time_s(track, own, t_ns), self._level(own).alim_m
+        if is_insufficient(*encountered, present, time_s, alim_m):
+            return _stronger(present, own)
+        if present.rate_m_s > 0.0 and may_weaken(*encountered, present.sense, time_s, alim_m):
+            return Resolution(present.sense, 0.0)
+        return None
 
     def _said(self, track: IntruderTrack, own: OwnState, t_ns: int) -> tcas.Alert | None:
         """Return the alert that thresholds, inhibits and the filter give now."""
@@ -200,16 +223,14 @@ class TcasUnit:
     def _level(self, own: OwnState) -> tcas.SensitivityLevel:
         return tcas.sensitivity_level(own.vertical.altitude_m, own.height_m)
 
-    def _resolve(
-        self, track: IntruderTrack, encounter: _Encounter, own: OwnState, t_ns: int
-    ) -> Alert:
+    def _first_resolution(self, track: IntruderTrack, own: OwnState, t_ns: int) -> Resolution:
         """Choose the first resolution advisory, and coordinate it."""
-        required = self._coordination.required(self.icao24, track.icao24)
         in_force = [
             other.resolution.sense
             for other in self._encounters.values()
             if other.resolution is not None and not other.is_over
         ]
+        required = self._coordination.required(self.icao24, track.icao24)
         resolution = select(
             own.vertical,
             track.vertical(t_ns),
@@ -220,41 +241,7 @@ class TcasUnit:
         )
         if track.has_tcas and track.icao24 is not None:
             self._coordination.tell(self.icao24, track.icao24, resolution.sense)
-        encounter.severity = Severity.WARNING
-        encounter.resolution, encounter.changed_ns = resolution, t_ns
-        return self._alert(track, encounter, own, t_ns, _aural(resolution, own))
-
-    def _must_strengthen(
-        self,
-        track: IntruderTrack,
-        resolution: Resolution,
-        changed_ns: int,
-        own: OwnState,
-        t_ns: int,
-    ) -> bool:
-        """Return whether the advisory does not suffice though the crew had time to respond."""
-        may_increase = resolution.sense == "climb" or own.height_m > NO_INCREASED_DESCENT_BELOW_M
-        return (
-            resolution.rate_m_s < (INCREASED_RATE_M_S if may_increase else RATE_M_S)
-            and t_ns - changed_ns >= RESPONSE_S * SECOND_NS
-            and track.motion(t_ns).rate_m_s < 0.0
-            and is_insufficient(
-                own.vertical,
-                track.vertical(t_ns),
-                resolution,
-                self._time_s(track, own, t_ns),
-                self._level(own).alim_m,
-            )
-        )
-
-    def _strengthen(
-        self, track: IntruderTrack, encounter: _Encounter, own: OwnState, t_ns: int
-    ) -> Alert:
-        assert encounter.resolution is not None
-        sense, rate_m_s = encounter.resolution
-        stronger = RATE_M_S if rate_m_s < RATE_M_S else INCREASED_RATE_M_S
-        encounter.resolution, encounter.changed_ns = Resolution(sense, stronger), t_ns
-        return self._alert(track, encounter, own, t_ns, _aural(encounter.resolution, own))
+        return resolution
 
     def _is_over(
         self,
@@ -350,6 +337,17 @@ def _own_state(instruments: CockpitInstruments, t_ns: int) -> OwnState:
         Vertical(altitude_m, rate_m_s),
         math.inf if height_ft is None else height_ft * FOOT + rate_m_s * elapsed_s,
     )
+
+
+def _stronger(resolution: Resolution, own: OwnState) -> Resolution | None:
+    """Return the next stronger advisory of the same sense; None if there is none."""
+    sense, rate_m_s = resolution
+    if rate_m_s < RATE_M_S:
+        return Resolution(sense, RATE_M_S)
+    may_increase = sense == "climb" or own.height_m > NO_INCREASED_DESCENT_BELOW_M
+    if rate_m_s < INCREASED_RATE_M_S and may_increase:
+        return Resolution(sense, INCREASED_RATE_M_S)
+    return None
 
 
 def _aural(resolution: Resolution, own: OwnState) -> str:

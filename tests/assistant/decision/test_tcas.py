@@ -115,6 +115,15 @@ def test_a_crew_that_does_not_respond_is_told_to_increase() -> None:
     assert meeting(ONE, OTHER).fly().notes("AAL1")[-2].startswith("increase ")
 
 
+def test_once_there_is_room_enough_a_crew_is_told_to_level_off() -> None:
+    flown = meeting(ONE, replace(OTHER, has_tcas=False), obeys=lambda _: True).fly()
+    assert flown.notes("AAL1")[1:3] in (
+        ["climb, climb", "level off, level off"],
+        ["descend, descend", "level off, level off"],
+    )
+    assert flown.least_ft > 600.0
+
+
 def test_it_says_clear_of_conflict_once_they_are_past_each_other() -> None:
     flown = meeting(ONE, OTHER, obeys=lambda _: True).fly()
     for callsign in ("AAL1", "DAL2"):
