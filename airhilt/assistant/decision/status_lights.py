@@ -19,8 +19,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import Field
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, way_through
 from airhilt.assistant.decision.mobiles import (
@@ -33,42 +34,69 @@ from airhilt.assistant.decision.mobiles import (
     Kind,
 )
 from airhilt.assistant.decision.surface_traffic import MOVING_M_S, SurfaceTraffic, Target
+from airhilt.configuration import Configuration, Seconds
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
 
 BESIDE_M = 10.0
 """Distance beside the pavement, in m, that still counts as on it: an assumption."""
+Amount = Annotated[float, Field(ge=0.0)]
+"""Distance in m, or speed in m/s."""
 ACCURATE_NACP = 11
 """Accuracy category for which the area of a runway is hardly made smaller."""
 
 
-@dataclass(frozen=True)
-class StatusLightConfig:
+class StatusLightConfig(Configuration):
     """Numbers of the light logic."""
 
-    departure_m_s: float = 30.0 * KNOT
-    """Speed from which a departure lights the REL ahead, in m/s (AIM)."""
-    arrival_m: float = NAUTICAL_MILE
-    """Distance to the threshold from which an arrival lights all REL, in m (AIM)."""
-    slow_arrival_m: float = 0.75 * NAUTICAL_MILE
-    """The same for an arrival below `slow_arrival_m_s`, in m (LL)."""
-    slow_arrival_m_s: float = 110.0 * KNOT
-    rollout_m_s: float = 80.0 * KNOT
-    """Speed below which a landing lights only the REL that it reaches within `path_s` (AIM)."""
-    path_s: float = 30.0
-    taxi_m_s: float = 34.0 * KNOT
-    """Speed below which a landing or a rejected take-off lights nothing, in m/s (AIM)."""
-    off_ahead_s: float = 3.0
-    """Time before the crossing at which lights go out, in s (AIM: 3 to 4 s; LGA)."""
-    hold_lights_end_m: float = (375.0 + 1500.0) * FOOT
-    """Distance of the end of the THL from the threshold, in m (AIM)."""
-    meeting_s: float = 5.0
-    """RIL for a landing: difference of the times to the intersection, in s (AIM)."""
-    seen_from_m: float = 100.0
-    """Distance to the hold line from which a driver or a crew sees the REL, in m: an assumption."""
-    reaction_s: float = 5.0
-    """Time in which a crew reacts, in s (standard pilot model of ICAO Annex 10, volume IV)."""
-    braking_m_s2: float = 2.0
-    """Ordinary braking before a hold line, in m/s2: an assumption."""
+    departure_m_s: Amount = Field(
+        30.0 * KNOT, description="speed from which a departure lights the REL ahead, in m/s (AIM)"
+    )
+    arrival_m: Amount = Field(
+        NAUTICAL_MILE,
+        description="distance to the threshold from which an arrival lights all REL, in m (AIM)",
+    )
+    slow_arrival_m: Amount = Field(
+        0.75 * NAUTICAL_MILE,
+        description="the same for an arrival slower than slow_arrival_m_s, in m (LL)",
+    )
+    slow_arrival_m_s: Amount = Field(
+        110.0 * KNOT, description="speed below which an arrival is slow, in m/s (LL)"
+    )
+    rollout_m_s: Amount = Field(
+        80.0 * KNOT,
+        description="speed below which a landing lights only the REL that it reaches within "
+        "path_s, in m/s (AIM)",
+    )
+    path_s: Seconds = Field(30.0, description="time ahead of a slow landing, in s (AIM)")
+    taxi_m_s: Amount = Field(
+        34.0 * KNOT,
+        description="speed below which a landing or a rejected take-off lights nothing, in m/s "
+        "(AIM)",
+    )
+    off_ahead_s: Seconds = Field(
+        3.0,
+        description="time before the crossing at which lights go out, in s (AIM: 3 to 4 s; LGA)",
+    )
+    hold_lights_end_m: Amount = Field(
+        (375.0 + 1500.0) * FOOT,
+        description="distance of the end of the THL from the threshold, in m (AIM)",
+    )
+    meeting_s: Seconds = Field(
+        5.0,
+        description="RIL for a landing: difference of the times to the intersection, in s (AIM)",
+    )
+    seen_from_m: Amount = Field(
+        100.0,
+        description="distance to the hold line from which the REL are seen, in m: an assumption",
+    )
+    reaction_s: Seconds = Field(
+        5.0,
+        description="time in which a crew or a driver reacts, in s (standard pilot model of ICAO "
+        "Annex 10, volume IV)",
+    )
+    braking_m_s2: float = Field(
+        2.0, gt=0.0, description="ordinary braking before a hold line, in m/s2: an assumption"
+    )
 
 
 Lights = Literal["entrance", "take-off hold", "intersection"]

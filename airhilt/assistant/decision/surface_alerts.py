@@ -19,7 +19,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import Self
+
+from pydantic import Field, model_validator
 
 from airhilt.assistant.decision.aerodrome import Vector
 from airhilt.assistant.decision.findings import Obstruction, Obstructs
@@ -27,6 +29,7 @@ from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.mobiles import ALIGNED_RAD, STANDING_M_S, TOUCHDOWN_M, Use
 from airhilt.assistant.decision.raised_alerts import Hazard
 from airhilt.assistant.decision.situation import Obstacle, Situation
+from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import CancelTakeoff, Evidence, GoAround, Recommendation, Severity
 from airhilt.units import SECOND_NS, wrap_angle
 
@@ -36,28 +39,43 @@ BRAKING_M_S2 = 4.0
 """Hardest braking of those about to enter, in m/s2, as vehicles have it: an assumption."""
 
 
-@dataclass(frozen=True)
-class SurfaceAlertConfig:
+class SurfaceAlertConfig(Configuration):
     """Thresholds of the alerts."""
 
-    caution_s: float = 30.0
-    """Time to the collision from which there is a CAUTION, in s (HONEYWELL)."""
-    warning_s: float = 15.0
-    """Time to the collision from which there is a WARNING, in s (HONEYWELL)."""
-    margin_s: float = 5.0
-    """Two that are at one place within this time of each other collide, in s: an assumption."""
-    responds_from: Severity = Severity.WARNING
-    """Severity from which crews respond: an assumption, after AC 25.1322-1."""
-    persistence_s: float = 0.0
-    """Time for which a severity must hold before it is told, in s: an assumption."""
-    release_s: float = 5.0
-    """Time for which a conflict must be over before that is told, in s: an assumption."""
+    caution_s: Seconds = Field(
+        30.0, description="time to the collision from which there is a CAUTION, in s (HONEYWELL)"
+    )
+    warning_s: Seconds = Field(
+        15.0, description="time to the collision from which there is a WARNING, in s (HONEYWELL)"
+    )
+    margin_s: Seconds = Field(
+        5.0,
+        description="two that are at one place within this time of each other collide, in s: an "
+        "assumption",
+    )
+    persistence_s: Seconds = Field(
+        0.0, description="time for which a severity must hold to be told, in s: an assumption"
+    )
+    release_s: Seconds = Field(
+        5.0, description="time for which a conflict must be over to be told, in s: an assumption"
+    )
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        require_order(self, "warning_s", "caution_s")
+        return self
 
 
 def predicted_collisions(
-    situation: Situation, config: SurfaceAlertConfig, t_ns: int
+    situation: Situation, config: SurfaceAlertConfig, responds_from: Severity, t_ns: int
 ) -> Iterator[Hazard]:
-    """Yield the collisions that crews are to be told of."""
+    """Yield the collisions that crews are to be told of.
+
+    Parameters
+    ----------
+    responds_from
+        Severity from which crews respond.
+    """
     for use in situation.uses.values():
         if use.mobile.is_vehicle or use.is_climbing:
             continue
@@ -68,7 +86,7 @@ def predicted_collisions(
             if time_to_go_s is not None and time_to_go_s <= config.caution_s:
                 is_warning = time_to_go_s <= config.warning_s
                 severity = Severity.WARNING if is_warning else Severity.CAUTION
-                responds = severity.rank >= config.responds_from.rank
+                responds = severity.rank >= responds_from.rank
                 yield _hazard(use, obstacle, severity, time_to_go_s, responds=responds)
 
 

@@ -38,9 +38,11 @@ class SurfaceField:
 
     movers: list[Mover]
     told: list[tuple[float, Advisory]] = field(default_factory=list)
+    configuration: dict[str, float] = field(default_factory=dict)
 
     def run(self, seconds: int) -> SurfaceField:
-        worker = DecisionWorker(decision_engine("runway_status_lights"), Template())
+        engine = decision_engine("runway_status_lights", configuration=self.configuration)
+        worker = DecisionWorker(engine, Template())
         worker.step(0, [Input("briefing", 0, BRIEFING.model_dump_json().encode())])
         for t_s in range(seconds):
             t_ns = t_s * SECOND_NS
@@ -185,6 +187,14 @@ def test_a_truck_without_a_transponder_is_told_by_the_name_that_no_track_has() -
     truck = comes_to_hold(0.0)
     truck.equipped = False
     assert lit(arrival(), truck).red("OPS1")
+
+
+def test_the_numbers_of_the_lights_can_be_set() -> None:
+    field = SurfaceField([arrival(), comes_to_hold(0.0)])
+    field.configuration = {"arrival_m": 3000.0}
+    assert field.run(100).red("OPS1")[0] == pytest.approx(
+        THRESHOLD_S - 3000.0 / APPROACH_M_S, abs=1.5
+    )
 
 
 # --- take-off hold and intersection lights --------------------------------------------------

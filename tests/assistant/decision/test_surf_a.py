@@ -108,6 +108,17 @@ def test_an_arrival_to_a_crossing_runway_is_not_on_the_runway() -> None:
     assert all(TOUCHDOWN_S - t_s < 1.0 for t_s, _ in airfield(arrival(), other).told)
 
 
+def test_its_times_can_be_set_and_the_caution_is_never_the_later_one() -> None:
+    engine = decision_engine("surf_a", configuration={"caution_s": 40.0})
+    worker = DecisionWorker(engine, Template())
+    field = Airfield(
+        [arrival(), Mover("OPS1", NORTH, stands(1800.0), category="C2")], worker=worker
+    ).run(95.0)
+    assert times(field)[0] == ("CAUTION", pytest.approx(40.0, abs=1.5))
+    with pytest.raises(AirhiltError, match="warning_s is 15; expected at most caution_s, 10"):
+        decision_engine("surf_a", configuration={"caution_s": 10.0})
+
+
 def test_a_severity_without_alerts_is_refused_by_name() -> None:
     with pytest.raises(AirhiltError, match="'surf_a:info': expected surf_a:caution or surf_a:warn"):
         decision_engine("surf_a:info")

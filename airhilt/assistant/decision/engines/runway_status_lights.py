@@ -42,8 +42,8 @@ class RunwayStatusLightEngine:
     name = "runway_status_lights"
     reads: tuple[type[Message], ...] = (Briefing, SurfaceTrack)
 
-    def __init__(self, config: StatusLightConfig | None = None) -> None:
-        self._config = config or StatusLightConfig()
+    def __init__(self, configuration: StatusLightConfig | None = None) -> None:
+        self.configuration = configuration or StatusLightConfig()
         self._traffic: SurfaceTraffic | None = None
         self._lights: StatusLights | None = None
         self._vehicles: frozenset[str] = frozenset()
@@ -55,7 +55,7 @@ class RunwayStatusLightEngine:
             case Briefing(airport=airport, roster=roster) if airport is not None:
                 aerodrome = Aerodrome(airport)
                 self._traffic = SurfaceTraffic(aerodrome)
-                self._lights = StatusLights(aerodrome, self._config)
+                self._lights = StatusLights(aerodrome, self.configuration)
                 self._vehicles = frozenset(
                     entry.callsign for entry in roster if entry.category == "vehicle"
                 )
@@ -124,5 +124,6 @@ def _response(red: RedLights, viewer: str) -> dict[str, Recommendation]:
 ENGINE = Engine(
     name="runway_status_lights",
     summary="entrance, take-off hold and intersection lights by surface surveillance",
-    create=lambda _: RunwayStatusLightEngine(),
+    create=lambda _, configuration: RunwayStatusLightEngine(configuration),
+    configuration=StatusLightConfig,
 )

@@ -19,15 +19,25 @@ class SurfaceAlertEngine:
     """Alerts the crew that takes off or lands of traffic on its runway, and nobody else.
 
     All aircraft with a transponder are taken to have the system. What has no ADS-B is not seen.
+
+    Parameters
+    ----------
+    responds_from
+        Severity from which crews respond: WARNING after AC 25.1322-1; an assumption.
     """
 
     name = "surf_a"
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport)
 
-    def __init__(self, config: SurfaceAlertConfig | None = None) -> None:
-        self._config = config or SurfaceAlertConfig()
+    def __init__(
+        self,
+        configuration: SurfaceAlertConfig | None = None,
+        responds_from: Severity = Severity.WARNING,
+    ) -> None:
+        self.configuration = config = configuration or SurfaceAlertConfig()
+        self._responds_from = responds_from
         self._situation: Situation | None = None
-        self._alerts = RaisedAlerts("surf", self._config.persistence_s, self._config.release_s)
+        self._alerts = RaisedAlerts("surf", config.persistence_s, config.release_s)
 
     def receive(self, received: Received) -> None:
         """Update the traffic with one message."""
@@ -42,12 +52,12 @@ class SurfaceAlertEngine:
         if self._situation is None:
             return Decision()
         self._situation.forget(t_ns)
-        found = predicted_collisions(self._situation, self._config, t_ns)
+        found = predicted_collisions(self._situation, self.configuration, self._responds_from, t_ns)
         alerts = self._alerts.update(t_ns, found)
         return Decision(alerts, again_ns=t_ns + AGAIN_NS if self._alerts.has_any else None)
 
 
-def _engine(argument: str) -> SurfaceAlertEngine:
+def _engine(argument: str, configuration: SurfaceAlertConfig) -> SurfaceAlertEngine:
     """Return the engine; the argument is the severity from which crews respond.
 
     Raises
@@ -61,7 +71,7 @@ def _engine(argument: str) -> SurfaceAlertEngine:
         raise AirhiltError(
             f"assistant 'surf_a:{argument}': expected surf_a:{' or surf_a:'.join(severities)}"
         )
-    return SurfaceAlertEngine(SurfaceAlertConfig(responds_from=severity))
+    return SurfaceAlertEngine(configuration, severity)
 
 
 ENGINE = Engine(
@@ -69,4 +79,5 @@ ENGINE = Engine(
     summary="alerts crews of traffic on their runway by ADS-B, in the manner of SURF-A",
     create=_engine,
     argument="SEVERITY",
+    configuration=SurfaceAlertConfig,
 )
