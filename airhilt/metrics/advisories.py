@@ -139,15 +139,18 @@ class AdvisoryRecords:
     def _concerns_conflict(self, advisory: Advisory) -> bool:
         """Return true if an advisory is about the annotated pair.
 
-        It names both, or one of them and something without a callsign, such as a deer. What rests
+        It names both, whoever else, or one of them and nothing else with a callsign. What rests
         on cameras must then have shown the other one, whatever it was taken for.
         """
         traffic = self._traffic(advisory)
         named = {name for name in traffic if name in self._callsigns}
-        if self._pair is None or not named or not named <= set(self._pair):
+        pair = set(self._pair or ())
+        if pair and pair <= named:
+            return True
+        if not named or not named <= pair:
             return False
-        others = set(self._pair) - named
-        if not others or advisory.kind == "readback_mismatch":
+        others = pair - named
+        if advisory.kind == "readback_mismatch":
             return True
         sources = advisory.evidence.sources
         if "vision" in sources:

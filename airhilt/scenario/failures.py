@@ -83,8 +83,8 @@ def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> 
             )
         case Ignored(actor=actor):
             return _uncleared(effective, f"{actor} ignores it", {actor}, line=_without(line, actor))
-        case CallsignConfused(meant=meant, taken_by=taken_by, text=text):
-            said = _retarget(line, meant, taken_by)
+        case CallsignConfused(meant=meant, taken_by=taken_by, text=text, commands=commands):
+            said = _retarget(line, meant, taken_by, commands)
             if text is not None:
                 said = said.model_copy(update={"text": text})
             what = f"{taken_by} takes it, {meant} was meant"
@@ -135,7 +135,13 @@ def _without(line: RadioLine, actor: str) -> RadioLine:
     return _changed(line, lambda scripted: None if scripted.actor == actor else scripted)
 
 
-def _retarget(line: RadioLine, meant: str, taken_by: str) -> RadioLine:
+def _retarget(
+    line: RadioLine, meant: str, taken_by: str, instead: tuple[ScriptedCommand, ...] | None
+) -> RadioLine:
+    """Return a line whose commands for one actor another carries out, or does others instead."""
+    if instead is not None:
+        kept = _without(line, meant)
+        return kept.model_copy(update={"commands": (*kept.commands, *instead)})
     return _changed(
         line,
         lambda scripted: (

@@ -156,6 +156,12 @@ def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic() -> 
     assert other.nuisance_alerts == 1
 
 
+def test_an_alert_that_names_the_pair_and_a_third_is_one_of_the_pair() -> None:
+    summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, SECOND, "UAL7"))).summary()
+    assert summary.t_first_warning_s == 9.0
+    assert summary.nuisance_alerts == 0
+
+
 def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic() -> None:
     address = SCENARIO.actors[1].icao24
     summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, address))).summary()

@@ -48,6 +48,16 @@ def test_a_line_taken_by_another_makes_the_other_act() -> None:
     assert hold.line.text == HOLD.text
 
 
+def test_the_taker_may_do_something_else_than_what_was_meant_for_the_other() -> None:
+    hold = effective(
+        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
+         "commands": [{"actor": "OPS2", "command": {"action": "continue"}}]}
+    )  # fmt: skip
+    assert [(each.actor, each.command.action) for each in hold.line.commands] == [
+        ("OPS2", "continue")
+    ]
+
+
 def test_the_wrong_callsign_may_be_said() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",

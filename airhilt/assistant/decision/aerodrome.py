@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -72,6 +72,8 @@ class Direction:
     """Unit vector down the runway."""
     length_m: float
     """Length from the threshold to the end, in m."""
+    displaced_m: float
+    """Length of the pavement before the threshold, in m; a takeoff begins there."""
     half_width_m: float
     elevation_m: float
 
@@ -84,6 +86,11 @@ class Direction:
         """Return how far past the threshold a point is; negative before it."""
         east, north = point.east - self.threshold.east, point.north - self.threshold.north
         return east * self.ahead.east + north * self.ahead.north
+
+    def point(self, along_m: float) -> Vector:
+        """Return the point of the centre line that is so far past the threshold."""
+        east = self.threshold.east + along_m * self.ahead.east
+        return Vector(east, self.threshold.north + along_m * self.ahead.north)
 
     def across_m(self, point: Vector) -> float:
         """Return how far to the right of the centre line a point is."""
@@ -109,13 +116,7 @@ class Strip:
         self.directions = directions
         first = directions[0]
         self.centreline: LineString = shapely.LineString(
-            [
-                first.threshold,
-                (
-                    first.threshold.east + first.length_m * first.ahead.east,
-                    first.threshold.north + first.length_m * first.ahead.north,
-                ),
-            ]
+            [first.point(-first.displaced_m), first.point(first.length_m)]
         )
         self._area = area
         self._pavement: Polygon = self.centreline.buffer(first.half_width_m, cap_style="flat")
@@ -220,10 +221,11 @@ class Aerodrome:
             other = by_ident.pop(opposite(runway.ident), None)
             both = sorted((each for each in (runway, other) if each), key=lambda each: each.ident)
             area = shapely.Polygon([self._point(corner) for corner in runway.protected_area])
-            strips.append(Strip(tuple(self._direction(each) for each in both), area))
+            directions = [self._direction(each, opposed) for each, opposed in _with_opposed(both)]
+            strips.append(Strip(tuple(directions), area))
         return sorted(strips, key=lambda strip: strip.name)
 
-    def _direction(self, runway: RunwayBriefing) -> Direction:
+    def _direction(self, runway: RunwayBriefing, opposed: RunwayBriefing | None) -> Direction:
         threshold, end = self._point(runway.threshold), self._point(runway.end)
         length_m = math.dist(threshold, end)
         return Direction(
@@ -231,6 +233,7 @@ class Aerodrome:
             threshold=threshold,
             ahead=Vector(*((b - a) / length_m for a, b in zip(threshold, end, strict=True))),
             length_m=length_m,
+            displaced_m=0.0 if opposed is None else math.dist(self._point(opposed.end), threshold),
             half_width_m=runway.width_m / 2.0,
             elevation_m=runway.elevation_ft * FOOT,
         )
@@ -247,6 +250,14 @@ class Aerodrome:
 
     def _point(self, point: GeodeticPoint) -> Vector:
         return self.locate(*point)
+
+
+def _with_opposed(
+    runways: Sequence[RunwayBriefing],
+) -> Iterator[tuple[RunwayBriefing, RunwayBriefing | None]]:
+    """Yield each direction of a runway with the other one, None if there is no other."""
+    for runway in runways:
+        yield runway, next((other for other in runways if other is not runway), None)
 
 
 def opposite(ident: str) -> str:

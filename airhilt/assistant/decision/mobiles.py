@@ -231,7 +231,7 @@ def is_on_pavement(direction: Direction, along_m: float, across_m: float) -> boo
     """Return whether a position is on a runway's pavement, or would be but for its error."""
     return (
         across_m <= direction.half_width_m + BESIDE_M
-        and -OVERRUN_M <= along_m <= direction.length_m + OVERRUN_M
+        and -direction.displaced_m - OVERRUN_M <= along_m <= direction.length_m + OVERRUN_M
     )
 
 

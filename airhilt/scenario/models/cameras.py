@@ -25,7 +25,7 @@ class FixedMount(Model):
 
 
 class ActorMount(Model):
-    """A camera on the nose or the tail of an aircraft."""
+    """A camera on the nose of an aircraft that looks ahead, or on its tail that looks back."""
 
     type: Literal["actor"]
     actor: Callsign

@@ -40,6 +40,10 @@ class CallsignConfused(Model):
     text: str | None = Field(
         default=None, description="words that are said instead, where they cause the confusion"
     )
+    commands: tuple[ScriptedCommand, ...] | None = Field(
+        default=None,
+        description="what taken_by does instead; null: the commands that were meant for the other",
+    )
 
 
 class Delayed(Model):

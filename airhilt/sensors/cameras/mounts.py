@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -22,14 +23,16 @@ AIRPORT_CAMERA_PX = (640, 360)
 NOSE_LOOKS_DOWN_RAD = 4.0 * DEGREE
 """Angle below the body axis, in rad: about an airliner's angle of attack in level flight, so that
 the horizon is in the middle."""
-TAIL_LOOKS_DOWN_RAD = 7.0 * DEGREE
+TAIL_LOOKS_UP_RAD = NOSE_LOOKS_DOWN_RAD
+"""Angle of the camera on the tail, which looks back, above the body axis, in rad: the same, so
+that the horizon is in its middle too."""
 
 
 @dataclass(frozen=True)
 class Mount:
     """A camera on an aircraft: its pose in the aircraft's axes.
 
-    A camera on the nose sees nothing of its aircraft; one on the tail does.
+    A camera on the nose sees nothing of its aircraft; one on the tail may.
     """
 
     actor: str
@@ -157,7 +160,7 @@ def _declared(
 
 
 def station_mount(name: str, actor: str, station: str, kind: AircraftType | None) -> Mount:
-    """Return where a camera sits on the nose or the tail of an aircraft.
+    """Return where a camera sits on the nose of an aircraft, or on its tail and looks back.
 
     Raises
     ------
@@ -175,4 +178,4 @@ def station_mount(name: str, actor: str, station: str, kind: AircraftType | None
         return Mount(actor, Pose.of(place, 0.0, -NOSE_LOOKS_DOWN_RAD), False)
     top = size.height_m - size.wheel_height_offset_m
     place = (0.0, -0.45 * size.length_m, top + 0.35)
-    return Mount(actor, Pose.of(place, 0.0, -TAIL_LOOKS_DOWN_RAD), True)
+    return Mount(actor, Pose.of(place, math.pi, TAIL_LOOKS_UP_RAD), True)

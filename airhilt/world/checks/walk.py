@@ -9,7 +9,13 @@ from typing import Any
 from pydantic import BaseModel
 
 from airhilt.commands import Command
-from airhilt.scenario.models import Condition, ReadbackWrong, Scenario, WildlifeSpec
+from airhilt.scenario.models import (
+    CallsignConfused,
+    Condition,
+    ReadbackWrong,
+    Scenario,
+    WildlifeSpec,
+)
 
 
 def models_of(value: Any, path: str) -> Iterator[tuple[str, BaseModel]]:
@@ -34,8 +40,8 @@ def commands_of(scenario: Scenario) -> Iterator[tuple[str, str, Command]]:
             path = f"radio/lines/{index}/commands/{number}/command"
             yield path, scripted.actor, scripted.command
     for index, failure in enumerate(scenario.failures):
-        if isinstance(failure, ReadbackWrong):
-            for number, scripted in enumerate(failure.commands):
+        if isinstance(failure, ReadbackWrong | CallsignConfused):
+            for number, scripted in enumerate(failure.commands or ()):
                 path = f"failures/{index}/commands/{number}/command"
                 yield path, scripted.actor, scripted.command
 

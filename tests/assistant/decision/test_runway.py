@@ -32,11 +32,15 @@ from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.mobiles import is_on_pavement
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
+from airhilt.cosim.briefing import briefing_of
 from airhilt.messages import AirportBriefing, Severity, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.surveillance.receivers import Receiver
 from airhilt.units import SECOND_NS
+from airhilt.world.loading import load
+from airhilt.world.site import ScenarioSite
 from decisions import reference
 
 SEEDS = range(3)
@@ -520,6 +524,22 @@ def test_the_charted_runways_are_paired_and_cross_where_they_cross() -> None:
     for direction in (*first.directions, *second.directions):
         assert abs(direction.across_m(point)) < 0.5
         assert 0.0 < direction.along_m(point) < direction.length_m
+
+
+def test_before_a_displaced_threshold_there_is_a_runway_that_others_cross() -> None:
+    """At Schiphol, 18L crosses 09/27 before its threshold: a takeoff begins there."""
+    scenario = load("s01a_misaddressed_takeoff")
+    airport = briefing_of(scenario, ScenarioSite.of(scenario)).airport
+    aerodrome = Aerodrome(cast(AirportBriefing, airport))
+    strip, other = aerodrome.strip_of("18L"), aerodrome.strip_of("27")
+    assert strip is not None
+    assert other is not None
+    point = aerodrome.crossing(strip, other)
+    direction = next(each for each in strip.directions if each.ident == "18L")
+    assert point is not None
+    assert direction.along_m(point) == pytest.approx(391.0 - 575.0, abs=3.0)
+    assert is_on_pavement(direction, -direction.displaced_m, 0.0)
+    assert not is_on_pavement(direction, -direction.displaced_m - 900.0, 0.0)
 
 
 def test_a_way_through_an_area_is_measured_to_where_it_enters_and_leaves() -> None:

@@ -176,7 +176,7 @@ def test_where_the_own_aircraft_is_stands_beside_pictures_from_aircraft(folder: 
         for station in ("nose", "tail")
     }
     assert max(shares["nose"]) == 0.0
-    assert min(shares["tail"]) > 0.0
+    assert max(shares["tail"]) > 0.0  # Of some types the tailplane is in view.
 
 
 def test_what_is_there_when_it_breaks_off_is_complete(tmp_path: Path) -> None:

@@ -12,6 +12,8 @@ from airhilt.errors import ScenarioError
 from airhilt.imaging.view import Intrinsics
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera
+from airhilt.sensors.cameras.mounts import station_mount
+from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.loading import load_text
 from airhilt.world.surface.airport import Camera as AirportCamera
 
@@ -54,3 +56,12 @@ def test_names_of_cameras_differ_in_more_than_their_case() -> None:
     with pytest.raises(ScenarioError, match=r"cameras/1/name.*'Tower'.*has already, as 'tower'"):
         with_cameras({"name": "tower"}, {"name": "Tower"})
     assert len(with_cameras({"name": "tower"}, {"name": "7.tower_B-2"}).cameras) == 2
+
+
+def test_a_camera_on_the_nose_looks_ahead_and_one_on_the_tail_back() -> None:
+    kind = load_aircraft_type("737")
+    nose = station_mount("nose", "AAL123", "nose", kind).pose
+    tail = station_mount("tail", "AAL123", "tail", kind).pose
+    ahead = [pose.rotation[1, 1] for pose in (nose, tail)]
+    assert ahead[0] > 0.99
+    assert ahead[1] < -0.99
