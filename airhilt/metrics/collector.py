@@ -234,12 +234,14 @@ class Collector:
     def _as_declared(self, assistant: str) -> bool | None:
         """Return true if what the scenario declares came about without an assistant.
 
-        None if there was one, or the scenario declares no conflict.
+        None if there was one, or the scenario declares no conflict, or equipment has averted it.
         """
         conflict = self._scenario.conflict
         if conflict is None or assistant != "none":
             return None
-        return self.window.opened_ns is not None and self._outcome.came_about(conflict.unassisted)
+        if self.window.opened_ns is not None and self._outcome.came_about(conflict.unassisted):
+            return True
+        return None if self._equipment.acts_before(None) else False
 
     def _outcome_fields(self) -> dict[str, Any]:
         """Return the fields about separation, collisions and runway incursions."""

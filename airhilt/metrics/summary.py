@@ -318,8 +318,8 @@ class Summary(BaseModel):
     unassisted_as_declared: bool | None = Field(
         default=None,
         description="without an assistant, the conflict window opened and the outcome that the "
-        "scenario declares as unassisted, or a more severe one, came about; null with an assistant "
-        "or without a conflict",
+        "scenario declares as unassisted, or a more severe one, came about; null with an "
+        "assistant, without a conflict, or if equipment of the world averted it",
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

@@ -89,6 +89,29 @@ def test_nothing_of_it_counts_for_the_assistant(equipped: airhilt.Result) -> Non
     assert summary.avoided is not True
 
 
+def test_a_collision_that_equipment_has_averted_does_not_make_the_scenario_a_bad_one(
+    tmp_path: Path,
+) -> None:
+    conflict = meeting().model_dump(mode="json")["conflict"] | {"unassisted": "collision"}
+    summary = airhilt.run(
+        meeting(conflict=conflict), out=tmp_path / "run", assistant="none", equipment=("tcas",),
+        **QUIET,
+    ).summary  # fmt: skip
+    assert not summary.collision
+    assert summary.unassisted_as_declared is None
+
+
+def test_a_scenario_with_unknown_equipment_is_not_valid(
+    airhilt_command: Any, tmp_path: Path
+) -> None:
+    path = tmp_path / "unknown.json"
+    path.write_text(meeting(equipment=["radar_lights"]).model_dump_json())
+    done = airhilt_command("validate", path)
+    assert done.returncode == 2
+    assert "radar_lights" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_a_run_with_equipment_is_repeated_by_its_replay(equipped: airhilt.Result) -> None:
     assert replay(equipped.folder).identical
 
