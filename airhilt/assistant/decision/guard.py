@@ -59,6 +59,10 @@ class Guard:
 
     tau_asr: float = TAU_ASR
 
+    def is_certain(self, said: Instruction) -> bool:
+        """Return whether the words of an instruction or a report are certain, whoever said them."""
+        return min(said.action_heard, said.details_heard) >= self.tau_asr
+
     def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
         """Return the first slot of an instruction that is in doubt, None if there is none."""
         name = AMBIGUOUS if call.match.ambiguous else call.match.score

@@ -86,7 +86,8 @@ class Situation:
         self, airport: AirportBriefing, briefing: Briefing, guard: Guard | None = None
     ) -> None:
         self.aerodrome = Aerodrome(airport)
-        self.clearances = Clearances(guard or Guard())
+        self._guard = guard or Guard()
+        self.clearances = Clearances(self._guard)
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
@@ -223,7 +224,7 @@ class Situation:
             if said.action == "wildlife":
                 for strip in self._reported_on(said.runway, call):
                     self._wildlife[strip.name] = WildlifeReport(transcript.id, transcript.t_end_ns)
-            elif said.action == "wildlife_gone":
+            elif said.action == "wildlife_gone" and self._guard.is_certain(said):
                 for strip in self._reported_on(said.runway, call):
                     self._wildlife.pop(strip.name, None)
         self.clearances.take(call, transcript)

@@ -138,6 +138,17 @@ def test_an_unsure_instruction_to_hold_withdraws_no_clearance() -> None:
     assert not is_over("hold? short? of runway zero one")
 
 
+def test_unsure_news_that_wildlife_is_gone_does_not_clear_a_runway() -> None:
+    def warned(gone: str) -> bool:
+        deer = (30.0, "Tower, Delta four five six, deer on runway zero one.")
+        calls = [deer, (50.0, f"Tower, Delta four five six, {gone}.")]
+        airfield = Airfield([Mover("AAL123", NORTH, lands(110))], calls).run(85)
+        return any(each.severity == "WARNING" for each in airfield.to("AAL123"))
+
+    assert not warned("the deer are gone from runway zero one")
+    assert warned("the deer are gone? from runway zero one")
+
+
 CLIMB = (20.0, 25.0, "American one two three, climb and maintain flight level three three zero.")
 
 

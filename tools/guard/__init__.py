@@ -1,0 +1,1 @@
+"""Comparison of runs with and without the guard against words in doubt."""
