@@ -1,7 +1,7 @@
 """Compares the reference assistant with and without its guard against words in doubt.
 
     python tools/compare_guard.py --out runs/guard
-    python tools/compare_guard.py --scenarios s01a_bad_readback --snr clean,0 --seeds 3
+    python tools/compare_guard.py --scenarios s01a_bad_readback --snr=clean,-3 --out runs/guard
 
 Runs have speech, fixed latencies and no cameras. Of each run it counts whether the conflict was
 avoided, the questions that were asked, the nuisance alerts, and the beliefs about clearances and
