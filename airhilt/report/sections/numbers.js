@@ -59,7 +59,7 @@ function outcomeTiles() {
 }
 
 function staleTile() {
-  const worst = Object.entries(s.evidence ?? {}).sort(([, a], [, b]) => b.stale_share - a.stale_share)[0];
+  const worst = Object.entries(summary.evidence ?? {}).sort(([, a], [, b]) => b.stale_share - a.stale_share)[0];
   if (!worst || worst[1].stale_share < 0.01) return [];
   const [modality, age] = worst;
   return [tile("Stale evidence", whole(100 * age.stale_share), "% of the time", `newest evidence of ${modality} above 5 s old, up to ${whole(age.max_s)} s`, "warn")];

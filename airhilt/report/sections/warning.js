@@ -38,7 +38,7 @@ function drawBar() {
     root.append(bar);
     if (value > 0) from += value;
   }
-  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 38, "text-anchor": "middle" }, "Time from the begin of the conflict, in s; what was complete before it lies to the left of 0"));
+  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 38, "text-anchor": "middle" }, "Time from the begin of the conflict"));
 }
 
 return { draw: drawTable, fit: drawBar };

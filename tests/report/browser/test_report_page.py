@@ -76,6 +76,15 @@ def test_all_charts_are_drawn(page: Page, report: Path) -> None:
     assert page.evaluate("document.querySelectorAll('#timeline tr').length") > 5
 
 
+def test_the_parts_of_the_time_to_first_warning_are_drawn(page: Page, report: Path) -> None:
+    page.open(report)
+    assert page.evaluate("document.querySelectorAll('#warning-bar rect.part').length") == 5
+    rows = page.evaluate("document.querySelectorAll('#warning-parts tr').length")
+    assert rows == 6  # The parts and their sum; no call begins this conflict.
+    begins = page.evaluate("document.getElementById('warning-begins').textContent")
+    assert begins.startswith("begins with predicted loss of separation: AAL123, DAL456, at 0")
+
+
 def test_the_slider_moves_all_charts(page: Page, report: Path) -> None:
     page.open(report)
     before = cursors(page)
