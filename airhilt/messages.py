@@ -150,6 +150,12 @@ class Briefing(Message):
     )
 
 
+ASSISTANT = "ASSISTANT"
+"""The assistant as a speaker: the name of its voice, and of its transmitter."""
+ADVISORY_CALL = "advisory."
+"""Beginning of the ids of the transmissions in which the assistant speaks its advisories."""
+
+
 # --- sensors --------------------------------------------------------------------------------
 
 
@@ -165,6 +171,11 @@ class Transmission(Header):
     frequency_khz: int
     t_tx_ns: Nanoseconds = Field(description="start of the transmission")
     t_end_ns: Nanoseconds
+    keyed_by: str | None = Field(
+        default=None,
+        description="unit at the receiver's site whose transmitter was keyed: a controller, or "
+        "ASSISTANT; null: it came over the air",
+    )
     snr_db: float | None = None
     sample_rate_hz: int = 16_000
     samples: int = 0
@@ -181,6 +192,11 @@ class TransmissionOpened(Header):
     id: str
     frequency_khz: int
     t_tx_ns: Nanoseconds = Field(description="start of the transmission")
+    keyed_by: str | None = Field(
+        default=None,
+        description="unit at the receiver's site whose transmitter was keyed: a controller, or "
+        "ASSISTANT; null: it came over the air",
+    )
     sample_rate_hz: int = 16_000
 
 
@@ -537,6 +553,21 @@ class Transcript(Message):
     )
     confidence: Confidence
     engine: str
+    speaker: str | None = Field(
+        default=None,
+        description="who spoke, as far as a receiver can know: the unit whose transmitter was "
+        "keyed, or the callsign in the words of what came over the air; null if that is not known",
+    )
+    addressee: str | None = Field(
+        default=None,
+        description="whom the call is for: the callsign that a unit calls, or the controller for "
+        "what came over the air; null if that is not known",
+    )
+    overheard: bool | None = Field(
+        default=None,
+        description="neither by nor for the controller of the briefing, nor the assistant's own "
+        "voice; null if that is not known",
+    )
 
 
 class Climb(Part):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import (
     AfterValidator,
@@ -267,6 +267,16 @@ class Options(BaseModel):
             needs=("llm",),
         ),
     ] = 3.0
+    advisory_channel: Annotated[
+        Literal["cockpit", "frequency"],
+        Flag(
+            "--advisory-channel",
+            "Where crews and drivers hear advisories: cockpit (a loudspeaker of their own) or "
+            "frequency (a call to them, which all hear, and which may collide).",
+            "NAME",
+            needs=("assistant",),
+        ),
+    ] = "cockpit"
     topology: Annotated[
         Topology | None,
         Flag(

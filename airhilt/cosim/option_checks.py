@@ -31,6 +31,11 @@ def check_options(options: Options, scenario: Scenario) -> None:
         for other in _against(options, name, flag.needs):
             given = flag.name if value is True else f"{flag.name} {shown(value)}"
             raise AirhiltError(f"{given} would do nothing {other}")
+    if options.advisory_channel == "frequency" and not scenario.radio.lines:
+        raise AirhiltError(
+            f"--advisory-channel frequency: {scenario.name!r} has no radio calls, and so no "
+            "frequency; expected cockpit"
+        )
     _require_known_engines(options)
     if options.assistant_config is not None:
         assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)

@@ -12,6 +12,7 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.scenario.failures import EffectiveLine
+from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.backends import FallbackRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
@@ -31,6 +32,7 @@ class RunRadio:
         event: EventPublisher,
         modalities: Modalities,
         observer: Observer,
+        advisory_channel: AdvisoryChannel | None,
     ) -> None:
         radio = setup.scenario.radio
         self._director = director
@@ -58,6 +60,7 @@ class RunRadio:
             failed=self._line_failed,
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
+            advisory_channel=advisory_channel,
         )
         router.listen(self._conversation.take)
 

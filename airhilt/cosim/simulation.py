@@ -42,6 +42,7 @@ from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sensors.base import Sensor, SensorContext
+from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.units import SECOND_NS, seconds_to_ns
@@ -157,7 +158,11 @@ class Simulation:
         self._pool = self._connect_workers()
         self._programs = self._connect_programs()
         self._advisories = AdvisoryDelivery(
-            self._director, setup.actors, self._event, is_voiced=participants.does("tts")
+            self._director,
+            setup.actors,
+            self._event,
+            is_voiced=participants.does("tts"),
+            is_on_frequency=setup.options.advisory_channel == "frequency",
         )
         self._router.listen(AudioRecorder(setup.folder.audio_path).take)
         self._router.observe(self._collector.take)
@@ -178,6 +183,7 @@ class Simulation:
             world.monitor,
             world.runways,
             Plans(setup.lines, setup.ends_ns),
+            setup.options.advisory_channel == "frequency",
             [
                 worker.description.name
                 for worker in self._participants.workers
@@ -231,9 +237,18 @@ class Simulation:
             self._event,
             self._modalities,
             self._observer,
+            self._advisory_channel(),
         )
         radio.start()
         return radio
+
+    def _advisory_channel(self) -> AdvisoryChannel | None:
+        """Return the use of the frequencies for advisories, None if they are heard in cockpits."""
+        if self._setup.options.advisory_channel == "cockpit":
+            return None
+        return AdvisoryChannel(
+            self._participants.does("tts"), lambda spoken: self._advisories.heard(*spoken)
+        )
 
     def _mount_cameras(self) -> None:
         self._vision.mount(

@@ -9,7 +9,6 @@ from airhilt.messages import (
     CONTROLLER,
     SPEAK_MIN_LEVEL,
     Advisory,
-    AdvisoryAudio,
     AdvisoryKind,
     Severity,
 )
@@ -89,11 +88,11 @@ class AdvisoryRecords:
         record.concerns_conflict |= self._concerns_conflict(advisory)
         return True
 
-    def add_audio(self, audio: AdvisoryAudio) -> None:
-        """Add the audio of an advisory."""
-        record = self._records.get(audio.id)
+    def add_voice(self, identity: str, t_ns: int) -> None:
+        """Add when the voice of an advisory began."""
+        record = self._records.get(identity)
         if record is not None and record.spoken_ns is None:
-            record.spoken_ns = audio.t_ns
+            record.spoken_ns = t_ns
 
     def warns_of_conflict(self, advisory: Advisory) -> bool:
         """Return true if an advisory warns somebody in the run of the annotated conflict."""

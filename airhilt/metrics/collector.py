@@ -8,11 +8,14 @@ from functools import partial
 from typing import Any
 
 from airhilt.messages import (
+    ADVISORY_CALL,
+    CONTROLLER,
     Advisory,
     AdvisoryAudio,
     ConflictTruth,
     EquipmentAlert,
     Event,
+    HearingTruth,
     Message,
     Modality,
     ModalityState,
@@ -28,11 +31,11 @@ from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.roster import callsigns_of, roster_of
 from airhilt.metrics.summary import Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import LineBegun, Scenario
+from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sim import StepRecord
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor
@@ -85,6 +88,7 @@ class Collector:
         monitor: ConflictMonitor,
         runways: RunwayMonitor | None,
         plans: Plans,
+        is_on_frequency: bool = False,
         deciders: Collection[str] = (),
     ) -> None:
         self.window = WindowTimes()
@@ -92,6 +96,7 @@ class Collector:
         self.ended_actors: dict[str, str] = {}
         self.last_advisory: Advisory | None = None
         self._scenario = scenario
+        self._is_on_frequency = is_on_frequency
         pair = pair_of(scenario)
         self._outcome = Outcome(monitor, runways, pair)
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
@@ -121,9 +126,10 @@ class Collector:
                 self._take_advisory(message)
             case EquipmentAlert():
                 self._equipment.take(message)
-            case AdvisoryAudio():
-                self._advisories.add_audio(message)
-                self._first_warning.heard(message)
+            case AdvisoryAudio() if not self._is_called(message.recipient):
+                self._told(message.id, message.revision, message.recipient, message.t_ns)
+            case HearingTruth(id=name, outcome="understood") if name.startswith(ADVISORY_CALL):
+                self._take_advisory_call(name)
             case Status(modality=modality, state=state, t_ns=now_ns):
                 self.modalities[modality] = state
                 if modality == "tts" and state == "lost":
@@ -145,7 +151,24 @@ class Collector:
         if advisory.active:
             self.last_advisory = advisory
         if self._advisories.warns_of_conflict(advisory):
-            self._first_warning.warned(advisory, self.modalities.get("tts") == "on")
+            is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
+            self._first_warning.warned(advisory, is_voiced)
+
+    def _is_called(self, recipient: str) -> bool:
+        """Return whether a recipient hears advisories on its frequency."""
+        return self._is_on_frequency and recipient != CONTROLLER
+
+    def _take_advisory_call(self, name: str) -> None:
+        """Receive that an advisory was heard on a frequency; its voice began with the call."""
+        identity, revision, recipient = name.removeprefix(ADVISORY_CALL).rsplit(".", 2)
+        call = self._calls.get(name)
+        if call is not None and call.said is not None:
+            self._told(identity, int(revision), recipient, call.said.t_tx_ns)
+
+    def _told(self, identity: str, revision: int, recipient: str, t_ns: int) -> None:
+        """Receive that a recipient hears, or has heard, an advisory from a time on."""
+        self._advisories.add_voice(identity, t_ns)
+        self._first_warning.heard((identity, recipient, revision), t_ns)
 
     # --- the summary ------------------------------------------------------------------------
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from airhilt.messages import Advisory, AdvisoryAudio
+from airhilt.messages import Advisory
 from airhilt.metrics.plans import Plans
 from airhilt.surveillance import tcas
 from airhilt.units import SECOND_NS
@@ -42,11 +42,11 @@ class FirstWarning:
         else:
             self._set(advisory, advisory.t_ns)
 
-    def heard(self, audio: AdvisoryAudio) -> None:
-        """Record the audio of an advisory."""
-        spoken = self._unspoken.get((audio.id, audio.recipient, audio.revision))
+    def heard(self, name: tuple[str, str, int], t_ns: int) -> None:
+        """Record when the voice of an advisory began, by its id, recipient and revision."""
+        spoken = self._unspoken.get(name)
         if spoken is not None:
-            self._set(spoken, audio.t_ns)
+            self._set(spoken, t_ns)
 
     def voice_lost(self, now_ns: int) -> None:
         """Record the loss of the voice: warnings that wait for it are read now."""

@@ -77,7 +77,8 @@ def test_every_call_and_every_voice_has_a_file_with_the_samples_of_the_log(
     recorded: RunFolder,
 ) -> None:
     sounds = sounds_of(recorded)
-    assert {type(sound) for sound in sounds} == {Transmission, AdvisoryAudio}
+    expected: list[type] = [Transmission, AdvisoryAudio]
+    assert {type(sound) for sound in sounds} == set(expected)
     assert {audio_file(recorded.audio_path, sound) for sound in sounds} == set(
         recorded.audio_path.iterdir()
     )

@@ -16,6 +16,7 @@ from airhilt.messages import (
     Word,
     WorkerDescription,
 )
+from airhilt.phraseology.parties import with_parties
 from airhilt.sim.worker import Input, Output
 from airhilt.workers.protocol import Step
 
@@ -26,6 +27,7 @@ class AsrWorker:
     def __init__(self, engine: AsrEngine, name: str = "asr") -> None:
         self._engine = engine
         self._callsigns: tuple[str, ...] = ()
+        self._controller = ""
         self.description = WorkerDescription(
             name=name,
             modality="asr",
@@ -52,13 +54,14 @@ class AsrWorker:
     def _take(self, item: Input) -> Transcript | None:
         if item.key == "briefing":
             briefing = Briefing.model_validate_json(item.payload)
+            self._controller = briefing.controller
             self._callsigns = tuple(entry.callsign for entry in briefing.roster)
             return None
         header = Transmission.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
         heard = self._engine.recognise(pcm_to_audio(header, item.payload), self._callsigns)
-        return Transcript(
+        transcript = Transcript(
             id=header.id,
             frequency_khz=header.frequency_khz,
             t_tx_ns=header.t_tx_ns,
@@ -68,6 +71,7 @@ class AsrWorker:
             confidence=heard.confidence,
             engine=self._engine.name,
         )
+        return with_parties(transcript, self._callsigns, self._controller, header.keyed_by)
 
 
 def pcm_to_audio(header: Transmission, pcm: bytes) -> Audio:

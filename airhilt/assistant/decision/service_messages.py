@@ -51,10 +51,11 @@ class RadioTurn(Part):
         description="callsign that the words name first; null if they do not begin with one"
     )
     speaker: str | None = Field(
-        description="callsign that the words end with, as that of a crew does; null if they do not"
+        description="who spoke, as far as the radio knows; otherwise the callsign that the words "
+        "end with, as that of a crew does; null if they do not"
     )
     overheard: bool | None = Field(
-        default=None, description="the call was for somebody else; null if that is not known"
+        default=None, description="neither by nor for the controller; null if that is not known"
     )
 
 

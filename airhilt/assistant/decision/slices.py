@@ -106,7 +106,8 @@ def _turn(transcript: Transcript, callsigns: tuple[str, ...]) -> RadioTurn:
         words=transcript.words,
         confidence=transcript.confidence,
         addressed_callsign=call.callsign if call.addressed_first else None,
-        speaker=None if call.addressed_first else call.callsign,
+        speaker=transcript.speaker or (None if call.addressed_first else call.callsign),
+        overheard=transcript.overheard,
     )
 
 

@@ -18,6 +18,7 @@ from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
 from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
+    ADVISORY_CALL,
     AdsbReport,
     Advisory,
     Briefing,
@@ -34,6 +35,9 @@ from airhilt.messages import (
     TcasReply,
     Transcript,
     Transmission,
+    TransmissionChunk,
+    TransmissionClosed,
+    TransmissionOpened,
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
@@ -54,6 +58,8 @@ KEYS: dict[type[Message], str] = {
     Status: "status/*",
 }
 """The key of each message that an engine may read by its class alone."""
+CALLS = (Transcript, Transmission, TransmissionOpened, TransmissionChunk, TransmissionClosed)
+"""Messages about a transmission."""
 GATE_READS = (Transcript, Transmission, Status)
 """Messages that tell that a transcript is to come, has come, or will not come."""
 
@@ -146,6 +152,8 @@ class DecisionWorker:
         """Give one input to the gate and to the engine, as far as they read it."""
         pattern = next(pattern for pattern in self._models if is_match(item.key, pattern))
         message = _parse(item, self._models[pattern])
+        if isinstance(message, CALLS) and message.id.startswith(ADVISORY_CALL):
+            return  # It knows what it has said itself.
         if self._gate is not None:
             self._gate.receive(message)
         if pattern in self._read:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from airhilt.audio.pcm import SAMPLE_BYTES, to_pcm
 from airhilt.messages import (
+    ASSISTANT,
     SPEAK_MIN_LEVEL,
     Advisory,
     AdvisoryAudio,
@@ -20,9 +21,6 @@ from airhilt.phraseology.numbers import Style
 from airhilt.sim.worker import Input, Output
 from airhilt.voices.engine import TtsEngine
 from airhilt.workers.protocol import Step
-
-ASSISTANT = "ASSISTANT"
-"""The speaker whose voice the assistant has."""
 
 
 class TtsWorker:

@@ -14,7 +14,9 @@ from airhilt.commands import Command
 from airhilt.messages import Advisory, Message
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
+from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
@@ -54,6 +56,8 @@ class RadioConversation:
         Called with an actor's callsign and a description of what happens.
     microphones_free
         Called when no microphone is stuck any more.
+    advisory_channel
+        Channel of the advisories to crews and drivers; None if they are heard in the cockpit.
     hearing
         Draws what people hear; None takes the model of `hearing` with the seed of the run.
     """
@@ -75,6 +79,7 @@ class RadioConversation:
         failed: Callable[[EffectiveLine], None],
         microphone_stuck: Callable[[str, str], None],
         microphones_free: Callable[[], None],
+        advisory_channel: AdvisoryChannel | None = None,
         hearing: HearingModel | None = None,
     ) -> None:
         radio = scenario.radio
@@ -91,9 +96,7 @@ class RadioConversation:
         """Calls that were made, by the ids of their transmissions."""
         self._times_pressed = 0
         self._script = RadioScript(director, lines, once, failed, self._due)
-        self._transmissions = Transmissions(
-            director, radio, stations, backend, publish, began=self._began, ended=self._ended
-        )
+        self._transmissions = self._make_transmissions(scenario, backend)
         self._stuck_microphones = StuckMicrophones(
             director,
             stations,
@@ -105,6 +108,19 @@ class RadioConversation:
         self._compliance = Compliance(director, once, do)
         self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
         self._confirmations = self._make_confirmations(radio)
+        self._advisories = self._make_advisory_calls(scenario, advisory_channel)
+
+    def _make_transmissions(self, scenario: Scenario, backend: RadioBackend) -> Transmissions:
+        return Transmissions(
+            self._director,
+            scenario.radio,
+            self._stations,
+            backend,
+            self._publish,
+            began=self._began,
+            ended=self._ended,
+            roster=roster_of(scenario),
+        )
 
     def _make_listeners(self, radio: Radio, hearing: HearingModel) -> Listeners:
         return Listeners(
@@ -129,13 +145,33 @@ class RadioConversation:
             say=self._say,
         )
 
+    def _make_advisory_calls(
+        self, scenario: Scenario, channel: AdvisoryChannel | None
+    ) -> AdvisoryCalls | None:
+        if channel is None:
+            return None
+        return AdvisoryCalls(
+            self._director,
+            self._stations,
+            callsigns_of(scenario),
+            channel,
+            say=self._transmissions.say,
+            reaches=self._transmissions.reaches,
+            publish=self._publish,
+        )
+
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._script.start()
         self._stuck_microphones.schedule(self._failures)
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
-        """Give a transcript to the crews that wait for it, and advisories to who is to confirm."""
+        """Give a transcript to the crews that wait for it, and advisories to who is to confirm.
+
+        Advisories that are spoken on a frequency are transmitted.
+        """
+        if self._advisories is not None:
+            self._advisories.take(message, data)
         if isinstance(message, Advisory):
             self._confirmations.take(message)
         else:
@@ -205,6 +241,8 @@ class RadioConversation:
             self._listeners.let_read(call, said, is_blocked=ended.is_blocked)
         if ended.transcript is not None:
             self._publish(f"asr/{said.frequency_khz}", ended.transcript)
+        if self._advisories is not None:
+            self._advisories.ended(ended.on_air)
         if call is None:
             return
         if call.is_first_time:

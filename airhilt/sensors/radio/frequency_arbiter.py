@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from airhilt.audio.pcm import Audio
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sim import Director, Priority
@@ -101,7 +101,10 @@ class FrequencyArbiter:
             again = partial(self._try_to_speak, utterance, has_waited=True)
             self._after_all(heard, again)
             return
-        speech, duration_s = self._speak(utterance.speaker, utterance.text)
+        if utterance.speech is None:
+            speech, duration_s = self._speak(utterance.speaker, utterance.text)
+        else:
+            speech, duration_s = utterance.speech, len(utterance.speech) / SAMPLE_RATE_HZ
         now_ns = self._director.now_ns
         self._transmit(OnAir(utterance, now_ns, now_ns + seconds_to_ns(duration_s), speech))
 

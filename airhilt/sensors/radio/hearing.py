@@ -92,3 +92,8 @@ def _misheard(text: str, draw: float) -> str | None:
         return None
     word = words[min(int(draw * len(words)), len(words) - 1)]
     return text[: word.start()] + CONFUSED_WITH[word[0].lower()] + text[word.end() :]
+
+
+def hearing_key(listener: str) -> str:
+    """Return the key of what a listener has heard."""
+    return f"truth/hearing/{re.sub('[^A-Za-z0-9]+', '_', listener)}"

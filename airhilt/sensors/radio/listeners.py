@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from functools import partial
 from typing import Literal
@@ -10,7 +9,7 @@ from typing import Literal
 from airhilt.messages import HearingTruth, Message, Transcript
 from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
-from airhilt.sensors.radio.hearing import HearingModel, Outcome
+from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
@@ -225,4 +224,4 @@ class Listeners:
             text=text,
             source=source,
         )
-        self._publish(f"truth/hearing/{re.sub('[^A-Za-z0-9]+', '_', listener)}", truth)
+        self._publish(hearing_key(listener), truth)

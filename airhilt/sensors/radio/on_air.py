@@ -23,6 +23,8 @@ class Utterance:
     in_reply_to: str | None = None
     listens_first: bool = True
     """False: it is said even if the frequency is busy."""
+    speech: Audio | None = field(default=None, compare=False)
+    """Its sound, if another voice than the speaker's own has said it already."""
 
 
 @dataclass(slots=True, eq=False)

@@ -64,6 +64,7 @@ class RadioReceiver:
                     id=on_air.utterance.id,
                     frequency_khz=on_air.utterance.frequency_khz,
                     t_tx_ns=on_air.t_tx_ns,
+                    keyed_by=self._stations.keyed_by(on_air.utterance.speaker),
                 )
             )
             self._stream_later(on_air)
@@ -159,6 +160,7 @@ class RadioReceiver:
             frequency_khz=on_air.utterance.frequency_khz,
             t_tx_ns=on_air.t_tx_ns,
             t_end_ns=on_air.t_end_ns,
+            keyed_by=self._stations.keyed_by(on_air.utterance.speaker),
             snr_db=self._snr_db,
             samples=len(pcm) // SAMPLE_BYTES,
             sha256=_sha256(pcm),

@@ -56,6 +56,13 @@ class Stations:
         """Return the frequencies of an actor or a unit, in kHz."""
         return tuple(frequency for frequency, names in self._on.items() if name in names)
 
+    def frequency_of(self, name: str) -> int | None:
+        """Return the frequency on which an actor is called, in kHz; None if there is none at all.
+
+        It is the first one of the script that is the actor's, otherwise the first one of all.
+        """
+        return next(iter((*self.frequencies_of(name), *self._on)), None)
+
     def is_actor(self, name: str) -> bool:
         """Return whether a name is that of an actor, not of a unit."""
         return name in self._actors
@@ -91,6 +98,10 @@ class Stations:
         return relative(one, other).distance_m <= radio_horizon_m(
             self._height_m(one), self._height_m(other)
         )
+
+    def keyed_by(self, speaker: str) -> str | None:
+        """Return the unit whose transmitter at the receiver's site is keyed, None for an actor."""
+        return None if self.is_actor(speaker) else speaker
 
     def received(self, speaker: str) -> bool:
         """Return whether a speaker is in reach of the receiver at the units' site."""

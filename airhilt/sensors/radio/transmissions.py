@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from airhilt.messages import SpokenTruth, Transcript
+from airhilt.phraseology.parties import with_parties
 from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
@@ -37,6 +38,8 @@ class Transmissions:
         Called with each utterance when its transmission begins.
     ended
         Called with each transmission when it has ended and has been published.
+    roster
+        Callsigns that the controller expects.
     """
 
     def __init__(
@@ -49,8 +52,11 @@ class Transmissions:
         *,
         began: Callable[[Utterance], None],
         ended: Callable[[EndedTransmission], None],
+        roster: Collection[str] = (),
     ) -> None:
         self._director = director
+        self._controller = radio.controller
+        self._roster = roster
         self._snr_db = radio.snr_db
         self._stations = stations
         self._backend = backend
@@ -101,6 +107,9 @@ class Transmissions:
         transcript = None
         if self._receiver.close(on_air):
             transcript = self._backend.transcript(on_air, mixed_with)
+        if transcript is not None:
+            keyed_by = self._stations.keyed_by(on_air.utterance.speaker)
+            transcript = with_parties(transcript, self._roster, self._controller, keyed_by)
         return EndedTransmission(on_air, bool(mixed_with), transcript)
 
     def _publish_truth(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> None:

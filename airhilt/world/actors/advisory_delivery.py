@@ -40,6 +40,9 @@ class AdvisoryDelivery:
     ----------
     is_voiced
         True if a worker speaks advisories.
+    is_on_frequency
+        True if advisories are spoken on the recipients' frequencies: they get them when they have
+        heard them to the end there.
     event
         Called with the kind, the subject and the text of a reaction.
     """
@@ -51,10 +54,12 @@ class AdvisoryDelivery:
         event: Callable[[EventKind, str, str], None],
         *,
         is_voiced: bool,
+        is_on_frequency: bool = False,
     ) -> None:
         self._director = director
         self._event = event
-        self._is_voiced = is_voiced
+        self._is_voiced = is_voiced or is_on_frequency
+        self._is_on_frequency = is_on_frequency
         self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
@@ -71,14 +76,18 @@ class AdvisoryDelivery:
                 else:
                     self._unspoken.pop(name, None)
                     self._deliver(message)
-            case AdvisoryAudio(id=identity, recipient=recipient, revision=revision):
-                waiting = self._unspoken.get((identity, recipient))
-                if waiting is not None and waiting.revision == revision:
-                    del self._unspoken[identity, recipient]
-                    self._deliver(waiting)
+            case AdvisoryAudio() if not self._is_on_frequency:
+                self.heard(message.id, message.revision, message.recipient)
             case EquipmentAlert(advisory=advisory) if advisory.recipient in self._by_address:
                 self._note(advisory)
                 self._deliver(advisory, is_equipment=True)
+
+    def heard(self, identity: str, revision: int, recipient: str) -> None:
+        """Deliver an advisory that its recipient has heard, unless a later revision waits."""
+        waiting = self._unspoken.get((identity, recipient))
+        if waiting is not None and waiting.revision == revision:
+            del self._unspoken[identity, recipient]
+            self._deliver(waiting)
 
     def voice_lost(self) -> None:
         """Go on without a voice: deliver now what waits for it."""

@@ -72,6 +72,9 @@ class Everywhere:
     def received(self, speaker: str) -> bool:
         return speaker not in self.out_of_reach
 
+    def keyed_by(self, speaker: str) -> str | None:
+        return speaker if speaker == "Tower" else None
+
     def background_of(self, name: str) -> str:
         return "tower" if name == "Tower" else "cockpit"
 
