@@ -29,6 +29,8 @@ from airhilt.metrics.warning_parts import WarningStatistics
 FAMILY = "S01A"
 PAPER_S = 7.66
 """Mean time to first warning of the paper, in s."""
+LEAST_WIDTH = 140
+"""Least width of the tables, in characters."""
 OVERALL = "all"
 """Name of the row over all variants."""
 
@@ -52,6 +54,7 @@ def main() -> None:
         print(json.dumps({name: own.model_dump() for name, own in statistics.items()}, indent=2))
         return
     console = Console()
+    console.width = max(console.width, LEAST_WIDTH)
     console.print(times(statistics))
     console.print(parts(statistics))
     console.print(events(found))

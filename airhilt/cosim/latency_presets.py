@@ -21,8 +21,9 @@ PROMPT_TOKENS = 500
 DECISION_S = round(
     PROMPT_TOKENS / PROMPT_TOKENS_PER_S + GENERATED_TOKENS / GENERATED_TOKENS_PER_S, 2
 )
-"""Time of a decision that publishes something, in s. The paper names its language model, but
-neither its time nor its machine. The rules themselves take about 1 ms, which is left out."""
+"""Time of a decision that publishes something, in s. The paper names its language model;
+no published time of its decision was found. The rules themselves take about 1 ms, which is left
+out."""
 
 PRESETS = {
     "paper": f"fixed,asr=since_start:{ASR_S},vision=fixed:{VISION_S},"
