@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
 from airhilt.engines import ASR, ASSISTANT, DETECTOR, TTS, WORDING, EngineFamily
 from airhilt.errors import LanguageModelError, WorkerError
-from airhilt.messages import Modality
+from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
 from airhilt.phraseology.numbers import Style
 from airhilt.workers.protocol import Worker
 
@@ -82,14 +82,11 @@ def reference_workers(
     asr, tts, detector, wording, llm, configuration = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
-    if tts is not None and "tts" not in taken and is_assisted:
-        workers.append(reference_worker("tts", tts, style=radio.phraseology))
-    if detector is not None and "vision" not in taken and is_assisted:
-        workers.append(reference_worker("vision", detector, also=(NO_DETECTOR,)))
+    deciding: list[Worker] = []
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
         also = (NO_ASSISTANT, EXTERNAL)
-        workers.append(
+        deciding.append(
             decision_worker(
                 assistant,
                 wording,
@@ -99,7 +96,22 @@ def reference_workers(
                 llm=llm,
             )
         )
-    return workers
+    if tts is not None and "tts" not in taken and is_assisted:
+        level = speak_min_level(worker.description for worker in deciding)
+        voice = reference_worker("tts", tts, style=radio.phraseology, speak_min_level=level)
+        workers.append(voice)
+    if detector is not None and "vision" not in taken and is_assisted:
+        workers.append(reference_worker("vision", detector, also=(NO_DETECTOR,)))
+    return workers + deciding
+
+
+def speak_min_level(workers: Iterable[WorkerDescription]) -> Severity:
+    """Return the least severity that is spoken, by the configuration of the decision engine."""
+    for worker in workers:
+        level = worker.configuration.get("speak_min_level")
+        if worker.modality == "decision" and level is not None:
+            return Severity(level)
+    return SPEAK_MIN_LEVEL
 
 
 def decision_worker(
@@ -214,6 +226,7 @@ def reference_worker(
     style: Style = "faa",
     also: Sequence[str] = (),
     configuration: Mapping[str, Any] | None = None,
+    speak_min_level: Severity = SPEAK_MIN_LEVEL,
 ) -> Worker:
     """Return one worker with its default settings.
 
@@ -229,6 +242,8 @@ def reference_worker(
         Words that the caller takes in the place of an engine, such as ``none``, for error messages.
     configuration
         Values of the configuration of a decision engine; None: the defaults.
+    speak_min_level
+        Least severity that ``tts`` speaks.
 
     Raises
     ------
@@ -247,7 +262,10 @@ def reference_worker(
             from airhilt.voices.engines import tts_engine
 
             return TtsWorker(
-                tts_engine(TTS if engine is None else engine), style=style, name=name or kind
+                tts_engine(TTS if engine is None else engine),
+                speak_min_level,
+                style=style,
+                name=name or kind,
             )
         case "vision":
             from airhilt.assistant.vision.detectors import vision_engine

@@ -6,7 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from airhilt.assistant.language_model import LanguageModelSettings
-from airhilt.assistant.reference import EXTERNAL, NO_DETECTOR, Engines, reference_workers
+from airhilt.assistant.reference import (
+    EXTERNAL,
+    NO_DETECTOR,
+    Engines,
+    reference_workers,
+    speak_min_level,
+)
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
@@ -14,7 +20,7 @@ from airhilt.cosim.other_machines import other_machines
 from airhilt.cosim.recorded import Recorded
 from airhilt.engines import ASSISTANT
 from airhilt.errors import WorkerError
-from airhilt.messages import Modality
+from airhilt.messages import Modality, Severity
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.workers import LocalWorker, Worker
@@ -42,6 +48,11 @@ class Participants:
     def does(self, modality: Modality) -> bool:
         """Return whether a worker is there for a modality."""
         return any(worker.description.modality == modality for worker in self.workers)
+
+    @property
+    def speak_min_level(self) -> Severity:
+        """Least severity that is spoken."""
+        return speak_min_level(worker.description for worker in self.workers)
 
     @property
     def subscribed(self) -> frozenset[str]:

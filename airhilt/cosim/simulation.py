@@ -162,6 +162,7 @@ class Simulation:
             setup.actors,
             self._event,
             is_voiced=participants.does("tts"),
+            speak_min_level=participants.speak_min_level,
             is_on_frequency=setup.options.advisory_channel == "frequency",
         )
         self._router.listen(AudioRecorder(setup.folder.audio_path).take)
@@ -246,8 +247,11 @@ class Simulation:
         """Return the use of the frequencies for advisories, None if they are heard in cockpits."""
         if self._setup.options.advisory_channel == "cockpit":
             return None
+        participants = self._participants
         return AdvisoryChannel(
-            self._participants.does("tts"), lambda spoken: self._advisories.heard(*spoken)
+            participants.does("tts"),
+            participants.speak_min_level,
+            lambda spoken: self._advisories.heard(*spoken),
         )
 
     def _mount_cameras(self) -> None:

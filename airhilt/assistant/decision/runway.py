@@ -197,13 +197,18 @@ class RunwayWatch:
     ) -> Alert:
         """Return the alert about a threat; crews and drivers are told from CAUTION on."""
         threat, told = ongoing.threat, ongoing.escalation.severity or severity
-        concerned = threat.parties if told.rank >= Severity.CAUTION.rank else ()
+        groups = self.config.recipients
+        is_for_crews = "concerned" in groups and told.rank >= Severity.CAUTION.rank
+        recipients = (
+            *(threat.parties if is_for_crews else ()),
+            *((CONTROLLER,) if "controller" in groups else ()),
+        )
         alert = Alert(
             id=ongoing.id,
             revision=ongoing.revision,
             kind=threat.kind,
             severity=severity,
-            recipients=(*concerned, CONTROLLER),
+            recipients=recipients,
             traffic=threat.traffic,
             evidence=Evidence(
                 sources=threat.sources,

@@ -62,6 +62,11 @@ RunwayRule = Literal[
 RUNWAY_RULES: tuple[RunwayRule, ...] = get_args(RunwayRule)
 
 
+RecipientGroup = Literal["concerned", "controller"]
+"""Groups of recipients: the crews and drivers concerned, and the controller."""
+RECIPIENT_GROUPS: tuple[RecipientGroup, ...] = get_args(RecipientGroup)
+
+
 class RunwayConfig(Configuration):
     """Rules and thresholds for conflicts on runways.
 
@@ -72,6 +77,12 @@ class RunwayConfig(Configuration):
 
     rules: tuple[RunwayRule, ...] = Field(
         RUNWAY_RULES, description="rules that are applied, by the names that evidence gives them"
+    )
+    recipients: tuple[RecipientGroup, ...] = Field(
+        RECIPIENT_GROUPS,
+        min_length=1,
+        description="who is told: the crews and drivers concerned, from a CAUTION on, and the "
+        "controller; chosen",
     )
     caution_s: Seconds = Field(
         60.0, description="time to go from which an occupied runway is a CAUTION, in s; chosen"

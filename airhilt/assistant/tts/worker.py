@@ -59,10 +59,11 @@ class TtsWorker:
         """Speak the advisories that are active and urgent enough."""
         advisories = (Advisory.model_validate_json(item.payload) for item in inputs)
         return Step(
-            tuple(self._speak(advisory) for advisory in advisories if self._is_spoken(advisory))
+            tuple(self._speak(advisory) for advisory in advisories if self.speaks(advisory))
         )
 
-    def _is_spoken(self, advisory: Advisory) -> bool:
+    def speaks(self, advisory: Advisory) -> bool:
+        """Return whether an advisory is active and urgent enough."""
         return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
 
     def _speak(self, advisory: Advisory) -> Output:

@@ -11,7 +11,6 @@ from airhilt.audio.pcm import from_pcm
 from airhilt.messages import (
     ADVISORY_CALL,
     ASSISTANT,
-    SPEAK_MIN_LEVEL,
     Advisory,
     AdvisoryAudio,
     HearingTruth,
@@ -44,11 +43,14 @@ class AdvisoryChannel(NamedTuple):
     ----------
     is_voiced
         True if a worker speaks advisories; otherwise their words are transmitted as text.
+    speak_min_level
+        Least severity that is said.
     heard
         Called with an advisory that its recipient has heard to the end.
     """
 
     is_voiced: bool
+    speak_min_level: Severity
     heard: Callable[[Spoken], None]
 
 
@@ -94,6 +96,7 @@ class AdvisoryCalls:
         self._stations = stations
         self._callsigns = callsigns
         self._is_voiced = channel.is_voiced
+        self._speak_min_level = channel.speak_min_level
         self._heard = channel.heard
         self._say = say
         self._reaches = reaches
@@ -112,7 +115,7 @@ class AdvisoryCalls:
                 name = (message.id, recipient)
                 self._latest[name] = message
                 self._waiting.pop(name, None)
-                if not self._is_voiced and _is_said(message):
+                if not self._is_voiced and self._is_said(message):
                     self._add(message, message.message, b"")
             case AdvisoryAudio(id=identity, recipient=recipient):
                 latest = self._latest.get((identity, recipient))
@@ -140,6 +143,10 @@ class AdvisoryCalls:
         if is_heard:
             self._heard(said.spoken)
 
+    def _is_said(self, advisory: Advisory) -> bool:
+        """Return whether an advisory is urgent enough to be said."""
+        return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
+
     def _add(self, advisory: Advisory, text: str, pcm: bytes) -> None:
         frequency_khz = self._stations.frequency_of(self._callsigns[advisory.recipient])
         if frequency_khz is None:
@@ -164,8 +171,3 @@ class AdvisoryCalls:
         callsign = self._callsigns[spoken.recipient]
         speech = from_pcm(first.pcm) if first.pcm else None
         self._say(Utterance(name, frequency_khz, ASSISTANT, callsign, first.text, speech=speech))
-
-
-def _is_said(advisory: Advisory) -> bool:
-    """Return whether an advisory is urgent enough to be said."""
-    return advisory.active and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank

@@ -5,12 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from airhilt.messages import Advisory, AdvisoryAudio, EquipmentAlert, EventKind, Message
+from airhilt.messages import (
+    SPEAK_MIN_LEVEL,
+    Advisory,
+    AdvisoryAudio,
+    EquipmentAlert,
+    EventKind,
+    Message,
+    Severity,
+)
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.actor import Actor, Reaction, Unable
-from airhilt.world.actors.reactions import FOLLOWED_FROM
 
 
 def by_address(actors: Mapping[str, Actor]) -> dict[str, Actor]:
@@ -29,7 +36,7 @@ def by_address(actors: Mapping[str, Actor]) -> dict[str, Actor]:
 class AdvisoryDelivery:
     """Delivers advisories to actors, and schedules the reactions.
 
-    An active advisory at or above `FOLLOWED_FROM` is spoken: its recipient gets it when the voice
+    An active advisory at or above a severity is spoken: its recipient gets it when the voice
     begins to be heard. All others, and all in a run without a voice, are read as soon as they are
     published. So are alerts of equipment, which has a voice or a light of its own.
 
@@ -40,6 +47,8 @@ class AdvisoryDelivery:
     ----------
     is_voiced
         True if a worker speaks advisories.
+    speak_min_level
+        Least severity that is spoken.
     is_on_frequency
         True if advisories are spoken on the recipients' frequencies: they get them when they have
         heard them to the end there.
@@ -54,11 +63,13 @@ class AdvisoryDelivery:
         event: Callable[[EventKind, str, str], None],
         *,
         is_voiced: bool,
+        speak_min_level: Severity = SPEAK_MIN_LEVEL,
         is_on_frequency: bool = False,
     ) -> None:
         self._director = director
         self._event = event
         self._is_voiced = is_voiced or is_on_frequency
+        self._speak_min_level = speak_min_level
         self._is_on_frequency = is_on_frequency
         self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
@@ -98,7 +109,8 @@ class AdvisoryDelivery:
             self._deliver(advisory)
 
     def _is_spoken(self, advisory: Advisory) -> bool:
-        return self._is_voiced and advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
+        is_urgent = advisory.severity.rank >= self._speak_min_level.rank
+        return self._is_voiced and advisory.active and is_urgent
 
     def _note(self, advisory: Advisory) -> None:
         """Note whether equipment tells a recipient what to do."""

@@ -174,3 +174,13 @@ def test_shares_add_up_to_one() -> None:
     score = Score.of(ScoreConfig(), 0.5, 1.0, 0.0)
     shares = score.shares(vision=score.vision, radio=score.asr, adsb=score.context)
     assert shares == {"vision": pytest.approx(0.25 / 0.6), "radio": pytest.approx(0.35 / 0.6)}
+
+
+def test_who_is_told_is_a_matter_of_configuration() -> None:
+    def recipients(config: PaperConfig) -> set[str]:
+        field = flown(arrival(60.0), lined_up(), seconds=20.0, worker=paper(config))
+        return {advisory.recipient for _, advisory in field.told}
+
+    assert recipients(PaperConfig()) == {"AAL123", "DAL456", "ATC"}
+    assert recipients(PaperConfig(recipients=("controller",))) == {"ATC"}
+    assert recipients(PaperConfig(recipients=("concerned",))) == {"AAL123", "DAL456"}

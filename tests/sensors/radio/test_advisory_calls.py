@@ -37,7 +37,7 @@ class Frequency:
             self.director,
             cast(Stations, SimpleNamespace(frequency_of=lambda name: 119_100)),
             {"AAL123": "AAL123", "a1b2c3": "AAL123", "DAL456": "DAL456"},
-            AdvisoryChannel(is_voiced, self.heard.append),
+            AdvisoryChannel(is_voiced, Severity.CAUTION, self.heard.append),
             say=self.said.append,
             reaches=lambda on_air, listener: self.in_reach,
             publish=lambda key, message, **_: self.hearings.append(message),

@@ -33,7 +33,9 @@ class PaperEngine:
         self.visual_tracks = VisualTracks(config.sight)
         self.ambiguous = AmbiguousCalls()
         ladder = Ladder(config, self.visual_tracks, self.ambiguous)
-        timing = RunwayConfig(persistence_s=0.0, release_s=config.release_s)
+        timing = RunwayConfig(
+            persistence_s=0.0, release_s=config.release_s, recipients=config.recipients
+        )
         self.runways = RunwayWatch(
             timing, self.visual_tracks, Guard(config.tau_asr), ladder.threats
         )

@@ -20,11 +20,13 @@ from airhilt.assistant.decision.visual_tracks import SightConfig, VisualTracks
 from airhilt.configuration import Configuration, Share
 from airhilt.engines import Engine
 from airhilt.messages import (
+    SPEAK_MIN_LEVEL,
     AdsbReport,
     Briefing,
     CameraInfo,
     Detections,
     Message,
+    Severity,
     Transcript,
     TransmissionAudio,
     TransmissionOpened,
@@ -45,6 +47,10 @@ class ReferenceConfig(Configuration):
         TAU_ASR,
         description="confidence below which a slot of a call is in doubt and asked for; 0 believes "
         "every word; arXiv 2511.18718",
+    )
+    speak_min_level: Severity = Field(
+        SPEAK_MIN_LEVEL,
+        description="least severity that is spoken; what is below it is shown; arXiv 2511.18718",
     )
     separation: SeparationConfig = Field(SeparationConfig(), description="conflicts in the air")
     runways: RunwayConfig = Field(RunwayConfig(), description="conflicts on runways")

@@ -7,9 +7,10 @@ from typing import Literal, get_args
 from pydantic import Field
 
 from airhilt.assistant.decision.ladder import ScoreConfig
-from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S
+from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RECIPIENT_GROUPS, RecipientGroup
 from airhilt.assistant.decision.visual_tracks import SightConfig
 from airhilt.configuration import Configuration, Seconds, Share
+from airhilt.messages import SPEAK_MIN_LEVEL, Severity
 from airhilt.phraseology import TAU_ASR
 
 Rung = Literal["readback_mismatch", "occupancy", "recipient_ambiguity", "score"]
@@ -34,6 +35,16 @@ class PaperConfig(Configuration):
     )
     sight: SightConfig = Field(SightConfig(), description="what cameras show")
     score: ScoreConfig = Field(ScoreConfig(), description="weak hints together")
+    speak_min_level: Severity = Field(
+        SPEAK_MIN_LEVEL,
+        description="least severity that is spoken; what is below it is shown; arXiv 2511.18718",
+    )
+    recipients: tuple[RecipientGroup, ...] = Field(
+        RECIPIENT_GROUPS,
+        min_length=1,
+        description="who is told: the crews and drivers concerned, from a CAUTION on, and the "
+        "controller; the paper leaves it open",
+    )
     release_s: Seconds = Field(
         5.0,
         description="time for which a conflict must be over before that is told, in s; an "
