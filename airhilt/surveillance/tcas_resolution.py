@@ -79,10 +79,12 @@ def select(
         Sense that the coordination with the intruder, or an advisory in force, leaves; None for
         either.
     may_descend
-        False near the ground.
+        False near the ground: of a sense that is required, only levelling off is left then.
     """
     sense = required or _best_sense(own, intruder, time_s, alim_m)
-    if sense == "descend" and not may_descend and required is None:
+    if sense == "descend" and not may_descend:
+        if required is not None:
+            return Resolution(sense, 0.0)
         sense = "climb"
     for rate_m_s in (0.0, RATE_M_S):
         resolution = Resolution(sense, rate_m_s)

@@ -163,9 +163,10 @@ class TcasUnit:
         encounter = self._encounters.get(track)
         is_closing = track.motion(t_ns).rate_m_s < 0.0
         if encounter is not None and encounter.is_over:
-            if said is None:
-                del self._encounters[track]
-            return
+            if said is not None and not (said == "tcas_ra" and is_closing):
+                return
+            del self._encounters[track]
+            encounter = None
         if encounter is None:
             if said is None or not is_closing:
                 return
@@ -343,7 +344,8 @@ def _stronger(resolution: Resolution, own: OwnState) -> Resolution | None:
     """Return the next stronger advisory of the same sense; None if there is none."""
     sense, rate_m_s = resolution
     if rate_m_s < RATE_M_S:
-        return Resolution(sense, RATE_M_S)
+        may_begin = sense == "climb" or own.height_m > NO_DESCENT_BELOW_M
+        return Resolution(sense, RATE_M_S) if may_begin else None
     may_increase = sense == "climb" or own.height_m > NO_INCREASED_DESCENT_BELOW_M
     if rate_m_s < INCREASED_RATE_M_S and may_increase:
         return Resolution(sense, INCREASED_RATE_M_S)

@@ -167,6 +167,35 @@ def test_near_the_ground_nobody_is_told_to_descend() -> None:
     assert not any("descend" in note or "descent" in note for note in notes)
 
 
+def test_nor_is_one_whom_the_other_one_leaves_the_lower_side() -> None:
+    """DAL2 is above, and first to choose; that AAL1 then must not climb is all it is told."""
+    jets = (replace(ONE, altitude_ft=1050.0, speed_kt=150.0, phase_ns=600_000_000),
+            replace(OTHER, altitude_ft=1080.0, speed_kt=150.0))  # fmt: skip
+    flown = meeting(*jets).fly()
+    assert "climb, climb" in flown.notes("DAL2")
+    assert flown.notes("AAL1")[1:-1] == ["monitor vertical speed"]
+
+
+class Returning(Jet):
+    """Comes to 1,500 m of the middle, draws away for half a minute, and comes back."""
+
+    def place_m(self, time_s: float) -> tuple[float, float]:
+        """Return the place at a time."""
+        if time_s < -60.0:
+            return 1500.0 - 100.0 * (time_s + 60.0), 0.0
+        return (1500.0 + 5.0 * (time_s + 60.0) if time_s < -30.0 else -55.0 * time_s), 0.0
+
+
+def test_who_comes_back_after_the_conflict_is_over_is_told_of_again() -> None:
+    """It never leaves DMOD, 1.1 NM, so that the thresholds hold all the time."""
+    returning = Returning("DAL2", "aaaaa2", 270.0, 0.0, 35_000.0, has_tcas=False)
+    told = meeting(replace(ONE, speed_kt=0.0), returning).fly().told
+    first, second = dict.fromkeys(alert.id for _, alert in told)
+    over_s = next(s for s, alert in told if alert.id == first and not alert.active)
+    again_s = next(s for s, alert in told if alert.id == second)
+    assert over_s > 30.0 > again_s > 15.0
+
+
 def test_an_intruder_on_the_ground_is_none() -> None:
     rolls = replace(OTHER, on_ground=True, altitude_ft=1200.0, speed_kt=120.0)
     assert meeting(replace(ONE, altitude_ft=2700.0, speed_kt=150.0), rolls).fly().told == []
