@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from airhilt.assistant.decision.engines import FAMILY
 from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, NO_DETECTOR, families
@@ -81,8 +82,9 @@ def require_known_equipment(names: Iterable[str]) -> None:
     AirhiltError
         An engine is not there, or asks a program elsewhere.
     """
+    family = replace(FAMILY, word="equipment")
     for name in names:
-        if FAMILY.choose(name)[0].is_remote:
+        if family.choose(name)[0].is_remote:
             raise AirhiltError(
                 f"equipment {name!r}: it asks a program elsewhere; expected an engine that "
                 "decides by itself"

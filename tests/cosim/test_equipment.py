@@ -151,7 +151,7 @@ def test_the_margin_is_from_the_warning_of_the_assistant_to_that_of_the_equipmen
 @pytest.mark.parametrize(
     ("equipment", "problem"),
     [
-        (("radar_lights",), "there is none of that name"),
+        (("radar_lights",), "equipment 'radar_lights': there is none of that name"),
         (("tcas", "tcas:hmd"), "is there twice"),
         (("tcas:all",), "expected tcas or tcas:hmd"),
     ],

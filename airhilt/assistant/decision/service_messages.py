@@ -32,7 +32,9 @@ Recipient = Annotated[
     StringConstraints(pattern=r"^[A-Za-z0-9_-]{1,20}$"),
     Field(description="ATC, a callsign, or an icao24 while there is no callsign"),
 ]
-Text = Annotated[str, StringConstraints(min_length=1, max_length=500)]
+Text = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f]{1,500}$")]
+"""Words without control characters, which a terminal would obey."""
+Name = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f]{1,60}$")]
 
 
 class RadioTurn(Part):
@@ -116,7 +118,7 @@ class ProposedAdvisory(Part):
     kind: AdvisoryKind
     severity: Severity
     recipients: tuple[Recipient, ...] = Field(min_length=1)
-    traffic: tuple[str, ...] = Field(
+    traffic: tuple[Name, ...] = Field(
         min_length=1, description="callsigns (or icao24) of those in conflict"
     )
     messages: dict[str, Text] = Field(

@@ -176,6 +176,8 @@ def test_the_same_call_twice_and_old_calls_are_no_more_than_one() -> None:
          "recommendations for DAL456; expected recipients only"),
         ({"recommendations": {"AAL123": {"action": "eject"}}}, "recommendations/AAL123"),
         ({"recomendations": {}}, "recomendations"),
+        ({"messages": {"AAL123": "climb\x1b[2J"}}, "advisories/0/messages/AAL123"),
+        ({"traffic": ["AAL123", "x" * 1000]}, "advisories/0/traffic/1"),
     ],
 )  # fmt: skip
 def test_an_answer_that_is_not_of_the_schema_is_refused_by_name(changes: Json, words: str) -> None:
@@ -217,6 +219,18 @@ def test_an_answer_after_the_deadline_is_not_waited_for() -> None:
         with pytest.raises(WorkerError, match=r"has not answered for 0\.1 s"):
             tell(engine, transcript("hello"), 2.0)
         late.released.set()
+
+
+def test_an_address_with_a_password_is_refused_without_showing_it() -> None:
+    with pytest.raises(WorkerError, match=r"http://127\.0\.0\.1:9000 contains a user") as raised:
+        HttpAssistant("http://me:secret@127.0.0.1:9000/advise")
+    assert "secret" not in str(raised.value)
+
+
+@pytest.mark.parametrize("url", ["http://", "http://[bad", "http://host:99999/", "http://a b/"])
+def test_what_is_no_address_is_refused_before_the_run(url: str) -> None:
+    with pytest.raises(WorkerError, match="is no address"):
+        HttpAssistant(url)
 
 
 def test_it_is_a_worker_that_a_run_takes() -> None:
