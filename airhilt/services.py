@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ipaddress
+import re
 import threading
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from airhilt.errors import AirhiltError
 
@@ -16,8 +18,8 @@ if TYPE_CHECKING:
 SCHEMES = ("http", "https")
 USAGE = "the address of a service"
 """Words for such an engine where error messages list what may be written."""
-QUOTED_BYTES = 200
-"""Bytes of an error answer that the error message quotes."""
+QUOTED_LENGTH = 200
+"""Characters of an error answer that the error message quotes."""
 
 
 def is_service(engine: str) -> bool:
@@ -44,7 +46,7 @@ class HttpService:
     Raises
     ------
     AirhiltError
-        The address is none.
+        The address is none, or contains a user or a password, which ``run.json`` would keep.
     """
 
     def __init__(
@@ -55,6 +57,11 @@ class HttpService:
         maximum_bytes: int,
         failure: type[AirhiltError],
     ) -> None:
+        if "@" in _authority(url):
+            raise failure(
+                f"{subject}: the address at {without_user(url)} contains a user or a password; "
+                "expected none"
+            )
         if not _is_address(url):
             raise failure(
                 f"{subject}: {url!r} is no address; expected one such as http://127.0.0.1:8000/path"
@@ -66,14 +73,20 @@ class HttpService:
         self._failure = failure
 
     def post(
-        self, body: bytes, content_type: str, headers: Mapping[str, str] | None = None
+        self,
+        body: bytes,
+        content_type: str,
+        headers: Mapping[str, str] | None = None,
+        key: str = "",
     ) -> bytes:
         """Return the answer to a request.
 
         Parameters
         ----------
         headers
-            Further headers of the request, such as one with a key; no error shows them.
+            Further headers of the request.
+        key
+            Bearer token of the request; no error shows it. Empty: none.
 
         Raises
         ------
@@ -85,7 +98,7 @@ class HttpService:
         try:
             with self._client() as client:
                 request = {**(headers or {}), "Content-Type": content_type}
-                return _Request(self, client, body, request).within(self._timeout_s)
+                return _Request(self, client, body, request, key).within(self._timeout_s)
         except (TimeoutError, httpx.TimeoutException):
             raise self.error(
                 f"has not answered for {self._timeout_s:g} s",
@@ -109,7 +122,7 @@ class HttpService:
             headers={"Accept-Encoding": "identity"},
         )
 
-    def ask(self, client: httpx.Client, body: bytes, headers: Mapping[str, str]) -> bytes:
+    def ask(self, client: httpx.Client, body: bytes, headers: Mapping[str, str], key: str) -> bytes:
         """Return what the service answers to one request.
 
         Raises
@@ -117,9 +130,12 @@ class HttpService:
         AirhiltError
             The service says that it failed, or answers too much.
         """
-        with client.stream("POST", self.url, content=body, headers=headers) as answer:
+        sent = {**headers, "Authorization": f"Bearer {key}"} if key else headers
+        with client.stream("POST", self.url, content=body, headers=sent) as answer:
             if answer.status_code != 200:
-                quoted = self._read(answer)[:QUOTED_BYTES].decode("utf-8", "replace").strip()
+                # The key first: half of it would not be found any more.
+                text = without_key(self._read(answer).decode("utf-8", "replace"), key)
+                quoted = text[:QUOTED_LENGTH].strip()
                 raise self.error(
                     f"answered with HTTP status {answer.status_code}"
                     f"{f': {quoted!r}' if quoted else ''}",
@@ -145,6 +161,23 @@ class HttpService:
         return self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
 
 
+def without_key(text: str, key: str) -> str:
+    """Return a text without a key, which a service may quote; an empty key is none."""
+    return text.replace(key, "***") if key else text
+
+
+def without_user(url: str) -> str:
+    """Return scheme and host of an address, without a user, a password or a query."""
+    host = _authority(url).rpartition("@")[2]
+    return f"{url.partition('://')[0]}://{host}"
+
+
+def _authority(url: str) -> str:
+    """Return the part of an address between the scheme and the path (RFC 3986, 3.2)."""
+    rest = url.partition("://")[2]
+    return re.split("[/?#]", rest, maxsplit=1)[0]
+
+
 def is_elsewhere(url: str) -> bool:
     """Return whether an address is not that of this machine (RFC 1122, 3.2.1.3 g)."""
     import httpx
@@ -162,8 +195,9 @@ def _is_address(url: str) -> bool:
     if not is_service(url) or not all("!" <= character <= "~" for character in url):
         return False
     try:
-        return bool(httpx.URL(url).host)
-    except httpx.InvalidURL:
+        parts = urlsplit(url)
+        return bool(httpx.URL(url).host and parts.hostname) and parts.port != 0
+    except (httpx.InvalidURL, ValueError):
         return False
 
 
@@ -174,12 +208,17 @@ class _Request(threading.Thread):
     """
 
     def __init__(
-        self, service: HttpService, client: httpx.Client, body: bytes, headers: Mapping[str, str]
+        self,
+        service: HttpService,
+        client: httpx.Client,
+        body: bytes,
+        headers: Mapping[str, str],
+        key: str,
     ) -> None:
         super().__init__(name=service.subject, daemon=True)
         self._service = service
         self._client = client
-        self._request = (body, headers)
+        self._request = (body, headers, key)
         self._answer = b""
         self._failure: Exception | None = None
 

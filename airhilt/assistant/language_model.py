@@ -18,7 +18,7 @@ from typing import Any, Literal, Protocol, runtime_checkable
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import AirhiltError, LanguageModelError, first_problem
-from airhilt.services import HttpService
+from airhilt.services import HttpService, without_key, without_user
 
 KEY_VARIABLE = "AIRHILT_LLM_KEY"
 """Environment variable with the key of the endpoint; it is sent, and written nowhere."""
@@ -132,12 +132,8 @@ class LanguageModel:
         return self._content(data)
 
     def _post(self, request: Mapping[str, Any], timeout_s: float) -> bytes:
-        headers = {"Authorization": f"Bearer {self._key}"} if self._key else {}
         body = json.dumps(request).encode()
-        try:
-            return self._service(timeout_s).post(body, "application/json", headers)
-        except LanguageModelError as error:
-            raise LanguageModelError(self._without_key(str(error))) from None
+        return self._service(timeout_s).post(body, "application/json", key=self._key)
 
     def _service(self, timeout_s: float) -> HttpService:
         return HttpService(
@@ -161,23 +157,19 @@ class LanguageModel:
         try:
             choice = _Completion.model_validate_json(data).choices[0]
         except ValidationError as error:
-            shown = self._without_key(repr(data[:60]))
+            text = without_key(data.decode("utf-8", "replace"), self._key)
             raise self._error(
-                f"answered {shown}: {first_problem(error)}", "a chat completion"
+                f"answered {text[:60]!r}: {first_problem(error)}", "a chat completion"
             ) from None
         if choice.message.refusal or not choice.message.content:
-            why = self._without_key(choice.message.refusal or "an empty answer")[:200]
+            why = without_key(choice.message.refusal or "an empty answer", self._key)[:200]
             raise self._error(f"refused: {why!r}", "an answer")
         if choice.finish_reason == "length":
             raise self._error(f"answered more than {MOST_TOKENS} tokens", "no more than that")
-        return self._without_key(choice.message.content)
+        return without_key(choice.message.content, self._key)
 
     def _error(self, what: str, expected: str) -> AirhiltError:
         return self._service(self._settings.deadline_s).error(what, expected)
-
-    def _without_key(self, text: str) -> str:
-        """Return a text without the key, which an endpoint may quote."""
-        return text.replace(self._key, "***") if self._key else text
 
 
 def _format(schema: Mapping[str, Any], dialect: Dialect) -> dict[str, Any]:
@@ -201,12 +193,10 @@ def endpoint(url: str) -> str:
     LanguageModelError
         It contains a user, a password or a query, which ``run.json`` would keep.
     """
-    authority = url.partition("://")[2].partition("/")[0]
-    if "@" in authority or "?" in url or "#" in url:
-        base = f"{url.partition('://')[0]}://{authority.rpartition('@')[2].partition('?')[0]}"
+    if any(each in url for each in "@?#"):
         raise LanguageModelError(
-            f"language model: the address at {base} contains a user, a password, a query or a "
-            f"fragment; expected none, and the key in the environment as {KEY_VARIABLE}"
+            f"language model: the address at {without_user(url)} contains a user, a password, a "
+            f"query or a fragment; expected none, and the key in the environment as {KEY_VARIABLE}"
         )
     base = url.rstrip("/")
     return base if base.endswith(_PATH) else base + _PATH

@@ -114,10 +114,10 @@ def connect(
         assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
     _require_used(options, assistant)
     engines = _engines(options, scenario)
+    reference = reference_workers(assistant, scenario.radio, taken, engines)
     if not recorded.is_replay:
         for sentence in other_machines(assistant, engines):
             notice(sentence)
-    reference = reference_workers(assistant, scenario.radio, taken, engines)
     workers += [_participant(worker, "in process") for worker in reference]
     workers += equipment_of(scenario, [worker.description.name for worker in workers])
     _require_different_names(workers, programs)

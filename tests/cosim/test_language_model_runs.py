@@ -116,12 +116,37 @@ def test_options_that_do_not_fit_together_are_named(
     assert not (tmp_path / "run").exists()
 
 
-def test_a_run_says_that_it_sends_something_to_another_machine(
-    encounter: Scenario, tmp_path: Path
+class Stops(Observer):
+    """Stops a run when it tells its user something."""
+
+    def notice(self, text: str) -> None:
+        """Stop the run."""
+        raise AirhiltError(text)
+
+
+@pytest.mark.parametrize(
+    ("options", "what"),
+    [
+        ({"wording": "llm"}, "advisories"),
+        ({"assistant": "llm"}, "radio calls, tracks and advisories"),
+    ],
+)
+def test_a_run_says_what_it_sends_to_another_machine(
+    encounter: Scenario, tmp_path: Path, options: dict[str, Any], what: str
 ) -> None:
-    notices = Notices()
-    with pytest.raises(AirhiltError, match="nobody asks"):
+    url = "http://192.0.2.1/v1"
+    with pytest.raises(AirhiltError, match=f"^this run sends {what} to another machine: {url}$"):
         airhilt.run(
-            encounter, out=tmp_path / "run", observer=notices, llm="http://192.0.2.1/v1", **OPTIONS
+            encounter, out=tmp_path / "run", observer=Stops(), llm=url, **OPTIONS, **options
         )
-    assert notices.texts == ["this run sends advisories to another machine: http://192.0.2.1/v1"]
+
+
+def test_an_address_with_a_password_is_shown_nowhere(encounter: Scenario, tmp_path: Path) -> None:
+    notices = Notices()
+    with pytest.raises(AirhiltError, match="contains a user") as raised:
+        airhilt.run(
+            encounter, out=tmp_path / "run", observer=notices,
+            assistant="http://me:secret@192.0.2.1/advise", **OPTIONS,
+        )  # fmt: skip
+    assert "secret" not in f"{raised.value} {notices.texts}"
+    assert not (tmp_path / "run").exists()
