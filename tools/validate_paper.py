@@ -144,7 +144,8 @@ def _summaries(given: argparse.Namespace, names: Sequence[str]) -> dict[str, lis
 def _summary(given: argparse.Namespace, name: str, seed: int) -> Summary:
     """Return the summary of one run: that of the folder, or else a new one."""
     sight = "cameras" if given.cameras else "no-cameras"
-    path = given.out / f"{name}-{seed}-{given.assistant}-{sight}.json"
+    latency = given.latency.translate(str.maketrans("", "", ":,="))
+    path = given.out / f"{name}-{seed}-{given.assistant}-{sight}-{latency}.json"
     if not path.exists():
         with tempfile.TemporaryDirectory() as scratch:
             result = airhilt.run(

@@ -5,7 +5,8 @@
     python tools/warning_leads.py --json
 
 Runs have no cameras and no sound, and fixed latencies. No crew complies, so all assistants are
-measured against the same closest approach. With several seeds the numbers are medians.
+measured against the same closest approach. Nuisance alerts do not count. With several seeds the
+numbers are medians.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from rich.table import Table
 from airhilt import load, run
 from airhilt.library import names
 from airhilt.messages import Advisory, Severity
+from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import AircraftSpec
@@ -82,18 +84,26 @@ def _lead(name: str, seed: int, assistant: str) -> Lead:
             unheeded(load(name)), seed=seed, assistant=assistant, out=Path(scratch) / "run",
             cameras=False, speech=False, latency="fixed",
         )  # fmt: skip
-        closest = result.summary.closest_approach
-        told = [
+        advisories = [
             Advisory.model_validate_json(logged.data)
             for logged in read_log(result.folder / "log.mcap")
             if logged.key.startswith("advisory/")
         ]
+    caution_s, warning_s = (
+        lead_s(result.summary, advisories, severity)
+        for severity in (Severity.CAUTION, Severity.WARNING)
+    )
+    return Lead(name, seed, assistant, caution_s, warning_s)
 
-    def lead_s(severity: Severity) -> float | None:
-        times = [each.t_ns for each in told if each.severity.rank >= severity.rank]
-        return None if not times or closest is None else closest.t_s - min(times) / SECOND_NS
 
-    return Lead(name, seed, assistant, lead_s(Severity.CAUTION), lead_s(Severity.WARNING))
+def lead_s(summary: Summary, advisories: Sequence[Advisory], severity: Severity) -> float | None:
+    """Return how long before the closest approach the first advisory came that is so severe."""
+    meant = {one.id for one in summary.advisories if not one.nuisance}
+    times = [
+        each.t_ns for each in advisories if each.id in meant and each.severity.rank >= severity.rank
+    ]
+    closest = summary.closest_approach
+    return None if not times or closest is None else closest.t_s - min(times) / SECOND_NS
 
 
 def unheeded(scenario: Scenario) -> Scenario:

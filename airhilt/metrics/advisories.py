@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 
 from airhilt.messages import (
@@ -37,6 +37,8 @@ class AdvisoryRecord:
         True if its traffic was then going to lose separation.
     concerns_conflict
         True if a revision of it was about the annotated pair.
+    shown
+        Callsigns of the actors that cameras had really shown shortly before a revision.
     spoken_ns
         Time at which its voice was first heard, None if it never was.
     """
@@ -44,6 +46,7 @@ class AdvisoryRecord:
     first: Advisory
     loses_separation: bool
     concerns_conflict: bool = False
+    shown: frozenset[str] = frozenset()
     severities: list[Severity] = field(default_factory=list)
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
@@ -86,6 +89,7 @@ class AdvisoryRecords:
         record.revisions.add(advisory.revision)
         record.severities.append(advisory.severity)
         record.concerns_conflict |= self._concerns_conflict(advisory)
+        record.shown |= self._shown(advisory)
         return True
 
     def add_voice(self, identity: str, t_ns: int) -> None:
@@ -136,26 +140,32 @@ class AdvisoryRecords:
         ]
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
-        """Return true if an advisory is about the annotated pair.
+        """Return true if an advisory is about the annotated pair."""
+        pair = frozenset(self._pair or ())
+        return self._concerns(advisory, pair, self._shown(advisory))
 
-        It names both, whoever else, or one of them and nothing else with a callsign. What rests
-        on cameras must then have shown the other one, whatever it was taken for.
+    def _concerns(self, advisory: Advisory, actors: Set[str], shown: Set[str]) -> bool:
+        """Return true if an advisory is about some actors that are in one conflict.
+
+        It names all of them, whoever else, or one and nothing else with a callsign. What rests on
+        cameras must then have shown another one, whatever it was taken for; what rests on ADS-B
+        alone must name all.
         """
-        traffic = self._traffic(advisory)
-        named = {name for name in traffic if name in self._callsigns}
-        pair = set(self._pair or ())
-        if pair and pair <= named:
+        named = {name for name in self._traffic(advisory) if name in self._callsigns}
+        if actors and actors <= named:
             return True
-        if not named or not named <= pair:
+        if not named or not named <= actors:
             return False
-        others = pair - named
-        if advisory.kind == "readback_mismatch":
-            return True
         sources = advisory.evidence.sources
         if "vision" in sources:
-            since_ns = advisory.t_ns - SEEN_WITHIN_NS
-            return any(self._was_seen(other, since_ns) for other in others)
-        return "radio" in sources or len(traffic) == 1
+            return not shown.isdisjoint(actors - named)
+        return "radio" in sources
+
+    def _shown(self, advisory: Advisory) -> frozenset[str]:
+        """Return the callsigns of the actors that cameras really showed before an advisory."""
+        since_ns = advisory.t_ns - SEEN_WITHIN_NS
+        callsigns = set(self._callsigns.values())
+        return frozenset(name for name in callsigns if self._was_seen(name, since_ns))
 
     def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
         """Return an advisory's traffic by callsign; a name that no actor has stays as it is."""
@@ -180,8 +190,7 @@ class AdvisoryRecords:
             return False
         if record.first.kind == "loss_of_separation":
             return self._pair is None or not record.loses_separation
-        named = set(self._traffic(record.first))
-        return not any(named & actors for actors in involved)
+        return not any(self._concerns(record.first, actors, record.shown) for actors in involved)
 
 
 def _involved(incursions: Iterable[RunwayIncursion]) -> list[frozenset[str]]:

@@ -129,7 +129,7 @@ def _of_calls(evidence: _Evidence, now_ns: int) -> EvidenceAge:
         stale_ns += max(judged_ns - begin_ns, 0)
         done_ns = max(done_ns, judged_ns)
     lengths_ns = [judged_ns - ended_ns for ended_ns, judged_ns in waits_ns]
-    whole_ns = now_ns - evidence.arrivals[0][1]
+    whole_ns = now_ns - waits_ns[0][0]
     return EvidenceAge(
         mean_s=sum(lengths_ns) / len(lengths_ns) / SECOND_NS,
         max_s=max(lengths_ns) / SECOND_NS,

@@ -14,6 +14,13 @@ SERIOUS = frozenset(SEVEREST_FIRST[:3])
 """Categories that mean that a conflict was not avoided."""
 INFRINGEMENTS = frozenset({"loss_of_separation", "nmac", "collision"})
 """Phases that mean that a conflict was not avoided."""
+AT_LEAST: dict[UnassistedOutcome, frozenset[str]] = {
+    "collision": frozenset({"collision"}),
+    "nmac": frozenset({"nmac", "collision"}),
+    "runway_incursion": frozenset({"collision"}),
+    "loss_of_separation": INFRINGEMENTS,
+}
+"""Phases of a pair that are as severe as the outcome that a scenario declares, or more so."""
 
 
 class Outcome:
@@ -87,26 +94,25 @@ class Outcome:
         return min(categories, key=SEVEREST_FIRST.index, default=None)
 
     def came_about(self, declared: UnassistedOutcome) -> bool:
-        """Return true if the outcome that a scenario declares, or a more severe one, came about."""
-        match declared:
-            case "runway_incursion":
-                return self.worst_category() in SERIOUS
-            case "collision":
-                return self.happened("collision")
-            case "nmac":
-                return self.happened("nmac") or self.happened("collision")
-            case "loss_of_separation":
-                return self.happened("loss_of_separation")
+        """Return true if the annotated pair came to what a scenario declares, or to worse."""
+        if declared == "runway_incursion" and self._pair_in_serious_incursion():
+            return True
+        truth = self.pair_truth
+        return truth is not None and not truth.first_ns.keys().isdisjoint(AT_LEAST[declared])
 
     def avoided(self, was_warned: bool) -> bool | None:
         """Return true if the conflict was avoided after a warning, None if nothing happened."""
         truth = self.pair_truth
         if truth is not None and truth.first_ns.keys() & INFRINGEMENTS:
             return False
-        pair = set(self._pair or ())
-        if any(
-            incursion.category in SERIOUS and {incursion.user, incursion.intruder} <= pair
-            for incursion in self.incursions()
-        ):
+        if self._pair_in_serious_incursion():
             return False
         return True if was_warned else None
+
+    def _pair_in_serious_incursion(self) -> bool:
+        """Return true if the annotated pair came to an incursion of category A or B, or worse."""
+        pair = set(self._pair or ())
+        return any(
+            incursion.category in SERIOUS and {incursion.user, incursion.intruder} <= pair
+            for incursion in self.incursions()
+        )

@@ -317,9 +317,9 @@ class Summary(BaseModel):
     )
     unassisted_as_declared: bool | None = Field(
         default=None,
-        description="without an assistant, the conflict window opened and the outcome that the "
-        "scenario declares as unassisted, or a more severe one, came about; null with an "
-        "assistant, without a conflict, or if equipment of the world averted it",
+        description="without an assistant, the conflict window opened and the annotated pair came "
+        "to the outcome that the scenario declares as unassisted, or to a more severe one; null "
+        "with an assistant, without a conflict, or if equipment of the world averted it",
     )
     nuisance_alerts: int = Field(
         description="advisories of CAUTION or above about traffic that was in no conflict"

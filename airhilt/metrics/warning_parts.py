@@ -83,7 +83,8 @@ class WarningStatistics(BaseModel):
     mean_s: float | None
     median_s: float | None
     share_before: float | None = Field(
-        description="share of the warnings that came before the conflict began: those below 0"
+        description="share of the warnings that came before the conflict began: those below 0, "
+        "and those of a conflict that then never began"
     )
     mean_after_call_s: float | None = Field(
         description="mean from the end of the call that begins the conflict, where one does"
@@ -92,15 +93,25 @@ class WarningStatistics(BaseModel):
 
     @classmethod
     def of(cls, summaries: Sequence[Summary]) -> WarningStatistics:
-        """Return the statistics of runs; a run that nobody was warned in counts in `runs` only."""
+        """Return the statistics of runs; a run that nobody was warned in counts in `runs` only.
+
+        A warning of a conflict that then never began has no time: it counts in `warned` and in
+        `share_before`.
+        """
+        warned = [summary for summary in summaries if summary.t_first_warning_s is not None]
         times = _known(summary.time_to_first_warning_s for summary in summaries)
         parts = [one for summary in summaries if (one := summary.first_warning_parts) is not None]
         return cls(
             runs=len(summaries),
-            warned=len(times),
+            warned=len(warned),
             mean_s=_mean(times),
             median_s=float(np.median(times)) if times else None,
-            share_before=_mean([time_s < 0.0 for time_s in times]),
+            share_before=_mean(
+                [
+                    summary.time_to_first_warning_s is None or summary.time_to_first_warning_s < 0.0
+                    for summary in warned
+                ]
+            ),
             mean_after_call_s=_mean(
                 _known(summary.time_to_first_warning_after_call_s for summary in summaries)
             ),

@@ -68,6 +68,15 @@ def test_a_quiet_frequency_is_not_stale_and_a_call_that_waits_is() -> None:
     assert ages.statistics(seconds_to_ns(110))["asr"].stale_share == pytest.approx(0.1)
 
 
+def test_a_call_whose_transcript_comes_after_that_of_a_later_one_is_stale_for_a_share() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(call(40.0, 41.0))
+    ages.step(step(41.0, 0.0))
+    ages.take(call(10.0, 50.0))
+    ages.step(step(50.0, 0.0))
+    assert ages.statistics(seconds_to_ns(60))["asr"].stale_share == pytest.approx(0.7)
+
+
 def test_steps_of_others_judge_nothing() -> None:
     ages = EvidenceAges(["decision"])
     ages.take(call(10.0, 10.0))

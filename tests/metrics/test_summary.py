@@ -240,6 +240,23 @@ def test_a_run_without_an_assistant_tells_whether_the_declared_outcome_came_abou
     assert unassisted(followed) is True
 
 
+@pytest.mark.parametrize(
+    ("declared", "phase", "as_declared"),
+    [("loss_of_separation", "nmac", True), ("loss_of_separation", "collision", True),
+     ("nmac", "collision", True), ("runway_incursion", "collision", True),
+     ("nmac", "loss_of_separation", False), ("collision", "nmac", False)],
+)  # fmt: skip
+def test_the_declared_outcome_or_a_more_severe_one_is_as_declared(
+    declared: str, phase: str, as_declared: bool
+) -> None:
+    assert SCENARIO.conflict is not None
+    conflict = SCENARIO.conflict.model_copy(update={"unassisted": declared})
+    followed = FollowedRun(SCENARIO.model_copy(update={"conflict": conflict})).open_window()
+    followed.watch.fly(1.0)
+    followed.watch.monitor.pairs[FIRST, SECOND].first_ns[cast(Any, phase)] = 0
+    assert unassisted(followed) is as_declared
+
+
 def test_the_declared_outcome_is_not_asked_for_with_an_assistant_or_without_a_conflict() -> None:
     assert unassisted(FollowedRun().open_window(), "reference") is None
     assert unassisted(FollowedRun(SCENARIO.model_copy(update={"conflict": None}))) is None
@@ -379,6 +396,15 @@ def test_an_incursion_of_others_is_recorded_and_leaves_the_conflict_avoided() ->
     assert summary.avoided is not False
 
 
+def test_an_incursion_of_others_is_not_the_declared_outcome() -> None:
+    assert SCENARIO.conflict is not None
+    conflict = SCENARIO.conflict.model_copy(update={"unassisted": "runway_incursion"})
+    declaring = SCENARIO.model_copy(update={"conflict": conflict})
+    assert unassisted(Airport(incursion(10.0), scenario=declaring)) is True
+    of_others = Airport(incursion(10.0, intruder="DEER1"), scenario=declaring)
+    assert unassisted(of_others) is False
+
+
 def test_without_incursions_there_is_no_category() -> None:
     summary = Airport().summary()
     assert (summary.runway_incursions, summary.runway_incursion_category) == ([], None)
@@ -391,13 +417,13 @@ def runway_advisory(*traffic: str) -> Advisory:
 
 @pytest.mark.parametrize(
     ("traffic", "nuisance"),
-    [((FIRST, SECOND), False), ((FIRST,), False), ((FIRST, "UAL7"), True),
+    [((FIRST, SECOND), False), ((FIRST,), True), ((FIRST, "UAL7"), True),
      (("UAL7", "OPS9"), True), (("UAL7",), True)],
 )  # fmt: skip
 def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(
     traffic: tuple[Any, ...], nuisance: bool
 ) -> None:
-    """Traffic by ADS-B has an address: an alert about somebody else is of another conflict."""
+    """Traffic by ADS-B has an address: an alert that does not name it is not about it."""
     summary = Airport().take(runway_advisory(*traffic)).summary()
     assert summary.nuisance_alerts == int(nuisance)
     assert (summary.t_first_warning_s == 9.0) is not nuisance
@@ -429,10 +455,20 @@ def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true(
     quiet = SCENARIO.model_copy(update={"conflict": None})
     followed = runway_advisory(FIRST, SECOND)
     assert Airport(scenario=quiet).take(followed).summary().nuisance_alerts == 1
-    came_true = Airport(incursion(user=FIRST, intruder="DEER1"), scenario=quiet)
+    came_true = Airport(incursion(user=FIRST, intruder=SECOND), scenario=quiet)
     assert came_true.take(followed).summary().nuisance_alerts == 0
-    of_others = Airport(incursion(user="UAL7", intruder="DEER1"), scenario=quiet)
-    assert of_others.take(followed).summary().nuisance_alerts == 1
+    for user in (FIRST, "UAL7"):
+        of_others = Airport(incursion(user=user, intruder="DEER1"), scenario=quiet)
+        assert of_others.take(followed).summary().nuisance_alerts == 1
+
+
+def test_an_alert_about_a_cloud_stays_a_nuisance_where_an_incursion_happens_with_another() -> None:
+    of_cloud = runway_advisory(FIRST, "unidentified").model_copy(
+        update={"evidence": Evidence(sources=("vision", "adsb"))}
+    )
+    summary = Airport(incursion(10.0)).take(of_cloud).summary()
+    assert summary.nuisance_alerts == 1
+    assert summary.t_first_warning_s is None
 
 
 # --- with a voice ---------------------------------------------------------------------------

@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict
 
 import airhilt
 from airhilt.files import replace_file
-from airhilt.metrics.summary import Summary
 
 
 class Case(BaseModel):
@@ -37,8 +36,6 @@ class Row(Case):
     family: str
     outcome: str
     has_conflict: bool
-    is_bad: bool
-    """There was a loss of separation, an NMAC, a collision, or an incursion of category A or B."""
     is_warned: bool
     avoided: bool | None
     loss_of_separation: bool
@@ -69,7 +66,6 @@ def run_case(case: Case, folder: Path) -> None:
         family=scenario.family,
         outcome=summary.outcome,
         has_conflict=scenario.conflict is not None,
-        is_bad=is_bad(summary),
         is_warned=summary.t_first_warning_s is not None,
         avoided=summary.avoided,
         loss_of_separation=summary.loss_of_separation,
@@ -85,13 +81,3 @@ def run_case(case: Case, folder: Path) -> None:
         ],
     )
     replace_file(folder / case.file_name, row.model_dump_json(indent=2).encode())
-
-
-def is_bad(summary: Summary) -> bool:
-    """Return whether something came about that an assistant is to prevent."""
-    return (
-        summary.loss_of_separation
-        or summary.nmac
-        or summary.collision
-        or summary.runway_incursion_category in ("accident", "A", "B")
-    )

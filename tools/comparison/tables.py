@@ -75,8 +75,11 @@ def not_avoided(rows: Sequence[Row]) -> Table:
 
 
 def _bad_without(rows: Sequence[Row]) -> set[tuple[str, int]]:
+    """Return the runs in which the annotated pair comes to harm without an assistant."""
     return {
-        (row.scenario, row.seed) for row in rows if row.assistant == NO_ASSISTANT and row.is_bad
+        (row.scenario, row.seed)
+        for row in rows
+        if row.assistant == NO_ASSISTANT and row.avoided is False
     }
 
 
