@@ -9,6 +9,14 @@ import pytest
 
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
+from airhilt.surveillance.tcas_resolution import (
+    RATE_M_S,
+    RESPONSE_S,
+    Resolution,
+    Vertical,
+    select,
+    separation_m,
+)
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 HIGH = 35_000 * FOOT
@@ -141,3 +149,16 @@ def test_a_resolution_without_a_traffic_advisory_before_counts_as_both() -> None
 def test_of_two_aircraft_the_one_that_speaks_first_counts() -> None:
     early, late = tcas.Projection(10.0, None), tcas.Projection(12.0, 20.0)
     assert tcas.earliest(early, late) == tcas.earliest(late, early) == (10.0, 20.0)
+
+
+def test_the_sense_that_does_not_cross_the_intruder_is_chosen_if_it_gives_alim() -> None:
+    """Though the other sense gives more: the intruder climbs from 100 ft below."""
+    own, intruder = Vertical(HIGH, 0.0), Vertical(HIGH - 100 * FOOT, 250 * FOOT / 60.0)
+    alim_m = 600 * FOOT
+    crossing, other = (
+        separation_m(own, intruder, Resolution(sense, RATE_M_S), 35.0, RESPONSE_S)
+        for sense in ("descend", "climb")
+    )
+    assert crossing > other > alim_m
+    chosen = select(own, intruder, 35.0, alim_m, required=None, may_descend=True)
+    assert chosen == Resolution("climb", RATE_M_S)

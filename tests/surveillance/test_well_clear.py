@@ -89,3 +89,9 @@ def test_two_that_are_too_close_already_have_violated_it() -> None:
     standing = Relative(500.0, 0.0, 0.0, 0.0)
     assert time_to_violation_s(standing, LEVEL, CORRECTIVE.volume) == 0.0
     assert time_to_violation_s(standing, Gap(800 * FOOT, 0.0), PREVENTIVE.volume) is None
+
+
+@pytest.mark.parametrize(("miss_nm", "is_lost"), [(0.65, True), (0.67, False)])
+def test_the_miss_distance_that_counts_is_0_66_nm(miss_nm: float, is_lost: bool) -> None:
+    violation_s = time_to_violation_s(meets(60.0, 500.0, miss_nm), LEVEL, WARNING.volume)
+    assert (violation_s is not None) == is_lost

@@ -66,9 +66,19 @@ class Mention(NamedTuple):
 
 
 class Told(NamedTuple):
-    """An action in a message, and who is told to do it."""
+    """An action in a message, with what stands in the same clause.
 
-    callsign: str
+    Attributes
+    ----------
+    callsigns
+        Callsigns of the clause, or the recipient: who is told to do it.
+    quantities
+        Numbers of the clause with their units, such as a level and a rate. A time does not get in
+        there: "go around, 12 s to go" is not "go around in 12 s".
+    """
+
+    callsigns: tuple[str, ...]
+    quantities: tuple[tuple[str, str], ...]
     action: str
     sense: str | None
     altitude_ft: float | None
@@ -116,17 +126,12 @@ def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:
     naming = roster_of(known).naming(words)
     mentions, rest = _without_callsigns(words, naming)
     runways, rest = _without_runways(rest)
-    quantities = Counter(
-        (word, UNITS.get(after, ""))
-        for word, after in zip(rest, [*rest[1:], ""], strict=True)
-        if _NUMBER.fullmatch(word)
-    )
     return Reading(
         addressed=naming.match.callsign if naming.addressed_first else None,
         mentions=mentions,
         runways=runways,
         actions=_actions(text, recipient, known),
-        quantities=quantities,
+        quantities=_quantities(rest),
         words=Counter(word for word in rest if not _NUMBER.fullmatch(word)),
     )
 
@@ -211,17 +216,28 @@ def _without_runways(words: list[str]) -> tuple[tuple[str, ...], list[str]]:
     return found, NAMED_RUNWAY.sub(" ", text).split()
 
 
+def _quantities(words: list[str]) -> Counter[tuple[str, str]]:
+    """Return the numbers among some words, each with its unit."""
+    return Counter(
+        (word, UNITS.get(after, ""))
+        for word, after in zip(words, [*words[1:], ""], strict=True)
+        if _NUMBER.fullmatch(word)
+    )
+
+
 def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Told, ...]:
-    """Return who is told to do what: whom a clause begins with, or else the recipient."""
+    """Return who is told to do what: whom a clause names, or else the recipient."""
     told: list[Told] = []
     for clause in _CLAUSES.split(text):
-        if not clause.strip():
+        words = tokens(clause)
+        if not words:
             continue
-        call = parse_call(clause, callsigns)
-        whom = call.match.callsign if call.addressed_first else None
+        mentions, rest = _without_callsigns(words, roster_of(callsigns).naming(words))
+        _, rest = _without_runways(rest)
         told += (
             Told(
-                whom or recipient,
+                tuple(each.callsign for each in mentions) or (recipient,),
+                tuple(sorted(_quantities(rest).elements())),
                 each.action,
                 each.sense,
                 each.altitude_ft,
@@ -229,7 +245,7 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
                 each.heading_deg,
                 each.condition,
             )
-            for each in call.instructions
+            for each in parse_call(clause, callsigns).instructions
         )
     return tuple(sorted(told, key=repr))
 
@@ -244,7 +260,12 @@ def _listed(mentions: tuple[Mention, ...]) -> str:
 
 
 def _acts(actions: tuple[Told, ...]) -> str:
-    return ", ".join(" ".join(str(part) for part in each if part) for each in actions) or "none"
+    return ", ".join(_act(each) for each in actions) or "none"
+
+
+def _act(told: Told) -> str:
+    amounts = [f"{n} {unit}".strip() for n, unit in told.quantities]
+    return " ".join([*told.callsigns, *(str(part) for part in told[2:] if part), *amounts])
 
 
 def _amounts(read: Reading) -> str:

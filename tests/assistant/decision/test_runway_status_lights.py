@@ -189,6 +189,13 @@ def test_a_truck_without_a_transponder_is_told_by_the_name_that_no_track_has() -
     assert lit(arrival(), truck).red("OPS1")
 
 
+def test_nobody_is_named_where_two_tracks_have_no_name() -> None:
+    """A deer beside the truck: the name that no track has may be that of either."""
+    truck, deer = comes_to_hold(0.0), comes_to_hold(0.0, along_m=900.0)
+    truck.equipped = deer.equipped = False
+    assert not lit(arrival(), truck, deer).red("OPS1")
+
+
 def test_the_numbers_of_the_lights_can_be_set() -> None:
     field = SurfaceField([arrival(), comes_to_hold(0.0)])
     field.configuration = {"arrival_m": 3000.0}
@@ -207,6 +214,13 @@ def test_take_off_hold_lights_are_red_while_somebody_is_on_the_runway_ahead() ->
     assert field.red("AAL123")[0] == pytest.approx(enters_s, abs=2.5)
     assert field.out("AAL123")[0] == pytest.approx(leaves_s, abs=3.5)
     assert not field.red("AAL123", "WARNING")
+
+
+@pytest.mark.parametrize(("along_m", "is_lit"), [(550.0, True), (600.0, False)])
+def test_take_off_hold_lights_end_1_875_ft_past_the_threshold(along_m: float, is_lit: bool) -> None:
+    truck = Mover("OPS1", NORTH, stands(1500.0), category="C2")
+    field = lit(Mover("AAL123", NORTH, stands(along_m)), truck, seconds=10)
+    assert bool(field.red("AAL123")) == is_lit
 
 
 def test_a_crew_that_rolls_against_them_rejects_the_take_off() -> None:

@@ -43,6 +43,13 @@ def test_it_alerts_both_crews_when_daidalus_does() -> None:
     assert not encounter.told[-1][1].active
 
 
+def test_an_alert_ends_5_s_after_the_two_are_well_clear_again() -> None:
+    past_dmod_s = 0.66 / 960.0 * 3600.0
+    ended_s, last = flown(head_on(250.0)).told[-1]
+    assert not last.active
+    assert ended_s - MEETS_S == pytest.approx(past_dmod_s + 5.0, abs=1.5)
+
+
 def test_a_passing_at_3_nm_is_no_alert() -> None:
     assert flown(head_on(250.0, offset_nm=3.0)).told == []
 

@@ -7,7 +7,8 @@ to stop short of it goes by their own judgement, as the protocol for the lights 
 recommended.
 
 The real lights need no address. Here a target without a transponder is told by the name of the only
-vehicle of the roster that no track has; without one, nobody can be told.
+vehicle of the roster that no track has. If there is no such vehicle, or another target without a
+name, such as an animal, nobody can be told.
 """
 
 from __future__ import annotations
@@ -105,8 +106,9 @@ class RunwayStatusLightEngine:
         """Return the name of a target; by elimination, if it has no transponder."""
         if target.callsign or target.icao24:
             return target.callsign or target.icao24
+        unnamed = [each for each in traffic if not (each.callsign or each.icao24)]
         missing = self._vehicles - {each.callsign for each in traffic}
-        return next(iter(missing)) if len(missing) == 1 else None
+        return next(iter(missing)) if len(missing) == len(unnamed) == 1 else None
 
 
 def _response(red: RedLights, viewer: str) -> dict[str, Recommendation]:
