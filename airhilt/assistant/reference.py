@@ -178,10 +178,14 @@ def _connect_language_model(
 
 
 def is_own_engine(name: str) -> bool:
-    """Return whether a decision engine of that name comes with AIRHILT; empty names none."""
-    from airhilt.assistant.decision.engines import FAMILY
+    """Return whether a decision engine of that name comes with AIRHILT; empty names none.
 
-    return any(point.name == name for point in FAMILY.own())
+    The one that asks a service does not count: the service is the user's.
+    """
+    from airhilt.assistant.decision.engines import FAMILY
+    from airhilt.assistant.decision.engines.http import ENGINE as SERVICE
+
+    return name != SERVICE.name and any(point.name == name for point in FAMILY.own())
 
 
 def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:

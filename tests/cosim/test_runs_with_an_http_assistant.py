@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import runpy
 import threading
 from http.server import HTTPServer
@@ -10,6 +11,7 @@ from typing import Any
 
 import airhilt
 from airhilt import Scenario
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.messages import Event, Severity
 from airhilt.record import read_log
@@ -17,6 +19,28 @@ from paths import ROOT
 from services import answering, nobody, service
 
 OPTIONS: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
+STRANGER = {
+    "id": "x", "kind": "loss_of_separation", "severity": "WARNING", "recipients": ["NOBODY9"],
+    "traffic": ["AAL123", "DAL456"],
+}  # fmt: skip
+
+
+class Notices(Observer):
+    """Keeps what a run tells its user."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+
+    def notice(self, text: str) -> None:
+        """Keep a notice."""
+        self.texts.append(text)
+
+
+def test_a_service_that_warns_nobody_gets_a_hint(encounter: Scenario, tmp_path: Path) -> None:
+    notices = Notices()
+    with service(answering(json.dumps({"advisories": [STRANGER]}).encode())) as url:
+        airhilt.run(encounter, out=tmp_path / "run", observer=notices, assistant=url, **OPTIONS)
+    assert [text for text in notices.texts if "WARNING to NOBODY9: nobody has that name" in text]
 
 
 def test_the_example_warns_both_crews_and_its_run_replays_without_it(
