@@ -7,13 +7,20 @@ const PARTS = {
   voice_s: ["Voice", "from t_dec to t_tts: the advisory, until it is heard"],
 };
 const parts = summary && summary.first_warning_parts;
+const colour = (part) => `var(--c${Object.keys(PARTS).indexOf(part)})`;
+
+function swatch(part) {
+  const mark = html("span", { class: "swatch" });
+  mark.style.background = colour(part);
+  return mark;
+}
 
 function drawTable() {
   if (!parts) return;
   byId("warning").hidden = false;
-  const row = (name, meaning, value) => html("tr", {}, html("td", { class: "text" }, html("b", {}, name), html("div", { class: "dim" }, meaning)), html("td", { class: "number" }, seconds(value, 2)));
+  const row = (name, meaning, value, ...key) => html("tr", {}, html("td", { class: "text" }, ...key, html("b", {}, name), html("div", { class: "dim" }, meaning)), html("td", { class: "number" }, seconds(value, 2)));
   const after = summary.time_to_first_warning_after_call_s;
-  byId("warning-parts").append(...Object.entries(PARTS).map(([part, [name, meaning]]) => row(name, meaning, parts[part])),
+  byId("warning-parts").append(...Object.entries(PARTS).map(([part, [name, meaning]]) => row(name, meaning, parts[part], swatch(part))),
     row("Time to first warning", "from the begin of the conflict; negative: warned before it", summary.time_to_first_warning_s),
     ...(known(after) ? [row("After the call", "from the end of the call that begins the conflict", after)] : []));
   byId("warning-begins").textContent = data.begins ? `begins with ${data.begins}, at ${seconds(summary.t_conflict_s)}` : "";
@@ -22,7 +29,7 @@ function drawTable() {
 function drawBar() {
   if (!parts) return;
   const { root, width } = canvas(byId("warning-bar"), 96, "Parts of the time to first warning"), area = { left: 16, right: width - 16, top: 12, bottom: 48 };
-  const spans = Object.keys(PARTS).map((part, i) => ({ part, value: parts[part], colour: `var(--c${i})` }));
+  const spans = Object.keys(PARTS).map((part) => ({ part, value: parts[part], colour: colour(part) }));
   const low = Math.min(...spans.map(({ value }) => value), 0), high = spans.reduce((sum, { value }) => sum + Math.max(value, 0), 0);
   const x = scale(low, Math.max(high, low + 1), area.left, area.right), step = niceTimeStep(Math.max(high - low, 1), 8);
   for (const value of ticks(low, high, step)) {
@@ -38,7 +45,7 @@ function drawBar() {
     root.append(bar);
     if (value > 0) from += value;
   }
-  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 38, "text-anchor": "middle" }, "Time from the begin of the conflict"));
+  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 38, "text-anchor": "middle" }, "Parts added up from the begin of the conflict, in the order of the table"));
 }
 
 return { draw: drawTable, fit: drawBar };

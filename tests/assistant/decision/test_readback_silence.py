@@ -5,6 +5,10 @@ from __future__ import annotations
 import pytest
 
 from airfield import NORTH, Airfield, Mover, lands, stands
+from airhilt.assistant.decision.readback_silence import ReadbackSilence
+from airhilt.messages import TransmissionOpened
+from airhilt.units import SECOND_NS
+from decisions import transcript
 
 CANCEL = "Delta four five six, cancel takeoff clearance, hold position."
 READ_BACK = "Cancel takeoff, hold position, Delta four five six."
@@ -64,3 +68,36 @@ def test_without_anybody_else_at_the_runway_silence_is_nothing() -> None:
 
 def test_where_transmissions_are_not_heard_to_begin_nothing_is_known_of_silence() -> None:
     assert silences(field(openings=False).run(60.0)) == []
+
+
+INSTRUCTED = transcript("cancel", 118_100, 0, 3 * SECOND_NS, CANCEL)
+
+
+def opened(name: str, frequency_khz: int, t_s: float) -> TransmissionOpened:
+    return TransmissionOpened(id=name, frequency_khz=frequency_khz, t_tx_ns=round(t_s * SECOND_NS))
+
+
+def late_after(*others: TransmissionOpened, t_s: float) -> bool:
+    """Return whether the readback is late at a time, after others have begun to transmit."""
+    silence = ReadbackSilence()
+    silence.take_opening(opened("cancel", 118_100, 0.0))
+    silence.take_transcript(INSTRUCTED)
+    for other in others:
+        silence.take_opening(other)
+    return silence.is_late(INSTRUCTED, round(t_s * SECOND_NS))
+
+
+def test_a_readback_is_late_five_seconds_after_the_instruction() -> None:
+    assert not late_after(t_s=7.9)
+    assert late_after(t_s=8.0)
+
+
+def test_calls_on_another_frequency_do_not_put_it_off() -> None:
+    assert late_after(opened("other", 121_900, 5.0), t_s=8.0)
+    assert not late_after(opened("other", 118_100, 5.0), t_s=8.0)
+
+
+def test_a_transmission_without_words_is_no_readback_in_the_end() -> None:
+    carrier = opened("carrier", 118_100, 5.0)
+    assert not late_after(carrier, t_s=34.9)
+    assert late_after(carrier, t_s=35.0)

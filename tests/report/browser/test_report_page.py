@@ -79,6 +79,7 @@ def test_all_charts_are_drawn(page: Page, report: Path) -> None:
 def test_the_parts_of_the_time_to_first_warning_are_drawn(page: Page, report: Path) -> None:
     page.open(report)
     assert page.evaluate("document.querySelectorAll('#warning-bar rect.part').length") == 5
+    assert page.evaluate("document.querySelectorAll('#warning-parts .swatch').length") == 5
     rows = page.evaluate("document.querySelectorAll('#warning-parts tr').length")
     assert rows == 6  # The parts and their sum; no call begins this conflict.
     begins = page.evaluate("document.getElementById('warning-begins').textContent")
