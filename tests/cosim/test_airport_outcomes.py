@@ -8,7 +8,11 @@ from typing import Any
 import pytest
 
 from airhilt import library, load, run
+from airhilt.messages import SpokenTruth
 from airhilt.metrics.summary import Summary
+from airhilt.record import read_log
+from airhilt.scenario.models import LineBegun
+from airhilt.units import SECOND_NS
 
 SCENARIOS = [name for name in library.names("scenarios") if not name.startswith("s02a")]
 NOMINAL = [name for name in SCENARIOS if name.endswith("_nominal")]
@@ -44,6 +48,19 @@ def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
     assert summary.unassisted_as_declared
     assert summary.avoided is False
     assert summary.t_first_warning_s is None
+    conflict = load(name).conflict
+    if conflict is not None and isinstance(conflict.begins, LineBegun):
+        assert summary.t_conflict_s == begin_s(tmp_path / "run", conflict.begins.line)
+
+
+def begin_s(folder: Path, line: str) -> float:
+    """Return when a line of the script began to be transmitted."""
+    said = (
+        SpokenTruth.model_validate_json(logged.data)
+        for logged in read_log(folder / "log.mcap")
+        if logged.key.startswith("truth/radio/")
+    )
+    return next(one.t_tx_ns / SECOND_NS for one in said if one.id == line)
 
 
 @pytest.mark.slow

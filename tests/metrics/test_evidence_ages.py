@@ -49,6 +49,18 @@ def test_what_a_slow_worker_judges_by_is_stale_for_most_of_the_time() -> None:
     assert age.stale_share == pytest.approx(35.0 / 40.0)
 
 
+def test_a_step_has_what_arrived_before_it_began_and_not_what_arrived_meanwhile() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(report(0.0, 0.0))
+    ages.take(report(1.0, 1.0))
+    ages.step(step(0.0, 4.0))
+    ages.step(step(4.0, 0.0))
+    assert ages.statistics(seconds_to_ns(5))["adsb"].max_s == pytest.approx(4.0)
+    ages.take(report(5.0, 5.0))
+    ages.step(step(4.5, 3.5))
+    assert ages.statistics(seconds_to_ns(12))["adsb"].max_s == pytest.approx(11.0)
+
+
 def test_an_outage_makes_evidence_stale() -> None:
     ages = EvidenceAges(["decision"])
     ages.take(report(0.0, 0.0))

@@ -416,6 +416,15 @@ def test_it_becomes_a_caution_when_somebody_is_cleared_on_to_the_runway_later() 
     assert field.first("CAUTION", "readback_mismatch")[0] == 50.0
 
 
+@pytest.mark.parametrize(("t_s", "is_told"), [(40.0, False), (78.0, True)])
+def test_who_is_cleared_to_cross_and_unseen_is_across_after_half_a_minute(
+    t_s: float, is_told: bool
+) -> None:
+    calls = [(t_s, "Ops one, cross runway zero one.")]
+    field = Airfield([arrival(95)], calls).run(90)
+    assert ("CAUTION" in [each.severity for each in field.to("AAL123")]) is is_told
+
+
 def test_a_readback_that_is_put_right_is_nothing_any_more() -> None:
     calls = [
         CLEARED,

@@ -304,10 +304,10 @@ def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it() ->
     ]  # fmt: skip
 
 
-def asked(world: World, recipient: str, *names: str) -> None:
-    """Advise somebody at 30 s to confirm calls of AAL123."""
+def asked(world: World, recipient: str, *names: str, t_s: float = 30.0) -> None:
+    """Advise somebody at a time to confirm calls of AAL123."""
     advisory = Advisory(
-        t_ns=seconds_to_ns(30.0), id="decision-1", revision=0, recipient=recipient,
+        t_ns=seconds_to_ns(t_s), id="decision-1", revision=0, recipient=recipient,
         recipients=(recipient,), kind="clarification", severity=Severity.ADVISORY,
         traffic=("AAL123",), message="confirm", t_ready_ns=0,
         recommendation=Confirm(callsign="AAL123", slot="altitude"),
@@ -354,6 +354,18 @@ def test_who_had_missed_the_call_takes_it_when_it_is_said_again() -> None:
     world.run_until(60.0)
     assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
     assert [callsign for callsign, _, _ in world.done] == ["AAL123"]
+
+
+@pytest.mark.parametrize("recipient", ["ATC", "AAL123"])
+def test_a_blocked_call_that_is_about_to_be_repeated_is_not_asked_for(recipient: str) -> None:
+    """The two calls block each other at 10 s, and are made again at 19.5 s and 22.3 s."""
+    other = line("request", 10.1, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = World(CLEARANCE, other)
+    asked(world, recipient, "clearance", t_s=15.0)
+    world.run_until(60.0)
+    assert [name for name in world.said() if name.startswith("clearance")] == [
+        "clearance", "clearance.repeat-1"
+    ]  # fmt: skip
 
 
 def test_a_request_to_confirm_what_was_never_said_is_left_alone() -> None:

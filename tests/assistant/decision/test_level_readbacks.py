@@ -1,0 +1,60 @@
+"""A readback and a doubt about a level matter for a while, and then no more."""
+
+from __future__ import annotations
+
+import pytest
+
+from airhilt.assistant.decision.air_tracks import AirTracks
+from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.level_readbacks import LevelReadbacks
+from airhilt.assistant.decision.loss_prediction import SeparationStandard
+from airhilt.messages import AdsbReport
+from airhilt.units import SECOND_NS
+from decisions import transcript
+
+CONFIG = SeparationStandard()
+CLIMB = "American one two three, climb and maintain flight level three three zero."
+WRONG = "Climb and maintain flight level three four zero, American one two three."
+UNSURE = "Climb and maintain flight level three four? zero, American one two three."
+
+
+def report(callsign: str, longitude_deg: float, track_deg: float, altitude_ft: float) -> AdsbReport:
+    return AdsbReport(
+        t_ns=0, icao24=callsign.encode().hex()[-6:], callsign=callsign, latitude_deg=38.9,
+        longitude_deg=longitude_deg, altitude_ft=altitude_ft, ground_speed_kt=480.0,
+        track_deg=track_deg, vertical_rate_fpm=0, nacp=9, nacv=2, receiver="all", t_adsb_in_ns=0,
+        t_adsb_out_ns=0,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def readbacks() -> LevelReadbacks:
+    """Two fly towards each other, 3,000 ft apart; the lower one is told to climb by 2,000 ft."""
+    tracks = AirTracks()
+    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
+    tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
+    followed = LevelReadbacks(tracks, Guard())
+    assert is_misread(followed, "climb", CLIMB, 20.0) is False
+    return followed
+
+
+def is_misread(followed: LevelReadbacks, name: str, text: str, t_tx_s: float) -> bool:
+    t_tx_ns, t_end_ns = round(t_tx_s * SECOND_NS), round((t_tx_s + 5.0) * SECOND_NS)
+    heard = transcript(name, 134_325, t_tx_ns, t_end_ns, text)
+    return followed.take_transcript(t_end_ns, heard, CONFIG) is not None
+
+
+@pytest.mark.parametrize(("t_tx_s", "misread"), [(26.0, True), (55.0, True), (55.1, False)])
+def test_what_is_said_more_than_half_a_minute_after_an_instruction_is_no_readback_of_it(
+    readbacks: LevelReadbacks, t_tx_s: float, misread: bool
+) -> None:
+    assert is_misread(readbacks, "readback", WRONG, t_tx_s) is misread
+
+
+@pytest.mark.parametrize(("t_s", "is_asked"), [(31.0, True), (151.0, True), (151.1, False)])
+def test_a_doubt_is_asked_about_for_two_minutes(
+    readbacks: LevelReadbacks, t_s: float, is_asked: bool
+) -> None:
+    assert not is_misread(readbacks, "readback", UNSURE, 26.0)
+    doubts = list(readbacks.doubts(round(t_s * SECOND_NS), CONFIG))
+    assert [traffic for _, traffic in doubts] == (["DAL456"] if is_asked else [])
