@@ -40,6 +40,8 @@ class _Ongoing:
     id: str
     threat: Threat
     escalation: Escalation = field(default_factory=Escalation)
+    told: frozenset[str] = frozenset()
+    """Who was told of it last, by the names that they had then."""
     revision: int = 0
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
@@ -118,46 +120,67 @@ class RunwayWatch:
             return []
         situation.forget(t_ns)
         situation.look(self._visual_tracks)
-        threats = self._rules(situation, t_ns)
+        threats = self._threats(t_ns, situation)
         alerts: list[Alert] = []
-        for threat in threats.values():
-            alerts += self._raise(t_ns, threat, situation)
+        for key, threat in threats.items():
+            alerts += self._raise(t_ns, key, threat, situation)
         for key in [key for key in self._ongoing if key not in threats]:
             alerts += self._calm(t_ns, key)
         return alerts + self._ask(t_ns, situation)
 
     def observe(self, t_ns: int) -> None:
         """Note what is wrong at a time at which nothing is told."""
-        threats = {} if self._situation is None else self._rules(self._situation, t_ns)
-        for threat in threats.values():
+        threats = {} if self._situation is None else self._threats(t_ns, self._situation)
+        for key, threat in threats.items():
             if threat.severity is not Severity.INFO:
-                self._ongoing_of(threat).escalation.observe(threat.severity, t_ns)
+                self._ongoing_of(key, threat).escalation.observe(threat.severity, t_ns)
         for key, ongoing in self._ongoing.items():
             if key not in threats or threats[key].severity is Severity.INFO:
                 ongoing.escalation.observe(None, t_ns)
 
-    def _ongoing_of(self, threat: Threat) -> _Ongoing:
+    def _threats(self, t_ns: int, situation: Situation) -> dict[tuple[str, ...], Threat]:
+        """Return what is wrong now, by what it is and the addresses of those who are in it.
+
+        A mobile that has not sent its callsign yet has its address for a name: once it has sent it,
+        the threat is still the same.
+        """
+
+        def address(name: str) -> str:
+            mobile = situation.mobile(name)
+            return name if mobile is None else mobile.icao24
+
+        return {
+            tuple(sorted(map(address, threat.key))): threat
+            for threat in self._rules(situation, t_ns).values()
+        }
+
+    def _ongoing_of(self, key: tuple[str, ...], threat: Threat) -> _Ongoing:
         """Return the conflict of a threat, a new one if it has none."""
-        ongoing = self._ongoing.get(threat.key)
+        ongoing = self._ongoing.get(key)
         if ongoing is None:
             self._count += 1
-            ongoing = self._ongoing[threat.key] = _Ongoing(f"runway-{self._count}", threat)
+            ongoing = self._ongoing[key] = _Ongoing(f"runway-{self._count}", threat)
         ongoing.threat = threat
         return ongoing
 
-    def _raise(self, t_ns: int, threat: Threat, situation: Situation) -> list[Alert]:
+    def _raise(
+        self, t_ns: int, key: tuple[str, ...], threat: Threat, situation: Situation
+    ) -> list[Alert]:
         if threat.severity is Severity.INFO:
-            if threat.key in self._ongoing:
-                self._ongoing[threat.key].escalation.stays()
+            if key in self._ongoing:
+                self._ongoing[key].escalation.stays()
             return []
-        ongoing = self._ongoing_of(threat)
+        ongoing = self._ongoing_of(key, threat)
         if "adsb" in threat.sources:
             known = (situation.mobile(callsign) for callsign in threat.traffic)
             ongoing.tracks = tuple(mobile.icao24 for mobile in known if mobile is not None)
         # Speech does not become more certain with time, and what is seen has lasted already.
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
-        if not ongoing.escalation.rises(threat.severity, t_ns, persistence_s):
+        has_risen = ongoing.escalation.rises(threat.severity, t_ns, persistence_s)
+        is_renamed = bool(ongoing.told) and not ongoing.told.issuperset(threat.parties)
+        if not has_risen and not is_renamed:
             return []
+        ongoing.told = frozenset(threat.parties)
         severity = ongoing.escalation.severity or threat.severity
         recommendations = {
             callsign: recommended

@@ -37,6 +37,7 @@ from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.cosim.briefing import briefing_of
 from airhilt.messages import AirportBriefing, Severity, Transcript
 from airhilt.phraseology import parse_call
+from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
 from airhilt.units import SECOND_NS
 from airhilt.world.loading import load
@@ -423,6 +424,29 @@ def test_who_is_cleared_to_cross_and_unseen_is_across_after_half_a_minute(
     calls = [(t_s, "Ops one, cross runway zero one.")]
     field = Airfield([arrival(95)], calls).run(90)
     assert ("CAUTION" in [each.severity for each in field.to("AAL123")]) is is_told
+
+
+def test_a_conflict_is_the_same_once_somebody_in_it_has_sent_its_callsign() -> None:
+    field = Airfield([arrival(55), Mover("DAL456", NORTH, stands(50))])
+    lands, hear = field.movers[0], field._report
+
+    def report(station: Receiver, mover: Mover, t_ns: int, step: int) -> list[Input]:
+        heard = hear(station, mover, t_ns, step)
+        if mover is not lands or step >= 10:
+            return heard
+        return [replace(each, payload=each.payload.replace(b'"AAL123"', b"null")) for each in heard]
+
+    field._report = report
+    told = field.run(20).to("ATC")
+    assert [(each.id, each.revision, each.active) for each in told] == [
+        ("decision-runway-1", 0, True),
+        ("decision-runway-1", 1, True),
+    ]
+    assert [set(each.traffic) for each in told] == [
+        {lands.icao24, "DAL456"},
+        {"AAL123", "DAL456"},
+    ]
+    assert len(field.to("AAL123")) == 1
 
 
 def test_a_readback_that_is_put_right_is_nothing_any_more() -> None:
