@@ -104,8 +104,8 @@ class Options(BaseModel):
         str | None,
         Flag(
             "--assistant",
-            "Who decides: reference, paper, an engine of another package, the address of a "
-            "service, none, or external (a worker or program of yours).",
+            "Who decides: reference, paper, another assistant that `airhilt doctor` names, the "
+            "address of a service, none, or external (a worker or program of yours).",
             "NAME",
             default="reference, external if a worker or program of yours may decide",
         ),
