@@ -2,6 +2,7 @@
 
     python tools/compare_guard.py --out runs/guard
     python tools/compare_guard.py --scenarios s01a_bad_readback --snr=clean,-3 --out runs/guard
+    python tools/compare_guard.py --tts http://127.0.0.1:8765 --out runs/guard
 
 Runs have speech, fixed latencies and no cameras. Of each run it counts whether the conflict was
 avoided, the questions that were asked, the nuisance alerts, and the beliefs about clearances and
@@ -11,6 +12,7 @@ levels: wrong ones, which nobody could have by what was said, and missing ones.
 from __future__ import annotations
 
 import argparse
+import re
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -24,8 +26,9 @@ import airhilt
 from airhilt.assistant.decision.engines.reference import ReferenceConfig, ReferenceEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engines import TTS
 from airhilt.phraseology import TAU_ASR
-from guard.beliefs import beliefs_of
+from guard.beliefs import beliefs_of, wrong
 
 SCENARIOS = (
     "s01a_bad_readback,s01a_cancel_not_received,s01a_misaddressed,s01b_dropped_hold,"
@@ -62,6 +65,7 @@ def main() -> None:
     parser.add_argument("--scenarios", default=SCENARIOS, help="names, separated by commas")
     parser.add_argument("--snr", default="clean,10,0", help="ratios in dB, separated by commas")
     parser.add_argument("--seeds", type=int, default=2, help="number of seeds, from 0 on")
+    parser.add_argument("--tts", default=TTS, help="what speaks: an engine, or an address")
     parser.add_argument("--out", type=Path, required=True, help="folder for the rows")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
@@ -73,13 +77,13 @@ def main() -> None:
         for tau_asr in (TAU_ASR, 0.0)
     ]
     console = Console(stderr=True)
-    rows = [_row(given.out, *case) for case in track(cases, "running", console=console)]
+    rows = [_row(given.out, given.tts, *case) for case in track(cases, "running", console=console)]
     Console().print(_table(rows))
 
 
-def _row(folder: Path, scenario: str, seed: int, snr: str, tau_asr: float) -> Row:
+def _row(folder: Path, tts: str, scenario: str, seed: int, snr: str, tau_asr: float) -> Row:
     """Return the row of a run; one that the folder has already is not run again."""
-    path = folder / f"{scenario}-{seed}-{snr}-{tau_asr:g}.json"
+    path = folder / f"{scenario}-{seed}-{snr}-{tau_asr:g}-{re.sub(r'[^a-z0-9]+', '_', tts)}.json"
     if path.exists():
         return Row.model_validate_json(path.read_text())
     engine = ReferenceEngine(ReferenceConfig(tau_asr=tau_asr))
@@ -91,6 +95,7 @@ def _row(folder: Path, scenario: str, seed: int, snr: str, tau_asr: float) -> Ro
             seed=seed,
             latency="fixed",
             cameras=False,
+            tts=tts,
             snr_db=None if snr == "clean" else float(snr),
         )
         loaded = airhilt.load(scenario)
@@ -106,7 +111,7 @@ def _row(folder: Path, scenario: str, seed: int, snr: str, tau_asr: float) -> Ro
         avoided=summary.avoided is True,
         questions=summary.clarifications,
         nuisances=summary.nuisance_alerts,
-        wrong=len(heard.held - said.held),
+        wrong=len(wrong(heard.held, said.held)),
         missing=len(said.held - heard.held),
         right=len(said.held & heard.held),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from decisions import transcript
-from guard.beliefs import Beliefs
+from guard.beliefs import Beliefs, wrong
 
 RIGHT = ("AAL123", "cleared_to_land", "01")
 
@@ -24,3 +24,9 @@ def test_a_belief_is_what_is_certain_enough(
     beliefs = Beliefs(tau_asr, ["AAL123"])
     beliefs.take(transcript("1", 119100, 0, 1, text))
     assert beliefs.held == held
+
+
+def test_a_belief_with_another_runway_is_wrong_and_one_without_a_runway_is_not() -> None:
+    other, bare = ("AAL123", "cleared_to_land", "19"), ("AAL123", "cleared_to_land", "")
+    assert wrong({other, bare}, {RIGHT}) == {other}
+    assert wrong({bare}, set()) == {bare}

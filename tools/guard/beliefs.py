@@ -14,7 +14,7 @@ from airhilt.messages import AdsbReport, SpokenTruth, Transcript
 from airhilt.record.log import read_log
 
 Belief = tuple[str, str, str]
-"""Callsign, action, and runway or level."""
+"""Callsign, action, and runway or level; empty if that was not heard."""
 
 
 class Beliefs:
@@ -47,6 +47,17 @@ class Beliefs:
         for track in self._tracks:
             if track.cleared_m is not None:
                 self.held.add((track.callsign, "altitude", f"{track.cleared_m:.0f}"))
+
+
+def wrong(heard: Iterable[Belief], said: Iterable[Belief]) -> set[Belief]:
+    """Return the beliefs that nothing that was said bears out.
+
+    A belief without a runway, because it was not recognised, is not wrong if there is such a one
+    with a runway; that one is missing.
+    """
+    known = set(said)
+    known |= {(callsign, action, "") for callsign, action, _ in known}
+    return set(heard) - known
 
 
 def beliefs_of(folder: Path, tau_asr: float, callsigns: Iterable[str]) -> tuple[Beliefs, Beliefs]:
