@@ -34,6 +34,7 @@ from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
 
@@ -169,6 +170,8 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
+        if self._must_descend_below(recommendation):
+            raise Unable("unable, emergency descent")
         if not self._followed:
             self._altitude_before_m = self.aircraft.target_altitude_m
         match recommendation:
@@ -181,6 +184,14 @@ class Crew:
                 self._has_turned = True
         self._followed[advisory.id] = advisory.revision
         return True
+
+    def _must_descend_below(self, recommendation: Climb | MaintainLevel | Turn) -> bool:
+        """Return whether a crew without cabin pressure descends below a recommended level."""
+        return (
+            not isinstance(recommendation, Turn)
+            and self.aircraft.phase == EmergencyDescent.name
+            and recommendation.altitude_ft * FOOT > self.aircraft.target_altitude_m
+        )
 
     def _resume(self, advisory_id: str) -> bool:
         """Resume the flight before the advisory, unless another advisory is still followed."""

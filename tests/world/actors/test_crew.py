@@ -8,11 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.commands import AltitudeCommand, SpeedCommand, TrackCommand
+from airhilt.commands import (
+    AltitudeCommand,
+    EmergencyDescentCommand,
+    SpeedCommand,
+    TrackCommand,
+)
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
 from airhilt.scenario.models import Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
@@ -23,6 +29,10 @@ CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
 
 @pytest.fixture(scope="module")
 def aircraft() -> Aircraft:
+    return airborne()
+
+
+def airborne() -> Aircraft:
     initial = InitialCondition(
         latitude_rad=47.0 * DEGREE,
         longitude_rad=8.0 * DEGREE,
@@ -94,6 +104,17 @@ def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft: Aircraft)
 def test_a_level_to_maintain_is_maintained(aircraft: Aircraft) -> None:
     crew_of(aircraft).hear(advisory(MaintainLevel(altitude_ft=5_200))).act()
     assert level_ft(aircraft) == pytest.approx(5_200)
+
+
+def test_a_crew_without_cabin_pressure_does_not_level_off_on_its_way_down() -> None:
+    aircraft = airborne()
+    crew = crew_of(aircraft)
+    crew.command(EmergencyDescentCommand(action="emergency_descent", altitude_ft=3_000))
+    with pytest.raises(Unable, match="emergency descent"):
+        crew.hear(advisory(MaintainLevel(altitude_ft=4_800))).act()
+    assert level_ft(aircraft) == pytest.approx(3_000)
+    crew.hear(advisory(MaintainLevel(altitude_ft=2_800), name="s-2")).act()
+    assert level_ft(aircraft) == pytest.approx(2_800)
 
 
 @pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
