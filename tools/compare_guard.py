@@ -37,7 +37,7 @@ SCENARIOS = (
 
 
 class Row(BaseModel):
-    """What became of one run."""
+    """Outcome of one run."""
 
     scenario: str
     seed: int

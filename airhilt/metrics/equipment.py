@@ -11,7 +11,7 @@ from airhilt.units import SECOND_NS
 
 
 class EquipmentRecords:
-    """What each piece of equipment has warned of, and when.
+    """Warnings of each piece of equipment, and their times.
 
     Parameters
     ----------

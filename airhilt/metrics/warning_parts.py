@@ -1,4 +1,4 @@
-"""What the time to first warning consists of, and what it comes to over many runs."""
+"""Parts of the time to first warning, and their means over many runs."""
 
 from __future__ import annotations
 

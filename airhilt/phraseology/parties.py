@@ -1,4 +1,4 @@
-"""Who speaks to whom in a call, as far as a receiver can know."""
+"""Speaker and addressee of a call, as far as a receiver can know."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class Case(BaseModel):
 
 
 class Row(Case):
-    """What became of a run; see docs/metrics.md for the fields."""
+    """Outcome of a run; see docs/metrics.md for the fields."""
 
     family: str
     outcome: str

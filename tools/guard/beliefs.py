@@ -18,7 +18,7 @@ Belief = tuple[str, str, str]
 
 
 class Beliefs:
-    """What somebody believes who hears the calls of a run, by the reference engine's own rules."""
+    """Beliefs of somebody who hears the calls of a run, by the reference engine's own rules."""
 
     def __init__(self, tau_asr: float, callsigns: Iterable[str]) -> None:
         guard = Guard(tau_asr)

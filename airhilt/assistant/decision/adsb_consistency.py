@@ -1,4 +1,4 @@
-"""Whether reports of ADS-B can be of one aircraft: no jumps, and one place for one address.
+"""Consistency of ADS-B reports: no jumps, and one place for one address.
 
 Reports that contradict each other mean a fault, or somebody who sends false ones (spoofing). Which
 of two places is the false one cannot be told. The one that was known first is kept while reports

@@ -41,7 +41,7 @@ class _Ongoing:
     threat: Threat
     escalation: Escalation = field(default_factory=Escalation)
     told: frozenset[str] = frozenset()
-    """Who was told of it last, by the names that they had then."""
+    """Recipients that were told of it last, by the names that they had then."""
     revision: int = 0
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""

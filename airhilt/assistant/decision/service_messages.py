@@ -99,7 +99,7 @@ class FlightContext(Part):
 
 
 class AssistantRequest(Part):
-    """What the assistant may know at ``ts_ms``: the last minutes of each modality."""
+    """Evidence that the assistant may know at ``ts_ms``: the last minutes of each modality."""
 
     ts_ms: Milliseconds
     context: FlightContext | None = Field(description="null before the briefing")

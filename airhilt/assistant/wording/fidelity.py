@@ -89,7 +89,7 @@ class Told(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """What a message says, as far as it must not change.
+    """Meaning of a message, as far as it must not change.
 
     Attributes
     ----------

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class FirstWarning(Content):
-    """What begins the conflict, in words; null where the scenario does not say."""
+    """Event that begins the conflict, in words; null where the scenario does not say."""
 
     def as_json(self, run: RunData) -> dict[str, Any]:
         """Return the event that begins the conflict."""

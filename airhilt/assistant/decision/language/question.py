@@ -62,7 +62,7 @@ class Turn(NamedTuple):
 
 @dataclass(frozen=True)
 class Situation:
-    """What a language model is told.
+    """Situation as a language model is given it.
 
     Attributes
     ----------

@@ -41,7 +41,7 @@ RESOLVED_MS = 30_000
 
 
 class Judgement(BaseModel):
-    """What the model says about an alert of the rules."""
+    """Judgement of the model about an alert of the rules."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     alert: str
@@ -80,7 +80,7 @@ class Answer(BaseModel):
 
 @dataclass(frozen=True)
 class Reviewed:
-    """What the rules accept of an answer.
+    """Part of an answer that the rules accept.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Who or what is on a runway, by cameras and by ADS-B."""
+"""Occupants of a runway, by cameras and by ADS-B."""
 
 from __future__ import annotations
 

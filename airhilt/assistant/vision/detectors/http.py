@@ -13,6 +13,7 @@ from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Sho
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.boxes import area
+from airhilt.imaging.masks import Mask
 from airhilt.messages import Box, Confidence, VisibleClass
 from airhilt.services import USAGE, HttpService, is_service
 
@@ -117,14 +118,12 @@ def headers_of(shot: Shot) -> dict[str, str]:
         "X-Offset-Px": f"{shot.left},{shot.top}",
     }
     if shot.own_aircraft is not None and shot.own_aircraft.any():
-        png = io.BytesIO()
-        Image.fromarray(shot.own_aircraft).save(png, "PNG")
-        headers["X-Mask"] = base64.b64encode(png.getvalue()).decode()
+        headers["X-Mask"] = base64.b64encode(encode_png(shot.own_aircraft)).decode()
     return headers
 
 
-def encode_png(picture: Picture) -> bytes:
-    """Return a picture as PNG."""
+def encode_png(picture: Picture | Mask) -> bytes:
+    """Return a picture, or a mask in black and white, as PNG."""
     png = io.BytesIO()
     Image.fromarray(picture).save(png, "PNG", compress_level=PNG_LEVEL)
     return png.getvalue()
