@@ -30,6 +30,7 @@ from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.library import nearest
 from airhilt.messages import RadarKind
 from airhilt.scenario.models import Topology
+from airhilt.scenario.models.weather import Visibility
 
 FORMER_NAMES = {"listen": "endpoint"}
 """Names that options had up to version 0.4, still understood, by what they are now."""
@@ -193,6 +194,16 @@ class Options(BaseModel):
             needs=("cameras", "assistant"),
         ),
     ] = DETECTOR
+    visibility_m: Annotated[
+        Visibility | None,
+        Flag(
+            "--visibility",
+            "Meteorological optical range, for cameras.",
+            "M",
+            default="the scenario's",
+            needs=("cameras",),
+        ),
+    ] = None
     video: Annotated[
         bool,
         Flag(
@@ -317,6 +328,10 @@ class Options(BaseModel):
             default="that of the scenario",
         ),
     ] = ()
+    report: Annotated[
+        bool,
+        Flag("--no-report", "Leave report.html out; `airhilt report RUN` writes it later."),
+    ] = True
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
 
     @model_validator(mode="before")

@@ -31,6 +31,7 @@ AS_RECORDED = {
     "endpoint": None,
     "attach": (),
     "video": False,
+    "report": False,
     "strict": False,
 }
 """Options that a replay does not repeat: they change nothing in the log, or the record has what

@@ -51,7 +51,8 @@ class Setup:
     Attributes
     ----------
     scenario
-        The scenario with its perturbations drawn, and with the radio that the options give it.
+        The scenario with its perturbations drawn, and with the radio and the visibility that
+        the options give it.
     given
         The scenario as it was before.
     pace
@@ -115,7 +116,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     if not recorded.is_replay:
         check_options(options, given)
     scenario, draws = draw(given, options.seed)
-    scenario = _with_radio_of(options, scenario)
+    scenario = _with_visibility_of(options, _with_radio_of(options, scenario))
     scenario = with_requested_sensors(
         scenario, options.radar, options.cockpit, options.surface_surveillance
     )
@@ -209,6 +210,14 @@ def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
     except ValidationError as error:
         raise AirhiltError(f"radio: {first_problem(error)}") from None
     return scenario.model_copy(update={"radio": radio})
+
+
+def _with_visibility_of(options: Options, scenario: Scenario) -> Scenario:
+    """Return a scenario with the visibility that the options give, if they do."""
+    if options.visibility_m is None:
+        return scenario
+    weather = scenario.weather.model_copy(update={"visibility_m": options.visibility_m})
+    return scenario.model_copy(update={"weather": weather})
 
 
 def _default_folder(name: str) -> Path:

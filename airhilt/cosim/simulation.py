@@ -109,6 +109,8 @@ def run(
 
 def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Result:
     with interruptible(simulation.interrupt):
+        if not info.options.report:
+            return simulation.run(info)
         try:
             result = simulation.run(info)
         except BaseException:

@@ -102,6 +102,8 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         (("cosim", "--scenario", "s02a_headon", "--step-timeout", "nan"), "--step-timeout': nan"),
         (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "--snr': nan"),
         (("cosim", "--scenario", "s02a_headon", "--snr", "99"), "60"),
+        (("cosim", "--scenario", "s02a_headon", "--visibility", "0"), "--visibility': 0"),
+        (("cosim", "--scenario", "s02a_headon", "--visibility", "inf"), "100000"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),
         (("cosim", "--scenario", "s02a_headon", "--topology", "serial"), "gated_fusion"),
         (("cosim", "--scenario", "s02a_headon", "--radar", "tower"), "en_route"),

@@ -74,6 +74,16 @@ def test_each_picture_is_looked_at_and_told_as_late_as_the_detector_is(
     assert states_of_vision(log) == [("on", "")]
 
 
+def test_nobody_is_seen_in_the_fog_that_is_asked_for_and_a_replay_has_it(
+    short: Scenario, tmp_path: Path
+) -> None:
+    log = log_of(short, tmp_path / "run", visibility_m=500.0)
+    seen = [Detections.model_validate_json(each.data) for each in messages(log, "vision/")]
+    assert seen
+    assert not any(each.detections for each in seen)
+    assert replay(tmp_path / "run").identical
+
+
 def test_pictures_wait_for_nobody_and_old_ones_are_dropped_and_counted(
     short: Scenario, tmp_path: Path
 ) -> None:

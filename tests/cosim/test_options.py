@@ -17,6 +17,7 @@ from airhilt.cosim.setup import set_up
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
+from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from decisions import reference
 
@@ -62,6 +63,24 @@ def test_every_option_that_the_command_line_spells_is_a_flag_of_a_run() -> None:
     spelled = {name for name, field in Options.model_fields.items() if flag_of(field)}
     assert {flag.name for flag in run_flags()} == spelled
     assert spelled >= {"seed", "latency", "endpoint", "snr_db"}
+
+
+def test_a_given_visibility_replaces_the_drawn_one_and_no_other_draw() -> None:
+    scenario = airhilt.load("s01a_bad_readback")
+    drawn = set_up(scenario, Options(seed=3), Recorded())
+    given = set_up(scenario, Options(seed=3, visibility_m=5000.0), Recorded())
+    assert drawn.scenario.weather.visibility_m not in (1500.0, 5000.0)
+    weather = drawn.scenario.weather.model_copy(update={"visibility_m": 5000.0})
+    assert given.scenario == drawn.scenario.model_copy(update={"weather": weather})
+    assert (given.given, given.draws) == (scenario, drawn.draws)
+
+
+def test_a_run_without_a_report_can_have_one_later(encounter: Scenario, tmp_path: Path) -> None:
+    short = encounter.model_copy(update={"duration_s": 1.0})
+    folder = airhilt.run(short, out=tmp_path / "run", speech=False, report=False).folder
+    assert (folder / "summary.json").is_file()
+    assert not (folder / "report.html").exists()
+    assert write_report(folder).is_file()
 
 
 def test_run_json_holds_the_options_whole(encounter: Scenario, tmp_path: Path) -> None:
@@ -164,6 +183,10 @@ def test_a_run_begins_with_no_engine_that_is_not_there(
         ({"asr": "whisper:FOLDER", "assistant": "none"}, "would do nothing with --assistant none"),
         ({"assistant_config": {}, "assistant": "none"}, "^--assistant-config {} would do nothing"),
         ({"video": True, "cameras": False}, "^--video would do nothing with --no-cameras"),
+        (
+            {"visibility_m": 800.0, "cameras": False},
+            "^--visibility 800.0 would do nothing with --n",
+        ),
     ],
 )
 def test_an_option_that_does_nothing_is_refused_from_python_too(

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import datetime
+from typing import Annotated
 
 from pydantic import Field
 
 from airhilt.geodesy.positions import Bearing
 from airhilt.scenario.models.base import Model
+
+Visibility = Annotated[float, Field(gt=0.0, le=100_000.0)]
+"""Meteorological optical range in m."""
 
 
 class Wind(Model):
@@ -29,7 +33,7 @@ class Weather(Model):
 
     wind: Wind = Wind()
     turbulence: Turbulence = Turbulence()
-    visibility_m: float = Field(default=10_000.0, gt=0.0, le=100_000.0)
+    visibility_m: Visibility = 10_000.0
     rain_mm_h: float = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
 
 
