@@ -178,6 +178,7 @@ class Collector:
         return Summary(
             scenario=self._scenario.name,
             duration_s=now_ns / SECOND_NS,
+            conflict_actors=pair_of(self._scenario) or (),
             **self._warning_fields(now_ns),
             **self._outcome_fields(),
             unassisted_as_declared=self._as_declared(run["assistant"]),

@@ -17,11 +17,11 @@ class LatencyStatistics(BaseModel):
     """Latencies of one stage, in s of simulation time."""
 
     model_config = ConfigDict(frozen=True)
-    n: int
-    min_s: float | None = None
-    p50_s: float | None
-    p95_s: float | None
-    max_s: float | None
+    n: int = Field(description="number of samples")
+    min_s: float | None = Field(default=None, description="shortest")
+    p50_s: float | None = Field(description="median")
+    p95_s: float | None = Field(description="95th percentile")
+    max_s: float | None = Field(description="longest")
 
     @classmethod
     def of(cls, samples_s: Sequence[float]) -> LatencyStatistics:
@@ -42,9 +42,9 @@ class ClosestApproach(BaseModel):
     """The closest approach of the pair of the conflict, in three dimensions."""
 
     model_config = ConfigDict(frozen=True)
-    t_s: float
-    horizontal_m: float
-    vertical_m: float
+    t_s: float = Field(description="time of the closest approach")
+    horizontal_m: float = Field(description="horizontal distance")
+    vertical_m: float = Field(description="vertical distance")
 
 
 class RunwayIncursion(BaseModel):
@@ -143,7 +143,7 @@ class RadioStatistics(RecognitionStatistics):
         description="transcripts that have words where there was only noise"
     )
     hearing: dict[str, int] = Field(
-        description="number of calls by outcome with the listener whom they were for"
+        description="number of calls with this outcome with the listener whom they were for"
     )
     say_agains: int = Field(description="calls that ask for another to be said again")
     repeats: int = Field(description="calls made again")
@@ -173,7 +173,7 @@ class DetectionStatistics(BaseModel):
     dropped: int | None = Field(description="pictures that a newer one replaced before their turn")
     missed: int | None = Field(description="pictures that a detector could not look at")
     latency: LatencyStatistics = Field(description="t_vision - t_frame")
-    detections: int | None
+    detections: int | None = Field(description="boxes in all")
     sightings: int | None = Field(
         description="true boxes that count, in the pictures looked at: at least 8 px long, half of "
         "the actor visible, a tenth of its contrast left"
@@ -212,7 +212,7 @@ class FirstDetection(BaseModel):
 class VisionStatistics(DetectionStatistics):
     """Detections of all cameras."""
 
-    state: ModalityState
+    state: ModalityState = Field(description="state of vision at the end")
     cause: str = Field(description="reason why vision was lost or not evaluated")
     why_missed: str = Field(
         description="reason of the first missed picture; empty if none was missed"
@@ -225,8 +225,8 @@ class LanguageModelStatistics(BaseModel):
     """The language model that an engine or a wording has asked."""
 
     model_config = ConfigDict(frozen=True)
-    model: str
-    questions: int
+    model: str = Field(description="name of the model")
+    questions: int = Field(description="questions that it was asked")
     failures: int = Field(
         description="questions without a usable answer: none in time, a refusal, or no JSON of the "
         "schema"
@@ -245,8 +245,8 @@ class EvidenceAge(BaseModel):
     """Age of the newest evidence of a modality that decisions rested on; of calls, their delay."""
 
     model_config = ConfigDict(frozen=True)
-    mean_s: float
-    max_s: float
+    mean_s: float = Field(description="mean")
+    max_s: float = Field(description="greatest")
     stale_share: float = Field(description="share of the time in which it was above 5 s")
 
 
@@ -259,6 +259,9 @@ class Summary(BaseModel):
     assistant: str
     outcome: str = Field(description="finished, or stopped and why")
     duration_s: float = Field(description="simulated time")
+    conflict_actors: tuple[str, ...] = Field(
+        default=(), description="the annotated pair; empty if the scenario declares no conflict"
+    )
     t_conflict_s: float | None = Field(
         description="the event happened that begins the conflict, such as the start of a call"
     )
@@ -289,7 +292,7 @@ class Summary(BaseModel):
         description="how long before TCAS II would have given its traffic advisory, had nobody "
         "reacted, the first warning came"
     )
-    margin_over_tcas_ra_s: float | None
+    margin_over_tcas_ra_s: float | None = Field(description="the same for its resolution advisory")
     min_horizontal_separation_m: float | None = Field(
         description="least while vertical separation was infringed; null if it never was"
     )
@@ -300,12 +303,14 @@ class Summary(BaseModel):
         description="of the pair within the conflict window, from t_window to t_conflict_end; "
         "without an annotated conflict, of the pair that came nearest"
     )
-    loss_of_separation: bool
+    loss_of_separation: bool = Field(
+        description="any two came closer than the minima of separation"
+    )
     nmac: bool = Field(
         description="near mid-air collision: two aircraft in flight came closer than 500 ft "
         "horizontally and 100 ft vertically; never counted if either is on the ground"
     )
-    collision: bool
+    collision: bool = Field(description="the outlines of two actors touched")
     runway_incursions: list[RunwayIncursion]
     runway_incursion_category: IncursionCategory | None = Field(
         description="the most severe: accident, A, B, C, D; null if there was none"
@@ -336,15 +341,15 @@ class Summary(BaseModel):
     language_model: LanguageModelStatistics | None = Field(
         default=None, description="null: none was asked"
     )
-    latencies: dict[Stage, LatencyStatistics]
+    latencies: dict[Stage, LatencyStatistics] = Field(description="latency by stage")
     inputs_dropped: dict[str, int]
     evidence: dict[str, EvidenceAge] = Field(
         default_factory=dict,
         description="age of what the assistant had to judge by, by modality; empty: nobody decided",
     )
-    modalities: dict[str, ModalityState]
-    """State of each modality at the end; ``speech`` and ``voice`` are former names of ``asr`` and
-    ``tts``, kept for scripts that read them."""
+    modalities: dict[str, ModalityState] = Field(description="state of the modality at the end")
+    """``speech`` and ``voice`` are former names of ``asr`` and ``tts``, kept for scripts that read
+    them."""
     ended_actors: dict[str, str]
     real_time_factor: float
     cpu_s: float

@@ -1,0 +1,177 @@
+"""The summary of a run as one flat row: a column for each number, by rule from the models.
+
+A field of a model within another has the names of both, such as ``radio_wer``. Fields by stage,
+modality or outcome have a column for each that AIRHILT itself knows, so that every run has the same
+columns. Lists have none: what is wanted of them is counted in `DERIVED`.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from airhilt.messages import HearingTruth, Modality
+from airhilt.metrics.derived import DERIVED
+from airhilt.metrics.latencies import STAGES
+from airhilt.metrics.summary import Summary
+
+Kind = Literal["string", "bool", "int64", "float64"]
+"""Type of a column, by the name that Apache Arrow has for it."""
+Value = str | bool | int | float | None
+
+NOT_METRICS = frozenset({"scenario", "seed", "assistant", "real_time_factor", "cpu_s"})
+"""Fields of the summary that are no result: what the run was, and what depends on the machine."""
+OBSERVING = ("adsb", "asr", "vision")
+"""Modalities whose evidence has an age."""
+KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
+    "latencies": STAGES,
+    "evidence": OBSERVING,
+    "modalities": get_args(get_args(Modality)[0]),
+    "hearing": get_args(HearingTruth.model_fields["outcome"].annotation),
+}
+"""Keys of the fields that are dictionaries; other keys, such as a worker's own, have no column."""
+UNITS = {
+    "_per_minute": "1/min",
+    "_db": "dB",
+    "_px": "px",
+    "_m": "m",
+    "_s": "s",
+}
+"""Unit by the end of a name; any other number has the unit 1: a count or a share."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a table of runs.
+
+    Attributes
+    ----------
+    name
+        Name, with the unit at its end where there is one.
+    type
+        Type of the values; every value may be null.
+    unit
+        Unit of the values: 1 for counts and shares, empty for texts and for true and false.
+    description
+        Meaning of the values, in one sentence.
+    """
+
+    name: str
+    type: Kind
+    unit: str
+    description: str
+
+
+@dataclass(frozen=True)
+class _Field:
+    """A column, and the keys under which ``summary.json`` has its value."""
+
+    column: Column
+    path: tuple[str, ...]
+
+
+def metric_columns() -> tuple[Column, ...]:
+    """Return the columns of the metrics of a run; they are the same for every run."""
+    own = tuple(field.column for field in _fields())
+    return (*own, *(column_of(each.name, each.type, each.description) for each in DERIVED))
+
+
+def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
+    """Return the metrics of a run by the names of their columns.
+
+    Parameters
+    ----------
+    summary
+        The summary of a run, or the content of its ``summary.json``. What an earlier version did
+        not write is null.
+
+    Raises
+    ------
+    TypeError, ValueError
+        A field has a value of another type.
+    """
+    content = summary.model_dump(mode="json") if isinstance(summary, Summary) else summary
+    own = {field.column.name: _at(content, field) for field in _fields()}
+    return own | {each.name: each.value(content) for each in DERIVED}
+
+
+def column_of(name: str, kind: Kind, description: str) -> Column:
+    """Return a column, with the unit that its name ends with."""
+    if kind in ("string", "bool"):
+        return Column(name, kind, "", description)
+    unit = next((unit for end, unit in UNITS.items() if name.endswith(end)), "1")
+    return Column(name, kind, unit, description)
+
+
+@cache
+def _fields() -> tuple[_Field, ...]:
+    return tuple(_of_model(Summary, ()))
+
+
+def _of_model(model: type[BaseModel], path: tuple[str, ...]) -> Iterator[_Field]:
+    """Yield the fields of a model that are, or consist of, single values."""
+    for name, info in model.model_fields.items():
+        if not path and name in NOT_METRICS:
+            continue
+        annotation, own = _bare(info.annotation), (*path, name)
+        if get_origin(annotation) is dict:
+            inner = _bare(get_args(annotation)[1])
+            for key in KNOWN_KEYS.get(name, ()):
+                yield from _of_type(inner, info, (*own, key), context=(*own, key))
+        else:
+            yield from _of_type(annotation, info, own, context=path)
+
+
+def _of_type(
+    annotation: Any, info: FieldInfo, path: tuple[str, ...], context: tuple[str, ...]
+) -> Iterator[_Field]:
+    """Yield one column, or those of the model that the type is; none for a list."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield from _of_model(annotation, path)
+    elif (kind := _kind(annotation)) is not None:
+        words = " ".join(context).replace("_", " ")
+        description = f"{words}: {info.description}" if words else f"{info.description}"
+        yield _Field(column_of("_".join(path), kind, description), path)
+
+
+def _bare(annotation: Any) -> Any:
+    """Return a type without ``None`` and annotations."""
+    if get_origin(annotation) is Annotated:
+        return _bare(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, types.UnionType):
+        (only,) = (each for each in get_args(annotation) if each is not types.NoneType)
+        return _bare(only)
+    return annotation
+
+
+def _kind(annotation: Any) -> Kind | None:
+    """Return the type of a column, None for a list of values."""
+    if get_origin(annotation) is Literal:
+        return "string"
+    if not isinstance(annotation, type):
+        return None
+    if issubclass(annotation, str | StrEnum):
+        return "string"
+    kinds: dict[type, Kind] = {bool: "bool", int: "int64", float: "float64"}
+    return kinds.get(annotation)
+
+
+def _at(content: Mapping[str, Any], field: _Field) -> Value:
+    """Return the value of a column; null if the summary does not have it."""
+    found: Any = content
+    for key in field.path:
+        if found is None:
+            return None
+        found = found.get(key)
+    if found is None:
+        return None
+    convert = {"string": str, "bool": bool, "int64": int, "float64": float}
+    value: Value = convert[field.column.type](found)
+    return value

@@ -1,0 +1,206 @@
+"""Metrics of a run that are worked out from others in its summary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from airhilt.messages import Severity
+from airhilt.metrics.outcome import SERIOUS
+
+Json = Mapping[str, Any]
+
+TIME_TO_ACT_S = 12.5
+"""Time from when a pilot sees other traffic until the aircraft has answered, in s: FAA AC 90-48D,
+table of recognition and reaction times, with all of its parts."""
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A metric that is worked out from the content of ``summary.json``."""
+
+    name: str
+    type: Literal["string", "bool", "int64", "float64"]
+    description: str
+    value: Callable[[Json], Any]
+
+
+def nominal(summary: Json) -> bool | None:
+    """Return true if the scenario declares no conflict, None in a summary that does not tell."""
+    actors = summary.get("conflict_actors")
+    return None if actors is None else not actors
+
+
+def warned(summary: Json) -> bool | None:
+    """Return true if somebody was warned before the conflict window closed."""
+    if nominal(summary) is not False:
+        return None
+    warning_s, end_s = summary.get("t_first_warning_s"), summary.get("t_conflict_end_s")
+    return warning_s is not None and (end_s is None or warning_s <= end_s)
+
+
+def warned_in_time(summary: Json) -> bool | None:
+    """Return true if the warning left the time to act before the closest approach."""
+    was_warned = warned(summary)
+    if not was_warned:
+        return was_warned
+    if summary.get("t_window_s") is None:
+        return True
+    lead_s = summary.get("lead_before_closest_approach_s")
+    return lead_s is not None and bool(lead_s >= TIME_TO_ACT_S)
+
+
+def missed(summary: Json) -> bool | None:
+    """Return true if the conflict window opened, and nobody was warned before it closed."""
+    was_warned = warned(summary)
+    if was_warned is None or was_warned:
+        return None if was_warned is None else False
+    return None if summary.get("t_window_s") is None else True
+
+
+def lost(summary: Json) -> bool:
+    """Return true if something happened that an assistant is there to prevent."""
+    happened = any(summary.get(name) for name in ("loss_of_separation", "nmac", "collision"))
+    return happened or summary.get("runway_incursion_category") in SERIOUS
+
+
+def severity_max(summary: Json) -> str | None:
+    """Return the highest severity of any advisory, None if there was none."""
+    severities = [Severity(each["severity"]) for each in summary.get("advisories") or ()]
+    return max(severities, key=lambda each: each.rank).value if severities else None
+
+
+def _with_severity(severity: Severity) -> Callable[[Json], int]:
+    return lambda summary: sum(
+        each["severity"] == severity for each in summary.get("advisories") or ()
+    )
+
+
+def _number_of(name: str) -> Callable[[Json], int]:
+    return lambda summary: len(summary.get(name) or ())
+
+
+def _first_detection(field: str) -> Callable[[Json], float | None]:
+    """Return what gives a field of the first detection of an actor of the conflict."""
+
+    def value(summary: Json) -> float | None:
+        actors = summary.get("conflict_actors")
+        found = [
+            each
+            for each in (summary.get("vision") or {}).get("first_detections") or ()
+            if not actors or each["actor"] in actors
+        ]
+        first = min(found, key=lambda each: (each["t_s"], each["actor"]), default=None)
+        return None if first is None else float(first[field])
+
+    return value
+
+
+def _equipment(field: str) -> Callable[[Json], float | None]:
+    """Return what gives the earliest of the times of all equipment."""
+
+    def value(summary: Json) -> float | None:
+        times = [each.get(field) for each in summary.get("equipment") or ()]
+        return min((float(each) for each in times if each is not None), default=None)
+
+    return value
+
+
+DERIVED = (
+    Derived("nominal", "bool", "the scenario declares no conflict", nominal),
+    Derived(
+        "warned",
+        "bool",
+        "somebody was warned of the conflict before its window closed; null if the scenario "
+        "declares none",
+        warned,
+    ),
+    Derived(
+        "warned_in_time",
+        "bool",
+        f"somebody was warned, and at least {TIME_TO_ACT_S} s before the closest approach, or so "
+        "early that the conflict window never opened; null if the scenario declares no conflict",
+        warned_in_time,
+    ),
+    Derived(
+        "missed",
+        "bool",
+        "the conflict window opened, and nobody was warned before it closed; null if it did not "
+        "open and nobody was warned",
+        missed,
+    ),
+    Derived(
+        "lost",
+        "bool",
+        "any two lost separation, came to an NMAC, collided, or came to a runway incursion of "
+        "category A or B or an accident",
+        lost,
+    ),
+    Derived(
+        "severity_max",
+        "string",
+        "highest severity of any advisory; null: no advisory",
+        severity_max,
+    ),
+    Derived("advisories", "int64", "advisories of any severity", _number_of("advisories")),
+    Derived(
+        "cautions",
+        "int64",
+        "advisories whose highest severity is CAUTION",
+        _with_severity(Severity.CAUTION),
+    ),
+    Derived(
+        "warnings",
+        "int64",
+        "advisories whose highest severity is WARNING",
+        _with_severity(Severity.WARNING),
+    ),
+    Derived(
+        "incursions", "int64", "runway incursions of any category", _number_of("runway_incursions")
+    ),
+    Derived(
+        "first_detection_t_s",
+        "float64",
+        "first detection by any camera of an actor of the conflict (t_vision); of any actor if "
+        "the scenario declares no conflict",
+        _first_detection("t_s"),
+    ),
+    Derived(
+        "first_detection_range_m",
+        "float64",
+        "range of that detection from its camera",
+        _first_detection("range_m"),
+    ),
+    Derived(
+        "first_detection_size_px",
+        "float64",
+        "longest side of the true box of that detection",
+        _first_detection("size_px"),
+    ),
+    Derived(
+        "equipment_t_first_warning_s",
+        "float64",
+        "first alert of any equipment of the world, of CAUTION or above, about the conflict",
+        _equipment("t_first_warning_s"),
+    ),
+    Derived(
+        "equipment_t_first_action_s",
+        "float64",
+        "first of these that told somebody what to do",
+        _equipment("t_first_action_s"),
+    ),
+    Derived(
+        "inputs_dropped",
+        "int64",
+        "inputs that a newer one replaced before a worker could take them, of all workers",
+        lambda summary: sum((summary.get("inputs_dropped") or {}).values()),
+    ),
+    Derived(
+        "actors_ended",
+        "int64",
+        "actors that ended before the run did",
+        _number_of("ended_actors"),
+    ),
+)
+"""The derived metrics, in the order of their columns."""
