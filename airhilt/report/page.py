@@ -1,31 +1,19 @@
-"""Assembles the page of a run from its sections, with Jinja.
-
-Texts of a scenario or a worker may be hostile. They are only ever data: in a template Jinja escapes
-them, in the JSON of the page nothing can end the script element, and scripts show them as text.
-"""
+"""The page of a run."""
 
 from __future__ import annotations
 
-import json
-import re
-from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
 
-from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.errors import RunFolderError
 from airhilt.record import RunFolder
+from airhilt.report.assembly import Assembly
 from airhilt.report.data import read_run
-from airhilt.report.sections import GuardedContent, Section, cannot_be_shown, load_sections
+from airhilt.report.sections import GuardedContent, load_sections
 from airhilt.report.text import cut
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
-
-Json = dict[str, Any]
 
 SHARED = (
     "document",
+    "page",
     "words",
     "run",
     "tracks",
@@ -36,11 +24,8 @@ SHARED = (
     "timelines",
     "tables",
     "airport",
-    "page",
 )
 """Scripts that all sections may use, in the order in which they build on each other."""
-END_OF_SCRIPT = re.compile(r"</(?=script)|<(?=!--)", re.IGNORECASE)
-"""Text that would end a script element, or begin a comment in it."""
 
 
 def write_report(run_folder: Path, out: Path | None = None) -> Path:
@@ -84,116 +69,5 @@ def render(folder: RunFolder, page: Path) -> str:
     problems += [note for content in contents for note in content.notes]
     run.notes.extend(map(cut, problems))
     whole = [content.section for content in contents if content.is_whole]
-    return _Assembly(whole, run.as_json() | {"sections": own}).page()
-
-
-class _Script(NamedTuple):
-    """A script of the page, and the section that it draws."""
-
-    text: str
-    section: str = ""
-
-
-class _Assembly:
-    """Puts the markup, scripts and data of the sections into one document."""
-
-    def __init__(self, sections: Sequence[Section], data: Json) -> None:
-        # Not at the top: a run is simulated without it.
-        from jinja2 import Environment, StrictUndefined
-
-        self._sections = sections
-        self._data = data
-        self._scripts: dict[str, str] = {}
-        """Scripts of the sections whose markup could be made, by the name of the section."""
-        self._failed: set[str] = set()
-        self._environment: Environment = Environment(
-            autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-        )
-
-    def page(self) -> str:
-        """Return the document."""
-        outer = [self._markup(one) for one in self._sections if not one.within]
-        self._note_homeless()
-        return self._environment.from_string(_own_file("page.html")).render(
-            style=_own_file("page.css"),
-            sections=outer,
-            data=embeddable(self._data),
-            scripts=self._all_scripts(),
-        )
-
-    def _markup(self, section: Section) -> str:
-        """Return the markup of a section; one that fails is noted and left out."""
-        from jinja2 import meta
-
-        try:
-            template, script = self._environment.parse(section.template()), section.script()
-            inner = [one for one in self._sections if one.within == section.name]
-            if "parts" not in meta.find_undeclared_variables(template):
-                inner = []
-            markup = self._environment.from_string(template).render(
-                run=self._data,
-                data=self._data["sections"].get(section.name),
-                parts=[self._markup(one) for one in inner],
-            )
-            markup.encode()
-        except Exception as error:
-            self._failed.add(section.name)
-            self._note(
-                f"The template of section {section.name!r} cannot be shown: "
-                f"{type(error).__name__}: {error}"
-            )
-            return ""
-        self._scripts[section.name] = script
-        return markup
-
-    def _note_homeless(self) -> None:
-        """Note the sections that stand within one that is not on the page, or takes in none."""
-        for section in self._sections:
-            if section.name not in self._failed and not self._is_on_page(section):
-                self._note(
-                    cannot_be_shown(
-                        section.name,
-                        AirhiltError(
-                            f"it stands within {section.within!r}, and the page has no section of "
-                            "that name whose template shows its parts"
-                        ),
-                    )
-                )
-
-    def _is_on_page(self, section: Section) -> bool:
-        outer = [one for one in self._sections if one.name == section.within]
-        return section.name in self._scripts and (
-            not section.within or any(map(self._is_on_page, outer))
-        )
-
-    def _note(self, text: str) -> None:
-        self._data["notes"].append(cut(text))
-
-    def _all_scripts(self) -> list[_Script]:
-        """Return all scripts; that of a section has a scope and an element of its own."""
-        shared = [_Script(_own_file(f"shared/{name}.js")) for name in SHARED]
-        own = [
-            _Script(
-                f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n",
-                section.name,
-            )
-            for section in self._sections
-            if self._is_on_page(section) and (script := self._scripts[section.name])
-        ]
-        scripts = [*shared, *own, _Script("page.begin();\n")]
-        return [script._replace(text=_inline(script.text)) for script in scripts]
-
-
-def _own_file(name: str) -> str:
-    return resources.files(__package__).joinpath(name).read_text("utf-8")
-
-
-def _inline(script: str) -> str:
-    """Return a script in which no text can end the element that it lies in."""
-    return END_OF_SCRIPT.sub(lambda found: found[0][0] + "\\" + found[0][1:], script)
-
-
-def embeddable(data: Json) -> str:
-    """Return data as JSON in which no text can end the script element that it lies in."""
-    text = json.dumps(data, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    data = run.as_json() | {"sections": own}
+    return Assembly("run", "AIRHILT run report", SHARED, whole, data).page()

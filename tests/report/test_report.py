@@ -29,8 +29,8 @@ from airhilt.messages import (
 from airhilt.options import Options
 from airhilt.record import Logged, LogWriter, RunFolder
 from airhilt.report import write_report
+from airhilt.report.assembly import embeddable
 from airhilt.report.intervals import Intervals
-from airhilt.report.page import embeddable
 from airhilt.report.tracks import ThinnedStates
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS

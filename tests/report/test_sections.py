@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from airhilt.report import write_report
-from airhilt.report.page import _inline
+from airhilt.report.assembly import inline
 from airhilt.report.sections import load_sections
 from engine_package import installed
 from paths import DOCS
@@ -212,6 +212,6 @@ def test_the_example_of_the_documentation_is_a_section(
 
 def test_a_script_cannot_end_its_element() -> None:
     for text in ("</script>", "</SCRIPT >", "<!-- hidden"):
-        inlined = _inline(f'const text = "{text}";')
+        inlined = inline(f'const text = "{text}";')
         assert text not in inlined
         assert inlined.replace("\\", "") == f'const text = "{text}";'

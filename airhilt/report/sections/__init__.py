@@ -21,7 +21,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -30,6 +29,7 @@ from pydantic.dataclasses import dataclass
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family, Members
 from airhilt.record import Logged, RunFolder
+from airhilt.report.page_section import PageSection, cannot_be_shown, load_member, load_members
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData
@@ -65,53 +65,20 @@ class Content:
 
 
 @dataclass(frozen=True)
-class Section:
-    """One section of the page.
+class Section(PageSection):
+    """One section of the page of a run.
 
     Attributes
     ----------
-    name
-        Name of its module or entry point; its data is found by it.
-    order
-        Place among the sections of the page, or of the section that it stands in: a higher number
-        comes later.
-    module
-        ``__file__`` of its module: the template and the script have the same name with ``.html``
-        and ``.js``.
     content
         Called with the run folder to make the receiver of messages; None if the section has no
         data of its own.
     keys
         Beginnings of the keys of the messages that the content receives.
-    within
-        Name of the section that it stands in.
     """
 
-    name: str
-    order: int
-    module: str
     content: Callable[[RunFolder], Content] | None = None
     keys: tuple[str, ...] = ()
-    within: str = ""
-
-    def template(self) -> str:
-        """Return the Jinja template."""
-        return _read(self._beside(".html"))
-
-    def script(self) -> str:
-        """Return the script, empty if there is none."""
-        path = self._beside(".js")
-        return _read(path) if path.is_file() else ""
-
-    def _beside(self, suffix: str) -> Path:
-        return Path(self.module).with_suffix(suffix)
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text("utf-8")
-    except UnicodeDecodeError as error:
-        raise AirhiltError(f"{path}: not UTF-8 from byte {error.start} on") from None
 
 
 class GuardedContent:
@@ -172,13 +139,6 @@ class GuardedContent:
         self._content = None
 
 
-def cannot_be_shown(section: str, error: Exception) -> str:
-    """Return a sentence on why a section of that name is not on the page."""
-    known = isinstance(error, AirhiltError | OSError)
-    cause = str(error) if known else f"{type(error).__name__}: {error}"
-    return f"The section {section!r} cannot be shown: {cause}"
-
-
 FAMILY = Family(
     "report section", "airhilt.report_sections", __name__, "SECTION", Section, AirhiltError
 )
@@ -192,24 +152,10 @@ def load_section(installed: Members, name: str) -> Section:
     AirhiltError
         It cannot be loaded, or its template or script cannot be read.
     """
-    section: Section = installed.load(name)
-    try:
-        section.template(), section.script()
-    except AirhiltError:
-        raise
-    except Exception as error:
-        raise AirhiltError(f"{type(error).__name__}: {error}") from error
+    section: Section = load_member(installed, name)
     return section
 
 
 def load_sections() -> tuple[list[Section], list[str]]:
     """Return all sections in their order, and a sentence on each that cannot be shown."""
-    sections: list[Section] = []
-    problems: list[str] = []
-    installed = FAMILY.scan()
-    for name in installed.names():
-        try:
-            sections.append(load_section(installed, name))
-        except Exception as error:
-            problems.append(cannot_be_shown(name, error))
-    return sorted(sections, key=lambda section: (section.order, section.name)), problems
+    return load_members(FAMILY)

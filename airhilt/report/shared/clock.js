@@ -49,10 +49,14 @@ function cursor(root, area) {
 
 /** The time shown. */
 const clock = {
-  t: 0,
+  t: [summary && summary.t_first_warning_s, timeOf("opened"), 0].find(known),
   listeners: [],
   set(t) {
     this.t = Math.min(Math.max(t, 0), endS);
     this.listeners.forEach((listener) => listener(this.t));
   },
+};
+page.shown = (listeners) => {
+  clock.listeners = listeners;
+  clock.set(clock.t);
 };

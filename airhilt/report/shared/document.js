@@ -2,8 +2,7 @@
 
 // The data of the page, and its elements. Text is only ever set as text.
 
-const run = JSON.parse(document.getElementById("run").textContent);
-const summary = run.summary;
+const given = JSON.parse(document.querySelector('script[type="application/json"]').textContent);
 const METRE_PER_NM = 1852, METRE_PER_FT = 0.3048;
 
 const byId = (id) => document.getElementById(id);

@@ -1,15 +1,18 @@
 "use strict";
 
-/** The sections of the page: what each draws, and what it shows at a time. */
+/** The sections of the page, and what each draws. */
 const page = {
   drawn: [],
 
   /** Adds a section: a function of the section's data that returns `draw`, `fit`, both or nothing. */
   section(name, make) {
-    const data = run.sections[name];
+    const data = given.sections[name];
     const parts = this.attempt(name, () => make(data === undefined ? null : data)) || {};
     this.drawn.push({ name, ...parts });
   },
+
+  /** Receives the functions that were returned by what was drawn; a page with a clock keeps them. */
+  shown() {},
 
   /** Calls a function; where it fails, the page says of which section, and goes on with the others. */
   attempt(name, call) {
@@ -36,10 +39,8 @@ const page = {
     const redraw = () => {
       if (document.documentElement.clientWidth === width) return;
       width = document.documentElement.clientWidth;
-      clock.listeners = [...steady, ...call("fit")];
-      clock.set(clock.t);
+      this.shown([...steady, ...call("fit")]);
     };
-    clock.t = [summary && summary.t_first_warning_s, timeOf("opened"), 0].find(known);
     redraw();
     new ResizeObserver(redraw).observe(document.documentElement);
   },

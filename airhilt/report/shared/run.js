@@ -1,6 +1,8 @@
 "use strict";
 // What happened in the run.
 
+const run = given, summary = run.summary;
+
 /** Phases of a conflict, in words. */
 const PHASES = {
   begun: "conflict begins", opened: "conflict window opens", closed: "conflict window closes", loss_of_separation: "separation lost",

@@ -1,0 +1,92 @@
+"""What the sections of all pages have in common: a template, and a script where one is needed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic.dataclasses import dataclass
+
+from airhilt.errors import AirhiltError
+from airhilt.plugins import Family, Members
+
+
+@dataclass(frozen=True)
+class PageSection:
+    """One section of a page.
+
+    Attributes
+    ----------
+    name
+        Name of its module or entry point; its data is found by it.
+    order
+        Place among the sections of the page, or of the section that it stands in: a higher number
+        comes later.
+    module
+        ``__file__`` of its module: the template and the script have the same name with ``.html``
+        and ``.js``.
+    within
+        Name of the section that it stands in.
+    """
+
+    name: str
+    order: int
+    module: str
+    within: str = ""
+
+    def template(self) -> str:
+        """Return the Jinja template."""
+        return _read(self._beside(".html"))
+
+    def script(self) -> str:
+        """Return the script, empty if there is none."""
+        path = self._beside(".js")
+        return _read(path) if path.is_file() else ""
+
+    def _beside(self, suffix: str) -> Path:
+        return Path(self.module).with_suffix(suffix)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text("utf-8")
+    except UnicodeDecodeError as error:
+        raise AirhiltError(f"{path}: not UTF-8 from byte {error.start} on") from None
+
+
+def cannot_be_shown(section: str, error: Exception) -> str:
+    """Return a sentence on why a section of that name is not on the page."""
+    known = isinstance(error, AirhiltError | OSError)
+    cause = str(error) if known else f"{type(error).__name__}: {error}"
+    return f"The section {section!r} cannot be shown: {cause}"
+
+
+def load_member(installed: Members, name: str) -> Any:
+    """Return a section whose template and script can be read.
+
+    Raises
+    ------
+    AirhiltError
+        It cannot be loaded, or its template or script cannot be read.
+    """
+    section: PageSection = installed.load(name)
+    try:
+        section.template(), section.script()
+    except AirhiltError:
+        raise
+    except Exception as error:
+        raise AirhiltError(f"{type(error).__name__}: {error}") from error
+    return section
+
+
+def load_members(family: Family) -> tuple[list[Any], list[str]]:
+    """Return all sections of a page in their order, and a sentence on each that cannot be shown."""
+    sections: list[PageSection] = []
+    problems: list[str] = []
+    installed = family.scan()
+    for name in installed.names():
+        try:
+            sections.append(load_member(installed, name))
+        except Exception as error:
+            problems.append(cannot_be_shown(name, error))
+    return sorted(sections, key=lambda section: (section.order, section.name)), problems
