@@ -29,7 +29,7 @@ class RemoteWorker:
 
     def __init__(self, bus: Bus, name: str, timeout_s: float) -> None:
         self.name = name
-        self._session = bus.session
+        self._bus = bus
         self._key = f"{bus.prefix}/worker/{name}"
         self._timeout_s = timeout_s
 
@@ -41,7 +41,7 @@ class RemoteWorker:
         WorkerError
             It does not answer in time, or its answer is not a description.
         """
-        for reply in self._session.get(f"{self._key}/describe", timeout=timeout_s):
+        for reply in self._bus.session.get(f"{self._key}/describe", timeout=timeout_s):
             if reply.ok is None:
                 raise WorkerError(
                     f"worker {self.name!r} is there, but did not describe itself within "
@@ -74,7 +74,7 @@ class RemoteWorker:
                 for item in inputs
             ),
         )
-        replies = self._session.get(
+        replies = self._bus.session.get(
             f"{self._key}/step",
             payload=pack(item.payload for item in inputs),
             attachment=grant.model_dump_json().encode(),

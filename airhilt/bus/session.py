@@ -176,8 +176,18 @@ class Bus:
         )
 
     def close(self) -> None:
-        """Close the session; the liveliness token of the run goes with it, so workers notice."""
+        """Close the session; the liveliness token of the run goes with it, so workers notice.
+
+        What was declared goes first, and the session itself last: Zenoh 1.10 keeps the shared
+        memory and a file descriptor of a session whose publishers still exist when it is closed
+        as long as the process lives, and those of any other as long as the object does.
+        """
+        for publisher in self._publishers.values():
+            publisher.undeclare()  # type: ignore[no-untyped-call]
+        self._publishers.clear()
+        self._kept.clear()
         self.session.close()  # type: ignore[no-untyped-call]
+        del self.session
 
 
 def _require_shared_memory(error: zenoh.ZError) -> None:

@@ -1,4 +1,4 @@
-"""A session that cannot be opened says why."""
+"""A session that cannot be opened says why; one that is closed leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import zenoh
 
 from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.errors import BusError
+from resources import held, linux_only
 
 NO_MEMORY = "Unable to create POSIX shm segment: OS error 30 at /build/zenoh-shm/src/segment.rs:85."
 
@@ -60,3 +61,20 @@ def test_a_client_without_shared_memory_does_not_wait_for_the_run() -> None:
     with pytest.raises(BusError, match="/dev/shm must be writable"):
         connect_client(free_endpoint(), patience_s=60.0)
     assert time.monotonic() - begun < 30.0
+
+
+@linux_only
+def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
+    def use(name: str) -> Bus:
+        with closing(Bus(name)) as bus:
+            bus.put("truth/state/AAL123", b"{}")
+            bus.keep("clock", b"{}")
+            bus.hear("command/*", lambda key, payload: None)
+            bus.watch_workers(lambda name, alive: None)
+        return bus
+
+    use("first")  # Zenoh keeps threads and their descriptors for the sessions to come.
+    before = held()
+    closed = [use(f"run-{number}") for number in range(5)]
+    assert held() == before
+    assert len(closed) == 5
