@@ -15,7 +15,7 @@ from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
-from airhilt.cosim.provenance import model_files, other_packages
+from airhilt.cosim.provenance import engines_in_use, model_files, other_packages
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError, first_problem
@@ -82,7 +82,7 @@ class Setup:
 
     def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it begins."""
-        options = self.options
+        options, engines = self.options, engines_in_use(self, participants)
         return RunInfo(
             run=self.name,
             options=options,
@@ -100,8 +100,8 @@ class Setup:
             versions=versions(),
             platform=machine(),
             renderer=renderer,
-            models=model_files(self, participants),
-            other_packages=other_packages(self, participants, renderer),
+            models=model_files(self, engines),
+            other_packages=other_packages(self, engines, renderer),
         )
 
 

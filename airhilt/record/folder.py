@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.metadata
 import json
 import os
@@ -102,11 +103,17 @@ class RunInfo(BaseModel):
 
 def versions() -> dict[str, str]:
     """Return the versions of AIRHILT and of the packages that decide its results."""
-    found = {name: importlib.metadata.version(name) for name in RECORDED_VERSIONS}
+    found = {name: _version(name) for name in RECORDED_VERSIONS}
     for name in WHERE_INSTALLED:
         with suppress(importlib.metadata.PackageNotFoundError):
-            found[name] = importlib.metadata.version(name)
+            found[name] = _version(name)
     return {"airhilt": __version__, "python": platform.python_version(), **found}
+
+
+@functools.cache
+def _version(package: str) -> str:
+    """Return the version of a package; it is looked up once, since a process loads it once."""
+    return importlib.metadata.version(package)
 
 
 def machine() -> dict[str, str]:

@@ -6,6 +6,7 @@ once a simulated second; a run that is killed leaves all but the last of them.
 
 from __future__ import annotations
 
+import functools
 import json
 import struct
 from collections.abc import Iterator
@@ -62,9 +63,8 @@ class LogWriter:
     def _register(self, key: str, publisher: str, model: type[BaseModel]) -> int:
         schema = self._schemas.get(model)
         if schema is None:
-            text = json.dumps(model.model_json_schema(), sort_keys=True)
             schema = self._writer.register_schema(
-                f"airhilt.{model.__name__}", "jsonschema", text.encode()
+                f"airhilt.{model.__name__}", "jsonschema", _json_schema(model)
             )
             self._schemas[model] = schema
         channel = self._writer.register_channel(key, "json", schema, {"publisher": publisher})
@@ -99,6 +99,12 @@ class LogWriter:
                 self._writer.finish()  # type: ignore[no-untyped-call]
         except OSError as error:
             raise disk_failed(self._stream.name, error) from None
+
+
+@functools.cache
+def _json_schema(model: type[BaseModel]) -> bytes:
+    """Return the JSON Schema of a model; a process makes it once for all its logs."""
+    return json.dumps(model.model_json_schema(), sort_keys=True).encode()
 
 
 def read_log(path: Path) -> Iterator[Logged]:

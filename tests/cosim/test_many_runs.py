@@ -28,9 +28,7 @@ def brief(encounter: Scenario) -> Scenario:
 
 def run(scenario: Scenario, folder: Path, *, speech: bool = False) -> str:
     """Run a scenario without cameras and return the hash of its log."""
-    airhilt.run(
-        scenario, out=folder, overwrite=True, cameras=False, speech=speech, latency="fixed"
-    )
+    airhilt.run(scenario, out=folder, overwrite=True, cameras=False, speech=speech, latency="fixed")
     return sha256(folder / "log.mcap")
 
 

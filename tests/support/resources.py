@@ -25,7 +25,7 @@ def held() -> Held:
     maps = (PROCESS / "maps").read_text()
     return Held(
         sum(1 for _ in (PROCESS / "fd").iterdir()),
-        len(set(re.findall(r"/dev/shm/\S+", maps))),  # noqa: S108
+        len(set(re.findall(r"/dev/shm/\S+", maps))),
     )
 
 
