@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from airhilt.child_process import Ended, NoAnswer, environment_with, exit_text
 from airhilt.errors import CameraError, RendererError, ScenarioError
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
@@ -15,14 +16,7 @@ from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
-from airhilt.sensors.cameras.renderer_link import (
-    COMMAND,
-    Ended,
-    NoAnswer,
-    RendererLink,
-    environment,
-    exit_text,
-)
+from airhilt.sensors.cameras.renderer_link import COMMAND, ENVIRONMENT, RendererLink
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.shared_pixels import camera_bytes, places_of, planes
@@ -201,7 +195,7 @@ def probe(renderer: str) -> None:
             [*COMMAND, renderer],
             capture_output=True,
             text=True,
-            env=environment(),
+            env=environment_with(ENVIRONMENT),
             timeout=STARTING_S,
             check=False,
         )

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt import load
+from airhilt import child_process, load
 from airhilt.errors import CameraError, RendererError
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
@@ -260,7 +260,7 @@ def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.Monk
     monkeypatch.setattr(renderer_link, "COMMAND", (sys.executable, "-c", reads))
     monkeypatch.setattr(renderer_process, "SLOWEST_SAMPLES_PER_S", 1600.0)
 
-    def note(_: RendererLink, patience_s: float) -> bytes:
+    def note(_: RendererLink, patience_s: float, *_watch: object) -> bytes:
         waited.append(patience_s)
         return b'{"error": "RendererError", "text": "noted"}'
 
@@ -295,7 +295,7 @@ def test_pixels_lie_in_memory_and_not_on_a_disk(process: RendererProcess) -> Non
 def test_what_a_renderer_says_besides_takes_no_more_than_its_room(
     process: RendererProcess, bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(renderer_link, "MOST_PRINTED_BYTES", 50)
+    monkeypatch.setattr(child_process, "MOST_PRINTED_BYTES", 50)
     for _ in range(2):
         os.write(process._link._printed.fileno(), b"a driver's warning\n" * 3)
         process.shoot(["field"], bodies, 0)

@@ -161,8 +161,8 @@ def _first_of(names: Sequence[str], landscape: Mesh, light: Illumination) -> tup
     return last, FAMILY.load(last).open(landscape, light)
 
 
-def require_renderer(name: str) -> None:
-    """Draw something; what the renderer loads stays in the process.
+def require_renderer(name: str) -> str:
+    """Draw something and return the name of what drew; what it loads stays in the process.
 
     Raises
     ------
@@ -171,7 +171,8 @@ def require_renderer(name: str) -> None:
     """
     triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
     light = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
-    _, renderer = open_renderer(name, triangle, {}, light)
+    taken, renderer = open_renderer(name, triangle, {}, light)
     view = View(Intrinsics(16, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
     renderer.landscape(view, view.whole)
     renderer.close()
+    return taken
