@@ -58,6 +58,9 @@ class Flag:
         Names of the options without which this one does nothing.
     former
         Spellings of earlier versions: understood, but not shown.
+    in_sweeps
+        False for what belongs to one run alone, such as its folder, and for programs that attach
+        to it.
     """
 
     name: str
@@ -66,6 +69,7 @@ class Flag:
     default: str = ""
     needs: tuple[str, ...] = ()
     former: tuple[str, ...] = ()
+    in_sweeps: bool = True
 
 
 def _one_chunk(name: str) -> str:
@@ -98,9 +102,11 @@ class Options(BaseModel):
     ] = 0
     out: Annotated[
         Path | None,
-        Flag("--out", "The run folder.", "DIR", default="a new one under runs/"),
+        Flag("--out", "The run folder.", "DIR", default="a new one under runs/", in_sweeps=False),
     ] = None
-    overwrite: Annotated[bool, Flag("--overwrite", "Replace the run that --out holds.")] = False
+    overwrite: Annotated[
+        bool, Flag("--overwrite", "Replace the run that --out holds.", in_sweeps=False)
+    ] = False
     assistant: Annotated[
         str | None,
         Flag(
@@ -130,6 +136,7 @@ class Options(BaseModel):
             "virtual (as fast as it goes), realtime, or a factor such as 4x.",
             "PACE",
             default="virtual, realtime if an attached program takes no grants",
+            in_sweeps=False,
         ),
     ] = None
     latency: Annotated[
@@ -150,6 +157,7 @@ class Options(BaseModel):
             "ENDPOINT",
             default="a free port",
             former=("--listen",),
+            in_sweeps=False,
         ),
     ] = None
     attach: Annotated[
@@ -158,11 +166,12 @@ class Options(BaseModel):
             "--attach",
             "Wait for this worker of another process; may be given again.",
             "WORKER",
+            in_sweeps=False,
         ),
     ] = ()
     attach_timeout_s: Annotated[
         Seconds,
-        Flag("--attach-timeout", "How long to wait for it.", "SECONDS"),
+        Flag("--attach-timeout", "How long to wait for it.", "SECONDS", in_sweeps=False),
     ] = 60.0
     step_timeout_s: Annotated[
         Seconds,
@@ -170,6 +179,7 @@ class Options(BaseModel):
             "--step-timeout",
             "Wall time after which an attached worker that does not answer is lost.",
             "SECONDS",
+            in_sweeps=False,
         ),
     ] = 5.0
     run_name: Annotated[str, AfterValidator(_one_chunk)] | None = None
@@ -210,6 +220,7 @@ class Options(BaseModel):
             "--video",
             "Write what each camera saw as MP4, with boxes and advisories.",
             needs=("cameras",),
+            in_sweeps=False,
         ),
     ] = False
     speech: Annotated[bool, Flag("--no-speech", "Radio calls as text, not as sound.")] = True
@@ -330,7 +341,11 @@ class Options(BaseModel):
     ] = ()
     report: Annotated[
         bool,
-        Flag("--no-report", "Leave report.html out; `airhilt report RUN` writes it later."),
+        Flag(
+            "--no-report",
+            "Leave report.html out; `airhilt report RUN` writes it later.",
+            in_sweeps=False,
+        ),
     ] = True
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
 

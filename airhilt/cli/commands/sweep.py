@@ -1,0 +1,189 @@
+"""The command that sweeps a grid of runs."""
+
+from __future__ import annotations
+
+import os
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import click
+
+INTERRUPTED = 130
+"""Exit code after a signal."""
+
+
+class SweepCommand(click.Command):
+    """A command with the flags of a run that take several values, made when somebody asks."""
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return the parameters: those of the command itself, and those of its runs."""
+        from airhilt.cli.sweep_flags import value_flags
+
+        if not any(parameter.name == "assistant" for parameter in self.params):
+            self.params[2:2] = value_flags()
+        return super().get_params(ctx)
+
+
+@click.command(
+    cls=SweepCommand,
+    epilog="""\b
+Values are lists (0,5,10), ranges with their end (0:20:5), ranges in even ratios with a count
+(log:1:100:5), or intervals to draw samples from (0:20, with --sample).
+\b
+Examples:
+  airhilt sweep --scenario 's01a_*' --snr 0:20:5 --visibility 400,800,1600,5000,10000 \\
+      --seeds 10 --assistant reference,paper,adsb_only --latency fixed --out sweeps/s01a
+  airhilt sweep --scenario s02a_headon --set actors.AAL123.initial.cas_kt=250:300:10 --dry-run
+  airhilt sweep --scenario s01a_bad_readback --snr 0:20 --visibility 400:10000 --sample sobol:64
+  airhilt sweep --file sweep.json --scheduler tcp://head:8786
+""",
+)
+@click.option(
+    "--scenario",
+    "scenarios",
+    multiple=True,
+    metavar="NAME_OR_FILE",
+    help="A scenario, a pattern such as 's01a_*', or a JSON file; may be given again.",
+)
+@click.option(
+    "--seeds",
+    metavar="SEEDS",
+    help="How many (10: seeds 0 to 9), or which: 3,5 or 10:19:1.  [default: 1]",
+)
+@click.option(
+    "--set",
+    "set_",
+    multiple=True,
+    metavar="PATH=VALUES",
+    help="Any parameter by its path: of the scenario (weather.visibility_m, "
+    "actors.AAL123.initial.distance_m), of the assistant (assistant.tau_asr), or an option; may be "
+    "given again.",
+)
+@click.option(
+    "--sample",
+    metavar="METHOD:COUNT",
+    help="Draw points from the intervals instead of a grid: lhs:COUNT or sobol:COUNT, with :SEED.",
+)
+@click.option(
+    "--file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="A sweep file (`airhilt schema --sweep`); flags add to it.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Folder of the sweep; what it has already is not run again.  [default: a new one under "
+    "sweeps/]",
+)
+@click.option(
+    "--scheduler",
+    default="local",
+    show_default=True,
+    metavar="NAME_OR_ADDRESS",
+    help="Who does the runs: local, slurm, pbs, lsf, kubernetes, or the address of a Dask "
+    "scheduler.",
+)
+@click.option(
+    "--scheduler-config",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Settings of the scheduler, such as queue and account, a JSON file.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Number of workers.  [default: by cores and memory]",
+)
+@click.option(
+    "--keep",
+    default="none",
+    show_default=True,
+    metavar="WHICH",
+    help="Run folders that stay: none, failed, all, or sample:N.",
+)
+@click.option(
+    "--run-timeout",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=3600.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="Wall time after which a run is ended.",
+)
+@click.option(
+    "--run-memory",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=4000.0,
+    show_default=True,
+    metavar="MB",
+    help="Memory at which a run is ended.",
+)
+@click.option("--retry", is_flag=True, help="Run again what a limit or a crash has ended.")
+@click.option(
+    "--dashboard",
+    metavar="ADDRESS",
+    help="Serve Dask's dashboard, such as 127.0.0.1:8787; it needs the package bokeh.",
+)
+@click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long.")
+@click.option("--quiet", is_flag=True, help="Print nothing but errors.")
+@click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON.")
+@click.pass_context
+def sweep(context: click.Context, /, **given: Any) -> int:
+    """Run a grid of scenarios, parameters, seeds and assistants, and make one table of it.
+
+    The table is DIR/sweep.parquet (`airhilt report DIR` shows it, `airhilt.read_sweep` reads it).
+    The same command again does what is missing. Exit code 0 if every run has a row, 1 if some have
+    not.
+    """
+    from airhilt.cli.sweep_flags import specification_given
+    from airhilt.cli.sweep_output import print_estimate, print_result
+    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.sweep.engine import sweep as run_sweep
+    from airhilt.sweep.estimate import estimate
+    from airhilt.sweep.runner_process import Limits
+    from airhilt.sweep.work import Work, keep_of, read_settings
+
+    document = {} if given["file"] is None else _document(given["file"])
+    specification = specification_given(
+        context, document, given["scenarios"], given["seeds"], given["set_"], given["sample"]
+    )
+    keep, sample = keep_of(given["keep"])
+    work = Work(
+        out=given["out"] or _default_folder(),
+        limits=Limits(given["run_timeout"], given["run_memory"]),
+        workers=given["workers"],
+        scheduler=given["scheduler"],
+        scheduler_config=read_settings(given["scheduler_config"]),
+        keep=keep,
+        sample=sample,
+        dashboard=given["dashboard"],
+        retry=given["retry"],
+    )
+    if given["dry_run"]:
+        print_estimate(estimate(specification, work), given["as_json"])
+        return 0
+    with SweepProgress(given["quiet"]) as progress, progress.interruptible():
+        result = run_sweep(specification, work, progress)
+    print_result(result, given["as_json"], given["quiet"])
+    if progress.stops:
+        return INTERRUPTED
+    return 0 if result.rows == result.runs else 1
+
+
+def _default_folder() -> Path:
+    return Path("sweeps") / f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
+
+
+def _document(path: Path) -> dict[str, Any]:
+    from airhilt.sweep.specification import read_specification
+
+    found: dict[str, Any] = read_specification(path).model_dump(
+        mode="json", by_alias=True, exclude_defaults=True
+    )
+    return found
+
+
+COMMAND = sweep

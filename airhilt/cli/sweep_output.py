@@ -1,0 +1,49 @@
+"""What a sweep prints at its end, and what a dry run prints."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+
+import click
+
+from airhilt.cli.sweep_progress import duration
+from airhilt.files import sha256
+from airhilt.sweep.engine import SweepResult
+from airhilt.sweep.estimate import Estimate
+
+
+def print_estimate(found: Estimate, as_json: bool) -> None:
+    """Print the size of a sweep on standard output."""
+    if as_json:
+        click.echo(json.dumps(asdict(found), indent=2))
+        return
+    click.echo(
+        f"{found.runs} runs; one took {found.run_s:.1f} s and {found.run_mb:.0f} MB, so about "
+        f"{duration(found.total_s)} with {found.workers} workers"
+    )
+
+
+def print_result(result: SweepResult, as_json: bool, quiet: bool) -> None:
+    """Print what a sweep has come to on standard output."""
+    table = result.folder.table_path
+    if as_json:
+        outcome = {
+            "folder": str(result.folder.path),
+            "table": str(table),
+            "table_sha256": sha256(table),
+            "runs": result.runs,
+            "rows": result.rows,
+            "failed": result.failed,
+            "missing": result.missing,
+        }
+        click.echo(json.dumps(outcome, indent=2))
+        return
+    if quiet:
+        return
+    click.echo(f"{result.rows} rows of {result.runs} runs in {table}")
+    if result.failed:
+        click.echo(f"{result.failed} runs failed: their causes are in {result.folder.machine_path}")
+    if result.missing:
+        click.echo(f"{result.missing} runs are missing: the same command does them")
+    click.echo(f"sweep folder: {result.folder.path}")

@@ -1,0 +1,130 @@
+"""Output of a sweep on the terminal: a bar while it goes on, or lines where there is none."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import TracebackType
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.text import Text
+
+from airhilt.sweep.engine import SweepObserver
+from airhilt.sweep.outcome import Outcome
+
+LINE_PERIOD_S = 10.0
+"""Between two lines where standard error is no terminal."""
+
+
+class SweepProgress(SweepObserver):
+    """Shows runs done, rate, failures and time left, on standard error.
+
+    Parameters
+    ----------
+    quiet
+        True: only what went wrong.
+    """
+
+    def __init__(self, quiet: bool) -> None:
+        self._console = Console(stderr=True, highlight=False)
+        self._quiet = quiet
+        self._progress: Progress | None = None
+        self._task: int | None = None
+        self._stops = False
+        self._total = self._done = self._before = self._failed = 0
+        self._begun = self._printed = time.monotonic()
+
+    @property
+    def stops(self) -> bool:
+        """True once the user has asked to stop."""
+        return self._stops
+
+    def begun(self, total: int, finished: int, workers: str) -> None:
+        """Show how many runs there are, and who does them."""
+        self._total, self._done, self._before = total, finished, finished
+        self._begun = time.monotonic()
+        if self._quiet:
+            return
+        had = f", {finished} of them finished before" if finished else ""
+        self._console.print(f"{total} runs{had}; {workers}", soft_wrap=True)
+        if self._console.is_terminal:
+            self._progress = Progress(
+                TextColumn("{task.description}"),
+                BarColumn(),
+                MofNCompleteColumn(),
+                TextColumn("{task.fields[rate]}"),
+                TimeRemainingColumn(),
+                console=self._console,
+            )
+            self._task = self._progress.add_task("sweep", total=total, completed=finished, rate="")
+            self._progress.start()
+
+    def ended(self, outcome: Outcome) -> None:
+        """Count a run."""
+        self._done += 1
+        if outcome.status != "finished":
+            self._failed += 1
+            self.notice(f"run {outcome.key[:16]} {outcome.status}: {outcome.cause}")
+        if self._progress is not None and self._task is not None:
+            self._progress.update(self._task, completed=self._done, rate=self._rate())  # type: ignore[arg-type]
+        elif not self._quiet and time.monotonic() - self._printed > LINE_PERIOD_S:
+            self._printed = time.monotonic()
+            self._console.print(
+                f"{self._done} of {self._total} runs, {self._rate()}, {self._left()} left",
+                soft_wrap=True,
+            )
+
+    def notice(self, text: str) -> None:
+        """Print a line that stays."""
+        self._console.print(Text(f"airhilt: {text}", style="yellow"), soft_wrap=True)
+
+    @contextmanager
+    def interruptible(self) -> Iterator[None]:
+        """Let the first signal stop after the runs in hand, and the second one at once."""
+
+        def handle(*_: object) -> None:
+            if self._stops:
+                raise KeyboardInterrupt
+            self._stops = True
+            self.notice("stopping: the runs in hand finish first; once more stops at once")
+
+        earlier = {n: signal.signal(n, handle) for n in (signal.SIGINT, signal.SIGTERM)}
+        try:
+            yield
+        finally:
+            for number, handler in earlier.items():
+                signal.signal(number, handler)
+
+    def __enter__(self) -> SweepProgress:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._progress is not None:
+            self._progress.stop()
+
+    def _per_second(self) -> float:
+        return (self._done - self._before) / max(time.monotonic() - self._begun, 1e-6)
+
+    def _rate(self) -> str:
+        rate = self._per_second()
+        words = f"{rate:.1f} runs/s" if rate >= 1.0 else f"{rate * 3600.0:.0f} runs/h"
+        return f"{words}, {self._failed} failed" if self._failed else words
+
+    def _left(self) -> str:
+        return duration((self._total - self._done) / max(self._per_second(), 1e-9))
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, such as ``2 h 05 min``."""
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60.0)
+    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60:02} min"

@@ -1,0 +1,243 @@
+"""The folder of a sweep: its specification, the runs that are finished, and the tables of them.
+
+Finished runs are kept in parts, Parquet files that appear all or nothing, so that whatever is
+killed, nothing that was finished is lost. The tables ``sweep.parquet`` and ``machine.parquet`` are
+made of them and can be made again.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import uuid
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from airhilt.errors import AirhiltError
+from airhilt.files import replace_file
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+FORMAT = 1
+MOST_PARTS = 64
+"""Small parts from which they are put together into one."""
+SMALL_BYTES = 1_000_000
+"""Size up to which a part is small."""
+
+
+class SweepFolderError(AirhiltError):
+    """A sweep folder cannot be written, or does not hold what it must."""
+
+
+class SweepFolder:
+    """The paths in a sweep folder; reads and writes its parts and tables."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.info_path = path / "sweep.json"
+        self.table_path = path / "sweep.parquet"
+        self.machine_path = path / "machine.parquet"
+        self.parts_path = path / "parts"
+        self.runs_path = path / "runs"
+        self.figures_path = path / "figures"
+        self.report_path = path / "report.html"
+
+    @classmethod
+    def open(cls, path: Path) -> SweepFolder:
+        """Return an existing sweep folder.
+
+        Raises
+        ------
+        SweepFolderError
+            There is no sweep in it.
+        """
+        folder = cls(path)
+        if not folder.info_path.is_file():
+            raise SweepFolderError(f"{path}: no sweep here; expected a folder with a sweep.json")
+        return folder
+
+    def create(self) -> None:
+        """Make the folder; one that holds a sweep already is used again.
+
+        Raises
+        ------
+        SweepFolderError
+            It holds something else, or cannot be written.
+        """
+        if self.path.is_dir() and any(self.path.iterdir()) and not self.info_path.is_file():
+            raise SweepFolderError(
+                f"{self.path}: holds files that are no sweep; choose another folder with --out"
+            )
+        with _told(self.path):
+            self.parts_path.mkdir(parents=True, exist_ok=True)
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """Keep the folder for one process; the lock ends with it, however it ends.
+
+        Raises
+        ------
+        SweepFolderError
+            Another process has it.
+        """
+        with _told(self.path):
+            stream = (self.parts_path / ".lock").open("w")
+        with stream:
+            try:
+                fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise SweepFolderError(
+                    f"{self.path}: another sweep is writing here; wait for it, or choose another "
+                    "folder with --out"
+                ) from None
+            yield
+
+    # --- what is run ------------------------------------------------------------------------
+
+    def write_info(self, info: Mapping[str, Any]) -> None:
+        """Write ``sweep.json``, all or nothing."""
+        with _told(self.info_path):
+            replace_file(self.info_path, f"{json.dumps(info, indent=2)}\n".encode())
+
+    def info(self) -> dict[str, Any]:
+        """Return ``sweep.json``.
+
+        Raises
+        ------
+        SweepFolderError
+            It is damaged.
+        """
+        try:
+            loaded = json.loads(self.info_path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+            raise SweepFolderError(f"{self.info_path}: cannot be read: {error}") from None
+        if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
+            raise SweepFolderError(f"{self.info_path}: expected a sweep.json of format {FORMAT}")
+        return loaded
+
+    # --- finished runs ----------------------------------------------------------------------
+
+    def keep(self, runs: pa.Table) -> None:
+        """Write finished runs as a new part; each row has at least a ``key``.
+
+        Raises
+        ------
+        SweepFolderError
+            They cannot be written; earlier parts are as they were.
+        """
+        self._write_part(runs)
+        small = [part for part in self._parts() if part.stat().st_size <= SMALL_BYTES]
+        if len(small) > MOST_PARTS:
+            self._put_together(small)
+
+    def finished(self, notice: Callable[[str], None]) -> pa.Table | None:
+        """Return all finished runs, None if there is none; damaged parts are set aside and told.
+
+        A run that was finished twice has two rows.
+        """
+        import pyarrow as pa
+
+        tables = [table for part in self._parts() if (table := self._read_part(part, notice))]
+        return pa.concat_tables(tables, promote_options="permissive") if tables else None
+
+    def _parts(self) -> list[Path]:
+        return sorted(self.parts_path.glob("*.parquet"))
+
+    def _write_part(self, runs: pa.Table) -> None:
+        _write_table(runs, self.parts_path / f"{uuid.uuid4().hex}.parquet")
+
+    def _read_part(self, part: Path, notice: Callable[[str], None]) -> pa.Table | None:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        try:
+            table = pq.read_table(part)
+            if "key" in table.column_names:
+                return table
+            reason = "it has no column key"
+        except (pa.ArrowException, OSError) as error:
+            reason = str(error).splitlines()[0]
+        aside = part.with_suffix(".damaged")
+        with _told(part):
+            part.replace(aside)
+        notice(f"{part} is damaged ({reason}): set aside as {aside.name}, its runs are missing")
+        return None
+
+    def _put_together(self, parts: Sequence[Path]) -> None:
+        """Replace parts by one; a kill in between leaves runs twice, which have one key."""
+        import pyarrow as pa
+
+        tables = [table for part in parts if (table := self._read_part(part, _ignore))]
+        self._write_part(pa.concat_tables(tables, promote_options="permissive"))
+        for part in parts:
+            part.unlink(missing_ok=True)
+
+    # --- tables -----------------------------------------------------------------------------
+
+    def write_tables(self, table: pa.Table, machine: pa.Table) -> None:
+        """Write both tables, each all or nothing."""
+        _write_table(table, self.table_path)
+        _write_table(machine, self.machine_path)
+
+    def table(self) -> pa.Table:
+        """Return ``sweep.parquet``: parameters and metrics, a row a run.
+
+        Raises
+        ------
+        SweepFolderError
+            It is not there yet, or damaged.
+        """
+        return _read_table(self.table_path)
+
+    def machine(self) -> pa.Table:
+        """Return ``machine.parquet``: status, time and memory, a row a run; else as `table`."""
+        return _read_table(self.machine_path)
+
+
+def _ignore(_text: str) -> None:
+    pass
+
+
+def _write_table(table: pa.Table, path: Path) -> None:
+    """Write a Parquet file, all or nothing; the same table gives the same bytes."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    sink = pa.BufferOutputStream()
+    pq.write_table(table, sink, compression="zstd", store_schema=True)
+    with _told(path):
+        replace_file(path, sink.getvalue().to_pybytes())
+
+
+def _read_table(path: Path) -> pa.Table:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        return pq.read_table(path)
+    except FileNotFoundError:
+        raise SweepFolderError(
+            f"{path}: not there; give the command of the sweep again, it makes the tables from the "
+            "runs that are finished"
+        ) from None
+    except (pa.ArrowException, OSError) as error:
+        reason = str(error).splitlines()[0]
+        raise SweepFolderError(
+            f"{path}: damaged ({reason}); give the command of the sweep again, it makes the tables "
+            "from the runs that are finished"
+        ) from None
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn an error of the disk into one for people."""
+    try:
+        yield
+    except OSError as error:
+        raise SweepFolderError(
+            f"{path}: cannot be written: {error.strerror}; what was finished before is kept; make "
+            "room, or choose another folder with --out"
+        ) from None

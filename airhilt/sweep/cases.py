@@ -1,0 +1,218 @@
+"""The runs of a sweep: each with its scenario, its options and a key that tells them apart."""
+
+from __future__ import annotations
+
+import fnmatch
+import hashlib
+import itertools
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import JsonValue, ValidationError
+
+from airhilt import library
+from airhilt.cosim.option_checks import check_options
+from airhilt.engines import ASSISTANT
+from airhilt.errors import AirhiltError, ScenarioError, first_problem, shown
+from airhilt.files import content_sha256
+from airhilt.options import Options
+from airhilt.scenario import Scenario, loading
+from airhilt.scenario.problems import error_for, problems_of
+from airhilt.sweep.axes import listed
+from airhilt.sweep.environment import Environment
+from airhilt.sweep.parameters import Parameter, Plan, parameter
+from airhilt.sweep.sampling import points
+from airhilt.sweep.specification import Specification
+from airhilt.world.checks import check
+from airhilt.world.loading import load
+
+MOST_RUNS = 10_000_000
+SHOWN_PROBLEMS = 20
+"""Problems of a grid that one error shows."""
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a sweep; the same case gives the same row on any worker.
+
+    Attributes
+    ----------
+    document
+        The scenario, with the values of the parameters in it.
+    options
+        Options of the run that differ from their defaults, as JSON has them.
+    parameters
+        Value of each parameter of the grid, by its path.
+    """
+
+    document: Json
+    options: Json
+    seed: int
+    parameters: dict[str, JsonValue]
+
+    @property
+    def scenario(self) -> str:
+        """Name of the scenario."""
+        return str(self.document["name"])
+
+    @property
+    def family(self) -> str:
+        """Family of the scenario, empty if it has none."""
+        return str(self.document["family"] or "")
+
+    @property
+    def assistant(self) -> str:
+        """Name of who decides."""
+        return str(self.options.get("assistant", ASSISTANT))
+
+    def key(self, environment: Environment) -> str:
+        """Return what tells this run from all others: a SHA-256 in hexadecimal."""
+        options = {name: _content(value) for name, value in self.options.items()}
+        whole = {
+            "scenario": self.document,
+            "options": options,
+            "seed": self.seed,
+            "environment": environment.model_dump(),
+        }
+        text = json.dumps(whole, sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+def cases(specification: Specification) -> list[Case]:
+    """Return the runs of a sweep, in the order of scenarios, parameters and seeds.
+
+    Every scenario with every combination of values is checked before the first run.
+
+    Raises
+    ------
+    AirhiltError
+        Something is wrong with them; the message tells all of it.
+    """
+    scenarios = [load(path) for path in _paths(specification.scenarios)]
+    seeds = _seeds(specification)
+    combinations = list(_combinations(specification))
+    total = len(scenarios) * len(seeds) * len(combinations)
+    if total > MOST_RUNS:
+        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
+    found: list[Case] = []
+    problems: list[str] = []
+    for scenario in scenarios:
+        document = scenario.model_dump(mode="json")
+        for combination in combinations:
+            try:
+                plan = _plan(document, specification.options, combination)
+            except AirhiltError as error:
+                problems.append(_told(scenario.name, combination, error))
+                continue
+            parameters = {each.path: each.value(plan) for each, _ in combination}
+            found += [Case(plan.document, plan.options, seed, parameters) for seed in seeds]
+    if problems:
+        more = len(problems) - SHOWN_PROBLEMS
+        tail = f"\n... and {more} more" if more > 0 else ""
+        raise AirhiltError("\n".join(dict.fromkeys(problems[:SHOWN_PROBLEMS])) + tail)
+    return found
+
+
+def _paths(patterns: Sequence[str]) -> list[Path]:
+    """Return the files of the scenarios that names, patterns and paths mean, each once."""
+    found: dict[Path, None] = {}
+    names = library.names("scenarios")
+    for pattern in patterns:
+        if any(mark in pattern for mark in "*?[") and not Path(pattern).exists():
+            matching = fnmatch.filter(names, pattern)
+            if not matching:
+                raise ScenarioError(
+                    f"no scenario matches {pattern!r}{library.nearest(pattern, names)}"
+                )
+            found |= {loading.find(name): None for name in matching}
+        else:
+            found[loading.find(pattern)] = None
+    return list(found)
+
+
+def _seeds(specification: Specification) -> list[int]:
+    seeds = list(dict.fromkeys(listed(specification.seeds)))
+    for seed in seeds:
+        if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**63:
+            raise AirhiltError(f"seeds: found {shown(seed)}; expected integers from 0 to 2^63 - 1")
+    return seeds  # type: ignore[return-value]  # checked one by one
+
+
+Combination = tuple[tuple[Parameter, JsonValue], ...]
+
+
+def _combinations(specification: Specification) -> Iterator[Combination]:
+    """Yield every combination of values of the axes with every point that is drawn."""
+    axes = [(parameter(path), _distinct(listed(v))) for path, v in specification.axes.items()]
+    drawn = [] if specification.sample is None else list(points(specification.sample))
+    of_sample = [parameter(path) for path in drawn[0]] if drawn else []
+    given = [parameter(name) for name in specification.options]
+    paths = [each.path for each in (*of_sample, *(each for each, _ in axes), *given)]
+    twice = sorted({path for path in paths if paths.count(path) > 1})
+    if twice:
+        raise AirhiltError(f"parameter {twice[0]}: given twice; expected once")
+    for point in drawn or [{}]:
+        values = tuple(zip(of_sample, point.values(), strict=True))
+        for chosen in itertools.product(*(v for _, v in axes)):
+            yield (*values, *zip((each for each, _ in axes), chosen, strict=True))
+
+
+def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
+    """Return values without those that come again."""
+    return list({json.dumps(value): value for value in values}.values())
+
+
+def _plan(document: Json, options: Json, combination: Combination) -> Plan:
+    """Return a checked run in the making; options are those that were given, as JSON has them.
+
+    Raises
+    ------
+    AirhiltError
+        A value is not what the scenario or the option takes.
+    """
+    plan = Plan(document, dict(options))
+    for each, value in combination:
+        plan = each.put(plan, value)
+    scenario = _scenario(plan.document)
+    if plan.document is not document:
+        check(scenario, scenario.name)
+        plan = Plan(scenario.model_dump(mode="json"), plan.options)
+    checked = _options(plan.options)
+    check_options(checked, scenario)
+    return Plan(plan.document, checked.model_dump(mode="json", exclude_defaults=True))
+
+
+def _scenario(document: Json) -> Scenario:
+    try:
+        return Scenario.model_validate(document)
+    except ValidationError as error:
+        raise error_for(document["name"], problems_of(error, Scenario)) from None
+
+
+def _options(given: Json) -> Options:
+    try:
+        return Options(**given)
+    except ValidationError as error:
+        raise AirhiltError(f"option {first_problem(error)}") from None
+
+
+def _told(scenario: str, combination: Combination, error: AirhiltError) -> str:
+    """Return a problem, after the scenario and the values that it comes with."""
+    values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
+    with_values = f"{scenario} with {values}" if values else scenario
+    return f"{with_values}: {error}"
+
+
+def _content(value: Any) -> Any:
+    """Return an option's value, with the SHA-256 of a file or folder that it names."""
+    if isinstance(value, list):
+        return [_content(each) for each in value]
+    if not isinstance(value, str):
+        return value
+    path = Path(value.partition(":")[2] or value)
+    is_file = len(path.parts) > 1 or path.suffix
+    return f"{value} {content_sha256(path)}" if is_file and path.exists() else value

@@ -1,0 +1,53 @@
+"""Where the workers of a sweep come from: one file a kind of cluster, each with its `CLUSTER`.
+
+One of another package is found by an entry point of the group ``airhilt.clusters``.
+"""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+from airhilt.engines import EngineFamily
+from airhilt.errors import AirhiltError
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+LOCAL = "local"
+"""Cluster of a sweep unless another is named."""
+
+
+class ClusterError(AirhiltError):
+    """A scheduler or its workers cannot be reached or started."""
+
+
+@runtime_checkable
+class Cluster(Protocol):
+    """Starts workers, or finds those of an existing scheduler."""
+
+    def connect(self, workers: int, dashboard: str | None) -> AbstractContextManager[Client]:
+        """Return a client of the scheduler; what was started for it ends with it.
+
+        Parameters
+        ----------
+        workers
+            Number of workers that are wanted, each with one thread.
+        dashboard
+            Address of Dask's dashboard, such as ``127.0.0.1:8787``; None: off.
+
+        Raises
+        ------
+        ClusterError
+            The scheduler is not there, or nothing can be started.
+        """
+
+
+FAMILY = EngineFamily[Cluster](
+    "scheduler",
+    "airhilt.clusters",
+    __name__,
+    "CLUSTER",
+    error=ClusterError,
+    product=Cluster,
+)

@@ -1,0 +1,47 @@
+"""Workers on this machine: processes of Dask's own LocalCluster, one thread each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import dask
+from distributed import Client, LocalCluster
+
+from airhilt.engines import Engine
+from airhilt.sweep.clusters import LOCAL, Cluster, ClusterError
+
+HOST = "127.0.0.1"
+
+
+class LocalWorkers:
+    """A scheduler in this process, and workers beside it, on the loopback interface."""
+
+    @contextmanager
+    def connect(self, workers: int, dashboard: str | None) -> Iterator[Client]:
+        """Start everything, and end it with the context."""
+        with dask.config.set({"distributed.worker.daemon": False}):
+            try:
+                cluster = LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    host=HOST,
+                    dashboard_address=dashboard or f"{HOST}:0",
+                    memory_limit=0,  # Of the runs, each runner's own process is watched.
+                )
+            except (OSError, RuntimeError) as error:
+                raise ClusterError(f"scheduler {LOCAL}: cannot be started: {error}") from None
+            with cluster, Client(cluster) as client:
+                yield client
+
+
+def _create(_argument: str) -> LocalWorkers:
+    return LocalWorkers()
+
+
+CLUSTER = Engine[Cluster](
+    name=LOCAL,
+    summary="worker processes on this machine",
+    create=_create,
+)

@@ -1,0 +1,176 @@
+"""A sweep, from its specification to its tables. The main path begins at `sweep`.
+
+The runs that the folder does not have yet are given to the workers of a Dask cluster, a few more
+than there are workers at a time. Each outcome is on the disk before the next one is asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.sweep.cases import Case, cases
+from airhilt.sweep.clusters import FAMILY
+from airhilt.sweep.dask_client import described, outcomes, prepare
+from airhilt.sweep.dask_worker import RunnerPlugin
+from airhilt.sweep.environment import Environment
+from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
+from airhilt.sweep.runner_process import Limits, RunnerProcess
+from airhilt.sweep.specification import Specification
+from airhilt.sweep.tables import folder_name, part_of, tables_of
+from airhilt.sweep.work import Work, default_workers
+
+
+class SweepObserver:
+    """Is told how a sweep is doing; this one ignores it, and never wants to stop."""
+
+    def begun(self, total: int, finished: int, workers: str) -> None:
+        """Take note of the number of runs, of those that are finished, and of the workers."""
+
+    def ended(self, outcome: Outcome) -> None:
+        """Take note of a run that has ended."""
+
+    def notice(self, text: str) -> None:
+        """Take note of something that the user should know at once."""
+
+    @property
+    def stops(self) -> bool:
+        """True if only the runs in hand are to be finished."""
+        return False
+
+
+@dataclass(frozen=True)
+class SweepResult:
+    """What a sweep has come to."""
+
+    folder: SweepFolder
+    runs: int
+    rows: int
+    failed: int
+    missing: int
+
+
+def sweep(
+    specification: Specification, work: Work, observer: SweepObserver | None = None
+) -> SweepResult:
+    """Run what a sweep's folder does not have yet, and write its tables.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong; nothing was run. Or the scheduler was lost; what was
+        finished before is kept.
+    """
+    observer = observer or SweepObserver()
+    grid = cases(specification)
+    renderer = renderer_of(grid)
+    own = _own_environment(renderer, work.limits)
+    by_key = {case.key(own): case for case in grid}
+    folder = SweepFolder(work.out)
+    folder.create()
+    with folder.locked():
+        folder.write_info(_info(specification, own, len(by_key)))
+        finished = _finished(folder, by_key, observer)
+        missing = [key for key in by_key if _is_missing(finished.get(key), work.retry)]
+        if missing:
+            plugin = RunnerPlugin(renderer, work.limits, own)
+            requests = list(_requests(missing, by_key, work))
+            _run_missing(requests, len(by_key), folder, work, plugin, observer)
+            finished = _finished(folder, by_key, observer)
+        table, machine = tables_of(by_key, finished)
+        folder.write_tables(table, machine)
+    left = sum(key not in finished for key in by_key)
+    failed = sum(row["status"] != "finished" for row in finished.values())
+    return SweepResult(folder, len(by_key), table.num_rows, failed, left)
+
+
+def renderer_of(grid: Sequence[Case]) -> str:
+    """Return the renderer that the runs ask for, empty if none has cameras.
+
+    Raises
+    ------
+    AirhiltError
+        They ask for more than one.
+    """
+    asked = {
+        str(case.options.get("renderer", "auto"))
+        for case in grid
+        if case.options.get("cameras", True) and case.document["cameras"]
+    }
+    if len(asked) > 1:
+        raise AirhiltError(
+            f"renderers {', '.join(sorted(asked))}: expected one for all runs of a sweep"
+        )
+    return asked.pop() if asked else ""
+
+
+def _own_environment(renderer: str, limits: Limits) -> Environment:
+    """Return the environment of a runner on this machine."""
+    runner = RunnerProcess(renderer, limits)
+    runner.close()
+    return runner.environment
+
+
+def _info(specification: Specification, own: Environment, runs: int) -> dict[str, Any]:
+    return {
+        "format": specification.format,
+        "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "environment": own.model_dump(),
+        "runs": runs,
+    }
+
+
+def _finished(
+    folder: SweepFolder, by_key: Mapping[str, Case], observer: SweepObserver
+) -> dict[str, dict[str, Any]]:
+    """Return the rows of the store that belong to this sweep, by key; the last of a key counts."""
+    table = folder.finished(observer.notice)
+    rows = [] if table is None else table.to_pylist()
+    return {row["key"]: row for row in rows if row["key"] in by_key}
+
+
+def _is_missing(row: Mapping[str, Any] | None, retry: bool) -> bool:
+    return row is None or (retry and row["status"] in OF_THE_MACHINE)
+
+
+def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> Iterator[Request]:
+    """Yield what the workers are asked for."""
+    sampled = set(sorted(by_key)[: work.sample])
+    runs = (work.out / "runs").absolute()
+    for key in missing:
+        case = by_key[key]
+        yield Request(
+            key=key,
+            scenario=case.document,
+            options=case.options | {"seed": case.seed},
+            keep="all" if key in sampled else work.keep,
+            folder=str(runs / folder_name(key)),
+        )
+
+
+def _run_missing(
+    requests: Sequence[Request],
+    total: int,
+    folder: SweepFolder,
+    work: Work,
+    plugin: RunnerPlugin,
+    observer: SweepObserver,
+) -> None:
+    """Let the workers of a cluster run what is missing; keep each outcome as it comes.
+
+    Raises
+    ------
+    AirhiltError
+        The workers cannot be used, or the scheduler is lost.
+    """
+    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
+    count = min(work.workers or default_workers(plugin.renderer), len(requests))
+    with cluster.connect(count, work.dashboard) as client:
+        prepare(client, plugin)
+        observer.begun(total, total - len(requests), described(client, work.dashboard is not None))
+        for outcome in outcomes(client, requests, lambda: observer.stops):
+            folder.keep(part_of([outcome]))
+            observer.ended(outcome)

@@ -1,0 +1,56 @@
+"""What a worker is asked to run, and what it returns of it: JSON, from process to process."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue
+
+Keep = Literal["none", "failed", "all"]
+"""Which run folders stay: of no run, of runs that failed, of all."""
+Status = Literal["finished", "failed", "over_time", "over_memory", "crashed"]
+"""Ways in which a run ends.
+
+finished: with a summary. failed: it raised an error, which any machine would. The others depend on
+the machine: its process was ended by the limit of time or of memory, or died, or could not write.
+"""
+OF_THE_MACHINE: tuple[Status, ...] = ("over_time", "over_memory", "crashed")
+
+
+class Request(BaseModel):
+    """One run for a worker."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    key: str
+    scenario: dict[str, JsonValue]
+    options: dict[str, JsonValue]
+    keep: Keep
+    folder: str
+    """Place of the run folder if it stays."""
+
+
+class Machine(BaseModel):
+    """What a run took on the machine that ran it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    wall_s: float = Field(description="wall time of the run, without the start of its process")
+    cpu_s: float | None = Field(description="CPU time of its process and of the renderer's")
+    peak_memory_mb: Annotated[float, Field(ge=0.0)] = Field(
+        description="most memory of these processes together (resident set), sampled"
+    )
+    host: str = Field(description="name of the machine")
+    process: int = Field(description="process number there")
+
+
+class Outcome(BaseModel):
+    """What became of one run."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    key: str
+    status: Status
+    cause: str = ""
+    """What ended it, in one line; empty if it finished."""
+    is_kept: bool = False
+    metrics: dict[str, Any] = {}
+    """`airhilt.metrics.columns`, by name; empty unless it finished."""
+    machine: Machine

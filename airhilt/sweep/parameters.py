@@ -1,0 +1,164 @@
+"""Parameters of a sweep: what a path names, and how a value is put there.
+
+A path is the name of an option, ``assistant.`` and a setting of the assistant, or leads from the
+top of a scenario to a value. There, entries of lists are named by callsign, id or name.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import reduce
+from operator import getitem
+from typing import Any
+
+from airhilt.engines import ASSISTANT as ASSISTANT_NAME
+from airhilt.errors import AirhiltError
+from airhilt.library import nearest
+from airhilt.options import Options, flag_of
+from airhilt.scenario.perturbation import PathError, locate
+
+Json = dict[str, Any]
+
+ASSISTANT = "assistant"
+"""Option, and first part of the paths of the assistant's settings."""
+OPTIONS_OF_PATHS = {
+    "radio.snr_db": "snr_db",
+    "radio.profile": "radio_profile",
+    "radio.topology": "topology",
+    "weather.visibility_m": "visibility_m",
+}
+"""Options that replace a value of the scenario: one parameter, two spellings."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One run in the making: a scenario's document, and the options that were given."""
+
+    document: Json
+    options: Json
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What a path names.
+
+    Attributes
+    ----------
+    path
+        Its one spelling; the column of the table.
+    """
+
+    path: str
+
+    def put(self, plan: Plan, value: Any) -> Plan:
+        """Return a plan with another value of this parameter.
+
+        Raises
+        ------
+        AirhiltError
+            The scenario has no such place; the message gives the nearest.
+        """
+        if self.path in Options.model_fields:
+            return Plan(plan.document, plan.options | {self.path: value})
+        first, _, rest = self.path.partition(".")
+        if first == ASSISTANT:
+            settings = _with_setting(plan.options.get("assistant_config"), rest.split("."), value)
+            return Plan(plan.document, plan.options | {"assistant_config": settings})
+        return Plan(_with_value(plan.document, self.path, value), plan.options)
+
+    def value(self, plan: Plan) -> Any:
+        """Return the value that a checked plan has of it."""
+        if self.path in Options.model_fields:
+            default = Options.model_fields[self.path].default
+            return plan.options.get(
+                self.path, ASSISTANT_NAME if self.path == ASSISTANT else default
+            )
+        first, _, rest = self.path.partition(".")
+        if first == ASSISTANT:
+            return reduce(getitem, rest.split("."), plan.options["assistant_config"])
+        container, key = locate(plan.document, self.path.replace(".", "/"))
+        return container[key]
+
+
+def parameter(path: str) -> Parameter:
+    """Return the parameter that a path names.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such option, or it is not one of sweeps.
+    """
+    path = OPTIONS_OF_PATHS.get(path, path)
+    if "." in path:
+        return Parameter(path)
+    if path == "seed":
+        raise AirhiltError("parameter seed: expected in seeds (--seeds), not among the axes")
+    known = swept_options()
+    if path not in known:
+        raise AirhiltError(
+            f"parameter {path!r}: there is no option of that name in sweeps{nearest(path, known)}; "
+            "a value of the scenario has dots in its path, such as weather.visibility_m"
+        )
+    return Parameter(path)
+
+
+def swept_options() -> list[str]:
+    """Return the names of the options that the runs of a sweep can have."""
+    return [
+        name
+        for name, field in Options.model_fields.items()
+        if (flag := flag_of(field)) is not None and flag.in_sweeps
+    ]
+
+
+def _with_setting(given: Any, path: list[str], value: Any) -> Json:
+    """Return a configuration with one more setting; those that it had stay."""
+    settings = dict(given) if isinstance(given, Mapping) else {}
+    name, *rest = path
+    settings[name] = _with_setting(settings.get(name), rest, value) if rest else value
+    return settings
+
+
+def _with_value(document: Json, path: str, value: Any) -> Json:
+    """Return a scenario's document with another value, which no perturbation changes any more."""
+    changed = copy.deepcopy(document)
+    try:
+        container, key = locate(changed, path.replace(".", "/"))
+    except PathError as error:
+        hint = nearest(error.chunk, error.known)
+        raise AirhiltError(
+            f"parameter {path}: {document['name']!r} has no {error.chunk!r} there{hint}"
+        ) from None
+    changed["perturbations"] = [
+        each
+        for each in changed["perturbations"]
+        if not _is_place(locate(changed, each["path"]), container, key)
+    ]
+    container[key] = value
+    return changed
+
+
+def _is_place(place: tuple[Any, str | int], container: Any, key: str | int) -> bool:
+    return place[0] is container and place[1] == key
+
+
+def paths_of(document: Any, above: str = "") -> Iterator[str]:
+    """Yield the paths of all values of a scenario's document that are no objects or lists."""
+    if isinstance(document, dict):
+        for name, value in document.items():
+            yield from paths_of(value, f"{above}.{name}" if above else name)
+    elif isinstance(document, list):
+        for index, value in enumerate(document):
+            yield from paths_of(value, f"{above}.{_name(value, index)}")
+    elif above:
+        yield above
+
+
+def _name(entry: Any, index: int) -> str:
+    from airhilt.scenario.perturbation import NAMING_FIELDS
+
+    if isinstance(entry, dict):
+        return str(next((entry[field] for field in NAMING_FIELDS if field in entry), index))
+    return str(index)

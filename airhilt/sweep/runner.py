@@ -1,0 +1,137 @@
+"""The process that runs cases, one after the other.
+
+It tells its `Environment` first, and then for each `Request` one `Outcome`: lines of JSON on two
+pipes. It is a process of its own so that a run that hangs, eats memory or crashes can be ended
+without the worker that asked for it. `airhilt.sweep.runner_process` starts it, and it ends when
+there are no more questions.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import resource
+import socket
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from shutil import rmtree
+
+from airhilt.cosim.simulation import run
+from airhilt.errors import AirhiltError, failure_in
+from airhilt.metrics.columns import metrics_of
+from airhilt.metrics.summary import Summary
+from airhilt.options import Options
+from airhilt.scenario import Scenario
+from airhilt.sweep.environment import environment
+from airhilt.sweep.outcome import Machine, Outcome, Request, Status
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Tell the environment, and run what is asked for until the questions end.
+
+    Parameters
+    ----------
+    arguments
+        Descriptors of questions and answers, and the renderer that the runs ask for; empty without
+        cameras.
+    """
+    questions, answers = (int(number) for number in arguments[:2])
+    with os.fdopen(answers, "w", encoding="utf-8") as told:
+        try:
+            text = environment(arguments[2]).model_dump_json()
+        except AirhiltError as error:
+            sys.exit(str(error))
+        told.write(text + "\n")
+        told.flush()
+        requests: queue.SimpleQueue[str] = queue.SimpleQueue()
+        threading.Thread(target=_read, args=(questions, requests), daemon=True).start()
+        while True:
+            outcome = run_request(Request.model_validate_json(requests.get()))
+            told.write(outcome.model_dump_json() + "\n")
+            told.flush()
+
+
+def run_request(request: Request) -> Outcome:
+    """Return what becomes of a run; its folder stays if the request says so."""
+    status: Status = "finished"
+    cause, metrics = "", {}
+    begun_wall, begun_cpu = time.perf_counter(), _cpu_s()
+    with tempfile.TemporaryDirectory(prefix="airhilt-run-") as scratch:
+        folder = Path(scratch) / "run"
+        try:
+            if request.keep != "none":
+                folder = _emptied(Path(f"{request.folder}.partial"))
+            metrics = metrics_of(_summary(request, folder))
+        except (OSError, MemoryError) as error:
+            status, cause = "crashed", failure_in(error)
+        except AirhiltError as error:
+            status, cause = "failed", " ".join(str(error).split())
+        except Exception as error:  # A mistake in any part of a run is a row, not the sweep's end.
+            status, cause = "failed", failure_in(error)
+        is_kept = request.keep == "all" or (request.keep == "failed" and status != "finished")
+        is_kept = _settle(folder, Path(request.folder), is_kept)
+    machine = Machine(
+        wall_s=time.perf_counter() - begun_wall,
+        cpu_s=_cpu_s() - begun_cpu,
+        peak_memory_mb=0.0,
+        host=socket.gethostname(),
+        process=os.getpid(),
+    )
+    return Outcome(
+        key=request.key,
+        status=status,
+        cause=cause,
+        is_kept=is_kept,
+        metrics=metrics,
+        machine=machine,
+    )
+
+
+def _summary(request: Request, folder: Path) -> Summary:
+    scenario = Scenario.model_validate(request.scenario)
+    options = Options.model_validate(
+        request.options | {"out": folder, "report": request.keep == "all"}
+    )
+    return run(scenario, options).summary
+
+
+def _emptied(folder: Path) -> Path:
+    """Return a folder in which an earlier attempt at this run has left nothing."""
+    with suppress(FileNotFoundError):
+        rmtree(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def _settle(folder: Path, kept: Path, is_kept: bool) -> bool:
+    """Move a run folder to where it stays, or delete it; return whether it stays."""
+    if is_kept and folder.is_dir():
+        with suppress(FileNotFoundError):
+            rmtree(kept)
+        folder.replace(kept)
+        return True
+    rmtree(folder, ignore_errors=True)
+    return False
+
+
+def _cpu_s() -> float:
+    """Return the CPU time of this process and of its children that have ended."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(each.ru_utime + each.ru_stime for each in used)
+
+
+def _read(questions: int, requests: queue.SimpleQueue[str]) -> None:
+    """Pass on the lines of questions; end the process when they do, whatever it is doing."""
+    with os.fdopen(questions, encoding="utf-8") as lines:
+        for line in lines:
+            requests.put(line)
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

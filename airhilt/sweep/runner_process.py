@@ -1,0 +1,141 @@
+"""Runners as seen by a worker: each runs one case at a time, within limits of time and memory."""
+
+from __future__ import annotations
+
+import socket
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import psutil
+
+from airhilt.child_process import ChildProcess, Ended, NoAnswer, command_of
+from airhilt.errors import AirhiltError
+from airhilt.sweep.environment import Environment
+from airhilt.sweep.outcome import Machine, Outcome, Request, Status
+
+COMMAND = command_of("airhilt.sweep.runner")
+STARTING_S = 120.0
+"""Time that a runner has to start, in s."""
+WATCH_S = 0.5
+"""Period at which memory is measured, in s."""
+MEGABYTE = 1e6
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one run may take."""
+
+    wall_s: float
+    memory_mb: float
+
+
+class RunnerError(AirhiltError):
+    """A runner cannot be started."""
+
+
+class _OverMemory(Exception):
+    """A run has taken more memory than it may."""
+
+
+class RunnerProcess:
+    """One runner; a new process takes the place of one that was ended.
+
+    Parameters
+    ----------
+    renderer
+        Renderer that the runs ask for; empty without cameras.
+
+    Raises
+    ------
+    RunnerError
+        It cannot be started; the message says why.
+    """
+
+    def __init__(self, renderer: str, limits: Limits) -> None:
+        self._renderer = renderer
+        self._limits = limits
+        self._peak_mb = 0.0
+        self._child, self.environment = self._start()
+
+    def run(self, request: Request) -> Outcome:
+        """Return what becomes of a run, whatever it does."""
+        begun = time.perf_counter()
+        self._peak_mb = 0.0
+        try:
+            answer: Any = self._child.ask(
+                request.model_dump(), self._limits.wall_s, self._watch, WATCH_S
+            )
+        except NoAnswer:
+            status: Status = "over_time"
+            cause = f"took longer than {self._limits.wall_s:g} s (--run-timeout)"
+        except _OverMemory:
+            status = "over_memory"
+            cause = f"took more than {self._limits.memory_mb:.0f} MB (--run-memory)"
+        except Ended as ended:
+            status, cause = "crashed", f"its process has ended {ended}"
+        else:
+            self._watch_quietly()
+            outcome = Outcome.model_validate(answer)
+            machine = outcome.machine.model_copy(update={"peak_memory_mb": self._peak_mb})
+            return outcome.model_copy(update={"machine": machine})
+        process_id = self._child.process_id
+        self._restart()
+        machine = Machine(
+            wall_s=time.perf_counter() - begun,
+            cpu_s=None,
+            peak_memory_mb=self._peak_mb,
+            host=socket.gethostname(),
+            process=process_id,
+        )
+        return Outcome(key=request.key, status=status, cause=cause, machine=machine)
+
+    def close(self) -> None:
+        """End the process and what it has started."""
+        _end_tree(self._child.process_id)
+        self._child.close()
+
+    def _start(self) -> tuple[ChildProcess, Environment]:
+        child = ChildProcess(COMMAND, [self._renderer])
+        try:
+            return child, Environment.model_validate(child.answer(STARTING_S))
+        except (Ended, NoAnswer) as problem:
+            child.close()
+            raise RunnerError(
+                f"the process that runs cases cannot be started on {socket.gethostname()} "
+                f"{problem or f'within {STARTING_S:.0f} s'}"
+            ) from None
+
+    def _restart(self) -> None:
+        self.close()
+        self._child, self.environment = self._start()
+
+    def _watch(self) -> None:
+        """Measure the memory of the run; complain if it is too much."""
+        self._watch_quietly()
+        if self._peak_mb > self._limits.memory_mb:
+            raise _OverMemory
+
+    def _watch_quietly(self) -> None:
+        self._peak_mb = max(self._peak_mb, _memory_mb(self._child.process_id))
+
+
+def _memory_mb(process_id: int) -> float:
+    """Return the memory of a process and of what it has started, in MB."""
+    total = 0.0
+    with suppress(psutil.Error):
+        process = psutil.Process(process_id)
+        for each in (process, *process.children(recursive=True)):
+            with suppress(psutil.Error):
+                total += each.memory_info().rss / MEGABYTE
+    return total
+
+
+def _end_tree(process_id: int) -> None:
+    """Kill a process and all that it has started."""
+    with suppress(psutil.Error):
+        process = psutil.Process(process_id)
+        for each in (*process.children(recursive=True), process):
+            with suppress(psutil.Error):
+                each.kill()

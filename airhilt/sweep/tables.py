@@ -1,0 +1,155 @@
+"""The tables of a sweep: one with parameters and metrics, one with what depends on the machine."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePosixPath
+from typing import Any
+
+import pyarrow as pa
+
+from airhilt.metrics.columns import Column, column_of, metric_columns
+from airhilt.sweep.cases import Case
+from airhilt.sweep.outcome import OF_THE_MACHINE, Machine, Outcome
+
+IDENTITY = (
+    Column("key", "string", "", "SHA-256 of scenario, options, seed and software: what was run"),
+    Column("scenario", "string", "", "name of the scenario"),
+    Column("family", "string", "", "family of the scenario, such as s01a; empty if it has none"),
+    Column("assistant", "string", "", "who decides"),
+    Column("seed", "int64", "", "seed of the run"),
+)
+ENDING = (
+    Column("status", "string", "", "finished, or failed: it raised an error"),
+    Column("cause", "string", "", "the error in one line; empty if it finished"),
+)
+MACHINE = (
+    Column("key", "string", "", "key of the run in sweep.parquet"),
+    Column(
+        "status",
+        "string",
+        "",
+        "finished, failed (it raised an error), or without a row in sweep.parquet: over_time, "
+        "over_memory, crashed",
+    ),
+    Column("cause", "string", "", "what ended it, in one line; empty if it finished"),
+    Column("wall_s", "float64", "s", str(Machine.model_fields["wall_s"].description)),
+    Column("cpu_s", "float64", "s", str(Machine.model_fields["cpu_s"].description)),
+    Column(
+        "peak_memory_mb", "float64", "MB", str(Machine.model_fields["peak_memory_mb"].description)
+    ),
+    Column("host", "string", "", str(Machine.model_fields["host"].description)),
+    Column("process", "int64", "", str(Machine.model_fields["process"].description)),
+    Column("folder", "string", "", "run folder in the sweep folder; empty if it was not kept"),
+)
+TYPES = {
+    "string": pa.string(),
+    "bool": pa.bool_(),
+    "int64": pa.int64(),
+    "float64": pa.float64(),
+}
+
+
+def part_of(outcomes: Iterable[Outcome]) -> pa.Table:
+    """Return a part of the store: machine columns and metrics of some runs that are finished."""
+    rows = [_part_row(outcome) for outcome in outcomes]
+    return _table((*MACHINE, *metric_columns()), rows)
+
+
+def tables_of(
+    cases: Mapping[str, Case], finished: Mapping[str, Mapping[str, Any]]
+) -> tuple[pa.Table, pa.Table]:
+    """Return the table of results and the table of the machine, both sorted by key.
+
+    Parameters
+    ----------
+    cases
+        Runs of the sweep by their keys.
+    finished
+        Rows of the parts by their keys; rows of other runs are left out.
+    """
+    keys = sorted(key for key in cases if key in finished)
+    results = [
+        _result_row(key, cases[key], finished[key])
+        for key in keys
+        if finished[key]["status"] not in OF_THE_MACHINE
+    ]
+    parameters = _parameter_columns(list(cases.values()))
+    columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
+    return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
+
+
+def _part_row(outcome: Outcome) -> dict[str, Any]:
+    kept = str(PurePosixPath("runs") / folder_name(outcome.key)) if outcome.is_kept else ""
+    return {
+        "key": outcome.key,
+        "status": outcome.status,
+        "cause": outcome.cause,
+        **outcome.machine.model_dump(),
+        "folder": kept,
+        **outcome.metrics,
+    }
+
+
+def folder_name(key: str) -> str:
+    """Return the name of the run folder of a key, under ``runs``."""
+    return key[:16]
+
+
+def _result_row(key: str, case: Case, finished: Mapping[str, Any]) -> dict[str, Any]:
+    identity = {
+        "key": key,
+        "scenario": case.scenario,
+        "family": case.family,
+        "assistant": case.assistant,
+        "seed": case.seed,
+    }
+    return {**finished, **case.parameters, **identity}
+
+
+def _parameter_columns(cases: Sequence[Case]) -> list[Column]:
+    """Return a column for each parameter that is not among the first columns already."""
+    known = {column.name for column in IDENTITY}
+    paths = dict.fromkeys(path for case in cases for path in case.parameters if path not in known)
+    return [
+        _parameter_column(path, [case.parameters.get(path) for case in cases]) for path in paths
+    ]
+
+
+def _parameter_column(path: str, values: Sequence[Any]) -> Column:
+    kinds = {type(value) for value in values if value is not None}
+    description = "parameter of the sweep"
+    if kinds == {bool}:
+        return column_of(path, "bool", description)
+    if kinds == {int}:
+        return column_of(path, "int64", description)
+    if kinds and kinds <= {int, float}:
+        return column_of(path, "float64", description)
+    return column_of(path, "string", description)
+
+
+def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.Table:
+    """Return rows as a table whose fields say their units and meanings."""
+    schema = pa.schema(
+        [
+            pa.field(
+                column.name,
+                TYPES[column.type],
+                metadata={"unit": column.unit, "description": column.description},
+            )
+            for column in columns
+        ]
+    )
+    arrays = [
+        pa.array([_cell(row.get(column.name), column) for row in rows], TYPES[column.type])
+        for column in columns
+    ]
+    return pa.table(arrays, schema=schema)
+
+
+def _cell(value: Any, column: Column) -> Any:
+    """Return a value as its column has it: in a column of texts, other values as JSON."""
+    if column.type == "string" and value is not None and not isinstance(value, str):
+        return json.dumps(value)
+    return value

@@ -1,0 +1,92 @@
+"""How a sweep is run: where, by whom, within which limits. None of it changes a row."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, get_args
+
+import psutil
+
+from airhilt.errors import AirhiltError
+from airhilt.sweep.clusters import LOCAL
+from airhilt.sweep.outcome import Keep
+from airhilt.sweep.runner_process import MEGABYTE, Limits
+
+RUN_MB = 600.0
+"""Memory of a worker without cameras: its runner, and Dask's own process."""
+CAMERAS_MB = 900.0
+"""Memory that cameras add: the renderer's process, its pictures, and the detector."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """How a sweep is run; none of it changes a row.
+
+    Attributes
+    ----------
+    out
+        Folder of the sweep.
+    scheduler
+        Cluster as the command line names it.
+    workers
+        Number of workers to start, if the scheduler is not there already; None: as many as this
+        machine has cores and memory for.
+    keep
+        Which run folders stay.
+    sample
+        Number of run folders that stay if ``keep`` is ``none``: the first by key.
+    dashboard
+        Address of Dask's dashboard; None: off.
+    retry
+        True: runs that a limit ended are tried again.
+    """
+
+    out: Path
+    limits: Limits
+    workers: int | None = None
+    scheduler: str = LOCAL
+    scheduler_config: Mapping[str, Any] | None = None
+    keep: Keep = "none"
+    sample: int = 0
+    dashboard: str | None = None
+    retry: bool = False
+
+
+def keep_of(text: str) -> tuple[Keep, int]:
+    """Return which run folders stay, and the size of the sample, of ``none`` or ``sample:5``.
+
+    Raises
+    ------
+    AirhiltError
+        It is none of these.
+    """
+    word, _, number = text.partition(":")
+    if word == "sample" and number.isdecimal() and int(number) > 0:
+        return "none", int(number)
+    for keep in get_args(Keep):
+        if text == keep:
+            return keep, 0
+    raise AirhiltError(f"--keep {text}: expected none, failed, all, or sample:N")
+
+
+def default_workers(renderer: str) -> int:
+    """Return how many workers this machine has cores and memory for, at least 1."""
+    needed_mb = RUN_MB + (CAMERAS_MB if renderer else 0.0)
+    by_memory = psutil.virtual_memory().available / MEGABYTE / needed_mb
+    return max(1, min(len(os.sched_getaffinity(0)), int(by_memory)))
+
+
+def read_settings(path: Path | None) -> Mapping[str, Any] | None:
+    """Return the settings of a scheduler in a file, None without one.
+
+    Raises
+    ------
+    AirhiltError
+        It cannot be read, or holds something else than an object.
+    """
+    from airhilt.configuration import read_configuration
+
+    return None if path is None else read_configuration(path)
