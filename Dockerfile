@@ -18,7 +18,7 @@ RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
     pip install --no-cache-dir --no-compile -c /constraints.txt /wheels/*.whl
 RUN useradd --uid 1000 --create-home airhilt \
     && install -d -o airhilt -g airhilt -m 1777 /data /data/runs /data/cache
-# The cache of voices is in /data/cache, so that any user (docker run --user) may write it.
+# The cache is in /data/cache, so that any user (docker run --user) may write it.
 ENV XDG_CACHE_HOME=/data/cache PYTHONUNBUFFERED=1
 USER airhilt
 WORKDIR /data

@@ -31,6 +31,15 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
+def source_sha256(*paths: Path) -> str:
+    """Return the SHA-256 of Python files, and of those below folders: it changes with the code."""
+    digest = hashlib.sha256()
+    for path in paths:
+        for file in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
+            digest.update(f"{file.name}\0{sha256(file)}\n".encode())
+    return digest.hexdigest()
+
+
 def content_sha256(path: Path) -> str:
     """Return the SHA-256 of a file, or that of the names and contents of all files in a folder."""
     if not path.is_dir():

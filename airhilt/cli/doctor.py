@@ -13,6 +13,7 @@ from typing import Any
 
 from airhilt import library
 from airhilt._version import __version__
+from airhilt.caches import cache_folder, write_problem
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family, Members
@@ -62,6 +63,7 @@ def examine() -> list[Finding]:
         *_engines(),
         *_renderers(),
         *_families(),
+        _cache(),
     ]
     return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
 
@@ -189,6 +191,15 @@ def _library(kind: str) -> Finding:
     names = library.names(kind)
     found = f"({len(names)}: {', '.join(names)})" if names else ""
     return Finding(kind, found, needed=True, remedy="install airhilt again, its files are missing")
+
+
+def _cache() -> Finding:
+    """Look whether later runs can have what earlier ones have made."""
+    folder = cache_folder()
+    problem = write_problem(folder)
+    remedy = f"{problem}; runs make everything anew; set XDG_CACHE_HOME to a folder of yours"
+    found = "" if problem else f"({folder}; airhilt cache shows it)"
+    return Finding("cache", found, needed=False, remedy=remedy)
 
 
 def _jsbsim_models() -> Finding:

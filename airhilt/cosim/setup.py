@@ -10,6 +10,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from airhilt.caches import cache_folder, cache_limit_bytes, write_problem
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.latency_presets import PRESETS
@@ -134,6 +135,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
     lines = apply_failures(scenario)
     sensor_types, problems = load_sensor_types(scenario.sensors)
+    problems = [*problems, *_cache_problems()]
     # For the summary alone; a record knows what was said, but not what was planned and was not.
     planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
     return Setup(
@@ -154,6 +156,19 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         lines=lines,
         ends_ns=planned_ends_ns(lines, planned),
     )
+
+
+def _cache_problems() -> list[str]:
+    """Return in a sentence what keeps later runs from having what this one makes, if anything.
+
+    Raises
+    ------
+    AirhiltError
+        The limit of the cache is no number.
+    """
+    if cache_limit_bytes() and (problem := write_problem(cache_folder())):
+        return [f"the cache cannot be written, so that later runs make everything anew: {problem}"]
+    return []
 
 
 def _require_something_to_film(options: Options, scenario: Scenario) -> None:

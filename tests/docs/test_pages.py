@@ -60,9 +60,10 @@ def problems(text: str) -> list[str]:
     for name, rest in commands(text):
         spelling, command = f"airhilt {name}", cli.get_command(context, name)
         if isinstance(command, click.Group):
-            words = rest.split()
+            words = rest.partition("#")[0].split()
             spelling += f" {words[0]}" if words else ""
-            command = command.commands.get(words[0]) if words else None
+            alone = command if command.invoke_without_command else None
+            command = command.commands.get(words[0]) if words else alone
         if command is None:
             found.append(spelling)
             continue

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from airhilt.audio.pcm import Audio
+from airhilt.caches import CacheFolder
 from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import VoiceSpec
 
@@ -31,8 +32,13 @@ class Tone:
         return tone
 
 
+def cached_tone(base: Path, engine: Tone) -> CachedTts:
+    """Return a voice with a cache in a folder."""
+    return CachedTts(engine, CacheFolder("voices", base))
+
+
 def say_lines(folder: Path) -> list[bytes]:
     """Say seven lines ten times each with a cache; here, where another process can import it."""
-    cached = CachedTts(Tone(), folder)
+    cached = cached_tone(folder, Tone())
     pilot = VoiceSpec("pilot")
     return [cached.synthesise(f"line {i % 7}", pilot).tobytes() for i in range(70)]

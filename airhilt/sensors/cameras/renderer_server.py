@@ -49,6 +49,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
             names,
             opening["renderer"],
             opening["supersampling"],
+            keeps_backgrounds=True,
         )
     except AirhiltError as error:
         answer(_failure(error))

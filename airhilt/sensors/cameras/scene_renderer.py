@@ -23,6 +23,7 @@ from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
+from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
@@ -106,6 +107,8 @@ class SceneRenderer:
         Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
     supersampling
         Samples along each side of a pixel, at least.
+    keeps_backgrounds
+        True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
 
     Attributes
     ----------
@@ -129,6 +132,7 @@ class SceneRenderer:
         renderer: str = AUTO,
         rain_mm_h: float = 0.0,
         supersampling: int = 1,
+        keeps_backgrounds: bool = False,
     ) -> None:
         self._light = light
         self._models = dict(models)
@@ -157,9 +161,7 @@ class SceneRenderer:
         self._far = frozenset(far)
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)
-        self._backgrounds = {
-            camera.name: self._background(camera) for camera in self._cameras.values()
-        }
+        self._backgrounds = self._open_backgrounds(landscape if keeps_backgrounds else None)
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, tuple[tuple[object, ...], Layer]] = {}
         self._streaks = {
@@ -300,10 +302,18 @@ class SceneRenderer:
         sightings = self._sightings(layers, content.faint, content.own)
         return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
 
-    def _background(self, camera: Camera) -> Background:
-        if not camera.is_fixed:
-            return Background(self._renderer, self._supersampling)
-        return Background(self._renderer, max(STILL_SAMPLES, self._supersampling), self._light_up)
+    def _open_backgrounds(self, kept: Landscape | None) -> dict[str, Background]:
+        """Return the background of each camera; those of fixed cameras may be kept."""
+        cameras, cache = self._cameras.values(), None
+        if kept is not None and any(camera.is_fixed for camera in cameras):
+            cache = BackgroundCache.of(self.renderer, kept, self._light)
+        samples = max(STILL_SAMPLES, self._supersampling)
+        return {
+            camera.name: Background(self._renderer, samples, self._light_up, cache)
+            if camera.is_fixed
+            else Background(self._renderer, self._supersampling)
+            for camera in cameras
+        }
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

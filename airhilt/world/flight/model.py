@@ -1,21 +1,25 @@
 """Loads an aircraft model of the installed JSBSim, stripped of all that reaches outside.
 
 Some models of the wheel open sockets (the 737 listens on TCP 5137) or write CSV files into
-site-packages. What is loaded here is derived from the wheel at run time, in a temporary folder
-that is gone when the model is loaded: no ``<input>``, no ``<output>``, and no autopilot of the
-model's own, since AIRHILT flies it.
+site-packages. What is loaded here is derived from the wheel once, kept in the user's cache, and
+written to a temporary folder that is gone when the model is loaded: no ``<input>``, no
+``<output>``, and no autopilot of the model's own, since AIRHILT flies it.
 """
 
 from __future__ import annotations
 
 import functools
+import hashlib
+import json
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import jsbsim
 
+from airhilt.caches import CacheFolder
 from airhilt.errors import AirhiltError
+from airhilt.files import source_sha256
 
 _SILENCE = jsbsim.DefaultLogger(jsbsim.LogLevel.STDOUT)
 # Kept here for good: JSBSim drops its reference when a thread ends, without holding the
@@ -64,7 +68,14 @@ def _stripped_files(root: Path, model: str) -> dict[str, bytes]:
     path = root / "aircraft" / model / f"{model}.xml"
     if not path.is_file():
         raise ModelError(f"the installed JSBSim has no model {model!r}: no {path}")
-    config = ElementTree.parse(path).getroot()  # noqa: S314 - JSBSim's own file
+    given = path.read_bytes()
+    key = json.dumps([hashlib.sha256(given).hexdigest(), source_sha256(Path(__file__))])
+    return {path.name: CacheFolder("aircraft").get(key, lambda: _stripped(given))}
+
+
+def _stripped(given: bytes) -> bytes:
+    """Return a model's file without inputs, outputs and autopilot."""
+    config = ElementTree.fromstring(given)  # noqa: S314 - JSBSim's own file
     for tag in ("input", "output", "autopilot"):
         for element in config.findall(tag):
             config.remove(element)
@@ -72,4 +83,4 @@ def _stripped_files(root: Path, model: str) -> dict[str, bytes]:
         for source in component.findall("input"):
             if (source.text or "").strip().startswith("ap/"):
                 component.remove(source)
-    return {path.name: ElementTree.tostring(config)}
+    return ElementTree.tostring(config)

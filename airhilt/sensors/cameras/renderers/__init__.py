@@ -8,6 +8,7 @@ the same picture of the same scene.
 
 from __future__ import annotations
 
+import importlib.metadata
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple, Protocol, runtime_checkable
@@ -112,6 +113,18 @@ FAMILY = Family(
 def renderer_names() -> list[str]:
     """Return the names of all renderers that can be asked for, sorted, without ``auto``."""
     return FAMILY.names()
+
+
+def library_of(name: str) -> str:
+    """Return the library whose version alone determines what a renderer draws, with its version.
+
+    A renderer says which it is by the attribute ``distribution``. Empty for one without, such as
+    one that draws on a graphics card, whose driver has a part in it.
+    """
+    distribution = getattr(FAMILY.load(name), "distribution", "")
+    with suppress(importlib.metadata.PackageNotFoundError):
+        return f"{distribution} {importlib.metadata.version(distribution)}" if distribution else ""
+    return ""
 
 
 def require_known(name: str) -> None:

@@ -10,6 +10,7 @@ same as the last one for as long as can be.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,9 @@ import numpy.typing as npt
 from airhilt.imaging.view import NEAR_M, Intrinsics, View, Window
 from airhilt.sensors.cameras.renderers import Renderer, Samples
 from airhilt.shapes.mesh import Floats
+
+if TYPE_CHECKING:  # A landscape brings in Shapely.
+    from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
 
 KEPT_PX = 0.5
 """Greatest distance, in pixels, by which anything that is kept may be out of its place."""
@@ -38,6 +42,8 @@ class Background:
         Number of samples along each side of a pixel.
     finish
         Called with colours, distances and view of each picture that has been drawn whole.
+    cache
+        Where the picture of a camera that stands still is kept; None for one that moves.
 
     Attributes
     ----------
@@ -52,10 +58,12 @@ class Background:
         renderer: Renderer,
         samples: int,
         finish: Callable[[npt.NDArray[np.uint8], Floats, View], None] | None = None,
+        cache: BackgroundCache | None = None,
     ) -> None:
         self._renderer = renderer
         self._samples = samples
         self._finish = finish
+        self._cache = cache
         self.colour = np.zeros((0, 0, 3), dtype=np.uint8)
         self.distance_m = np.zeros((0, 0), dtype=np.float32)
         self.drawn = 0
@@ -85,9 +93,19 @@ class Background:
         self.distance_m = np.empty((rows, columns), dtype=np.float32)
         self._views = [view] * bands
         self._aim(lens, bands)
-        self._draw(view, 0, bands)
+        if self._cache is None:
+            self._draw_whole(view)
+            return
+        kept = self._cache.get(view, self._samples, lambda: self._draw_whole(view))
+        self.colour, self.distance_m = kept
+        self._watch(view, 0, bands, self.distance_m)
+        self.drawn = 1
+
+    def _draw_whole(self, view: View) -> Samples:
+        self._draw(view, 0, len(self._views))
         if self._finish is not None:
             self._finish(self.colour, self.distance_m, view)
+        return Samples(self.colour, self.distance_m)
 
     def _draw(self, view: View, first: int, end: int) -> None:
         """Draw bands, as many at once as take no more than a moderate amount of memory."""

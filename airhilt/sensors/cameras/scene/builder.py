@@ -68,8 +68,14 @@ def open_scene_renderer(
     names: Sequence[str] | None = None,
     renderer: str = AUTO,
     supersampling: int = 1,
+    keeps_backgrounds: bool = False,
 ) -> SceneRenderer:
     """Return what draws for cameras of a scenario: those named, or those that it declares.
+
+    Parameters
+    ----------
+    keeps_backgrounds
+        True if other processes may draw for the same fixed cameras.
 
     Raises
     ------
@@ -85,5 +91,6 @@ def open_scene_renderer(
     light = light_of(scenario, site)
     landscape = landscape_of(scenario, site, light)
     return SceneRenderer(
-        landscape, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling
-    )
+        landscape, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling,
+        keeps_backgrounds,
+    )  # fmt: skip
