@@ -118,12 +118,12 @@ def renderer_names() -> list[str]:
 def library_of(name: str) -> str:
     """Return the library whose version alone determines what a renderer draws, with its version.
 
-    A renderer says which it is by the attribute ``distribution``. Empty for one without, such as
-    one that draws on a graphics card, whose driver has a part in it.
+    A renderer has the names under which it may be installed in the attribute ``distributions``.
+    Empty for one without, such as one that draws on a graphics card, whose driver has a part in it.
     """
-    distribution = getattr(FAMILY.load(name), "distribution", "")
-    with suppress(importlib.metadata.PackageNotFoundError):
-        return f"{distribution} {importlib.metadata.version(distribution)}" if distribution else ""
+    for distribution in getattr(FAMILY.load(name), "distributions", ()):
+        with suppress(importlib.metadata.PackageNotFoundError):
+            return f"{distribution} {importlib.metadata.version(distribution)}"
     return ""
 
 

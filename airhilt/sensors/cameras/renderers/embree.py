@@ -26,7 +26,7 @@ class Embree:
     """
 
     name = "embree"
-    distribution = "embreex"
+    distributions = ("embreex",)
     needs = "pip install embreex (there are wheels for Linux x86-64, macOS and Windows)"
 
     def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:

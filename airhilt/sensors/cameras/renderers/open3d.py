@@ -30,7 +30,7 @@ class Open3D:
     """Draws with Open3D."""
 
     name = "open3d"
-    distribution = "open3d"
+    distributions = ("open3d-cpu", "open3d")
     needs = f"pip install 'airhilt[open3d]' and apt install {SYSTEM_LIBRARIES}"
 
     def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
