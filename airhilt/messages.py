@@ -478,7 +478,9 @@ class CameraFrame(Header):
     seq: int = Field(ge=0)
     t_frame_ns: Nanoseconds = Field(description="end of the exposure")
     view: CameraView
-    encoding: Literal["rgb8"] = "rgb8"
+    encoding: Literal["rgb8", "none"] = Field(
+        default="rgb8", description="none: the exposure was left out, and there are no pixels"
+    )
     sha256: str = Field(description="of the pixels")
 
 
@@ -516,6 +518,10 @@ class Detection(Part):
                 f"box {box} has no room; expected left, top, right, bottom, no width and height"
             )
         return box
+
+
+EXPOSURE_LEFT_OUT = "exposure left out"
+"""Value of `Detections.missed` for an exposure that the camera left out."""
 
 
 class Detections(Message):

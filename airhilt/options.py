@@ -194,6 +194,15 @@ class Options(BaseModel):
             needs=("cameras",),
         ),
     ] = "auto"
+    camera_rate: Annotated[
+        Literal["full", "adaptive"],
+        Flag(
+            "--camera-rate",
+            "full, or adaptive: one picture a second until a body would cover two pixels.",
+            "NAME",
+            needs=("cameras",),
+        ),
+    ] = "full"
     detector: Annotated[
         str,
         Flag(

@@ -13,7 +13,14 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import ndimage
 
-from airhilt.messages import CameraFrame, Detection, Detections, InputSpec, WorkerDescription
+from airhilt.messages import (
+    EXPOSURE_LEFT_OUT,
+    CameraFrame,
+    Detection,
+    Detections,
+    InputSpec,
+    WorkerDescription,
+)
 from airhilt.sim import Input, Output
 from airhilt.workers import Step, serve
 
@@ -37,11 +44,14 @@ class MyDetector:
 
     def detections(self, item: Input) -> Output:
         header = CameraFrame.model_validate(item.attachment)
-        shape = (header.view.height_px, header.view.width_px, 3)
-        found = detect(np.frombuffer(item.payload, np.uint8).reshape(shape))
+        found: list[Detection] = []
+        if header.encoding == "rgb8":
+            shape = (header.view.height_px, header.view.width_px, 3)
+            found = detect(np.frombuffer(item.payload, np.uint8).reshape(shape))
         message = Detections(
             camera=header.camera, seq=header.seq, t_frame_ns=header.t_frame_ns, view=header.view,
             detections=tuple(found), engine="mine",
+            missed="" if header.encoding == "rgb8" else EXPOSURE_LEFT_OUT,
         )  # fmt: skip
         return Output(f"vision/{header.camera}", message.model_dump_json().encode())
 

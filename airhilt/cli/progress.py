@@ -279,12 +279,14 @@ def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
         return []
     count = len(vision.cameras)
     parts = [f"{count} camera{'' if count == 1 else 's'}", f"{vision.taken} pictures"]
+    if vision.exposures_left_out:
+        parts.append(f"{vision.exposures_left_out} exposures left out")
     if vision.looked_at is not None:
         parts += [
             f"{vision.looked_at} looked at",
             f"{vision.dropped} dropped",
             f"recall {_percent(vision.recall)} of {vision.sightings}",
-            f"{_rate(vision.false_confirmed_per_minute)} confirmed false",
+            _false(vision),
         ]
     warnings = []
     if vision.missed:
@@ -303,6 +305,13 @@ def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
             for first in vision.first_detections
         ),
     ]
+
+
+def _false(vision: VisionStatistics) -> str:
+    """Return the rate of false detections, by picture where exposures were left out."""
+    if vision.exposures_left_out:
+        return f"{_percent(vision.false_per_picture)} false detections per picture"
+    return f"{_rate(vision.false_confirmed_per_minute)} confirmed false"
 
 
 def _rate(per_minute: float | None) -> str:

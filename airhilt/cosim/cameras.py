@@ -25,7 +25,7 @@ from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.frame import Frame
+    from airhilt.sensors.cameras.frame import Frame, Prospect
     from airhilt.sensors.cameras.renderer_link import RendererLink
     from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -122,6 +122,7 @@ class Vision:
             setup.scenario.cameras,
             setup.site,
             setup.actors,
+            is_adaptive=setup.options.camera_rate == "adaptive",
             state_at_ns=state_at_ns,
             publish=router.publish,
             lost=lost,
@@ -272,6 +273,16 @@ class _UntilLost:
         RendererError
             The earlier run could not.
         """
+        self._require_not_lost(t_ns)
+        return self._process.shoot(names, bodies, t_ns)
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        """Return what pictures would show; it raises what `shoot` does."""
+        self._require_not_lost(t_ns)
+        return self._process.prospects(names, bodies, t_ns)
+
+    def _require_not_lost(self, t_ns: int) -> None:
         if t_ns >= self._lost_ns:
             raise RendererError(self._cause)
-        return self._process.shoot(names, bodies, t_ns)

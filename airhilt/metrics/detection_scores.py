@@ -13,6 +13,7 @@ from itertools import pairwise
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import (
+    EXPOSURE_LEFT_OUT,
     CameraFrame,
     CameraInfo,
     CameraTruth,
@@ -60,6 +61,7 @@ class _Counts:
 
     taken: int = 0
     taken_s: float = 0.0
+    left_out: int = 0
     latencies_s: list[float] = field(default_factory=list)
     missed: int = 0
     detections: int = 0
@@ -77,6 +79,7 @@ class _Counts:
         """Add the counts of another."""
         self.taken += other.taken
         self.taken_s += other.taken_s
+        self.left_out += other.left_out
         self.latencies_s += other.latencies_s
         self.missed += other.missed
         self.detections += other.detections
@@ -90,10 +93,12 @@ class _Counts:
 
     def statistics(self, dropped: int, is_watched: bool) -> DetectionStatistics:
         """Return the statistics; without a detector only the number of pictures is known."""
-        minutes = self.taken_s / 60.0
+        minutes = 0.0 if self.left_out else self.taken_s / 60.0
+        looked_at = len(self.latencies_s)
         if not is_watched:
             return DetectionStatistics(
                 taken=self.taken or None,
+                exposures_left_out=self.left_out if self.taken else None,
                 looked_at=None,
                 dropped=None,
                 missed=None,
@@ -104,13 +109,15 @@ class _Counts:
                 by_size=[],
                 labels_right=None,
                 false_detections=None,
+                false_per_picture=None,
                 false_per_minute=None,
                 false_confirmed_per_minute=None,
                 false_tracks=None,
             )
         return DetectionStatistics(
             taken=self.taken,
-            looked_at=len(self.latencies_s),
+            exposures_left_out=self.left_out,
+            looked_at=looked_at,
             dropped=dropped,
             missed=self.missed,
             latency=LatencyStatistics.of(self.latencies_s),
@@ -126,6 +133,7 @@ class _Counts:
             ],
             labels_right=_ratio(self.labelled, self.found),
             false_detections=self.false,
+            false_per_picture=_ratio(self.false, looked_at),
             false_per_minute=_ratio(self.false, minutes),
             false_confirmed_per_minute=_ratio(self.false_confirmed, minutes),
             false_tracks=self.false_tracks,
@@ -154,6 +162,9 @@ class _Camera:
     def picture(self) -> None:
         self._counts.taken += 1
         self._counts.taken_s += self._period_s
+
+    def leave_out(self) -> None:
+        self._counts.left_out += 1
 
     def keep(self, truth: CameraTruth) -> None:
         self._truths[truth.seq] = truth
@@ -222,8 +233,12 @@ class DetectionScores:
                 self._cameras[name] = _Camera(rate_hz)
             case CameraTruth(camera=name) if name in self._cameras:
                 self._cameras[name].keep(message)
+            case CameraFrame(camera=name, encoding="none") if name in self._cameras:
+                self._cameras[name].leave_out()
             case CameraFrame(camera=name) if name in self._cameras:
                 self._cameras[name].picture()
+            case Detections(missed=missed) if missed == EXPOSURE_LEFT_OUT:
+                pass
             case Detections(camera=name) if name in self._cameras:
                 self._look(message)
             case Status(modality="vision", state=state, cause=cause):

@@ -167,6 +167,10 @@ class DetectionStatistics(BaseModel):
 
     model_config = ConfigDict(frozen=True)
     taken: int | None = Field(description="pictures taken")
+    exposures_left_out: int | None = Field(
+        default=None,
+        description="exposures that adaptive exposure left out; 0 with the camera rate full",
+    )
     looked_at: int | None = Field(
         description="pictures that a detector looked at, also those in which it found nothing"
     )
@@ -184,9 +188,15 @@ class DetectionStatistics(BaseModel):
         description="share of the true detections that have the true class"
     )
     false_detections: int | None = Field(description="detections that match no actor")
-    false_per_minute: float | None = Field(description="false detections per minute and camera")
+    false_per_picture: float | None = Field(
+        default=None, description="false detections per picture looked at"
+    )
+    false_per_minute: float | None = Field(
+        description="false detections per minute and camera; null where exposures were left out"
+    )
     false_confirmed_per_minute: float | None = Field(
-        description="false detections of confirmed tracks per minute and camera"
+        description="false detections of confirmed tracks per minute and camera; null where "
+        "exposures were left out"
     )
     false_tracks: int | None = Field(description="confirmed tracks that never matched an actor")
 

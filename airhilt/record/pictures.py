@@ -160,7 +160,7 @@ class KeyPictures:
         match message:
             case CameraTruth(camera=name):
                 self._sightings[name] = message.sightings
-            case CameraFrame(camera=name):
+            case CameraFrame(camera=name, encoding="rgb8"):
                 self._take_picture(Picture(message, payload, self._sightings.get(name, ())))
             case Detections(missed=""):
                 self._look(message)

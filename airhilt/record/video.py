@@ -132,7 +132,7 @@ class VideoRecorder:
         match message:
             case CameraInfo(camera=name, rate_hz=rate_hz):
                 self._rates_hz[name] = rate_hz
-            case CameraFrame():
+            case CameraFrame(encoding="rgb8"):
                 self._take_picture(Picture(message, payload, ()))
             case Detections(camera=name, missed="") if name in self._videos:
                 with self._giving_up(name):

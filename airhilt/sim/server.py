@@ -95,12 +95,15 @@ class Server:
     def _replace_older(self, item: Input) -> bool:
         """Put an input in the place of the one of its key that waits, if there is one.
 
-        It keeps the place, so that of several keys none waits for ever behind the others.
+        It keeps the place, so that of several keys none waits for ever behind the others. An input
+        without a payload, such as an exposure that was left out, replaces none that has one; and
+        it does not count as dropped.
         """
         for index, (policy, older) in enumerate(self._waiting):
             if older.key == item.key:
-                self._waiting[index] = (policy, item)
-                self.dropped[item.key] += 1
+                if item.payload or not older.payload:
+                    self._waiting[index] = (policy, item)
+                    self.dropped[item.key] += bool(older.payload)
                 return True
         return False
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from airhilt.imaging.matching import matches
-from airhilt.messages import Box, Detection, SightingTruth
+from airhilt.messages import EXPOSURE_LEFT_OUT, Box, Detection, SightingTruth
 from airhilt.metrics.detection_scores import DetectionScores, must_be_found
 from airhilt.metrics.summary import VisionStatistics
 from sightings import found, frame, info, seen, sighting, truth, vision
@@ -112,6 +112,24 @@ def test_pictures_are_counted_as_taken_looked_at_and_dropped() -> None:
     tower, runway = numbers.cameras
     assert (tower.camera, tower.taken, tower.looked_at, tower.dropped) == ("tower", 2, 1, 1)
     assert (runway.camera, runway.taken, runway.looked_at, runway.dropped) == ("runway", 1, 1, 0)
+
+
+def test_exposures_that_were_left_out_are_counted_apart_and_leave_no_rate_per_minute() -> None:
+    watched = Watched().picture(0, by=(found(NOWHERE),)).picture(3)
+    for seq in (1, 2):
+        watched.sight.take(frame(seq).model_copy(update={"encoding": "none"}))
+        watched.sight.take(seen(seq).model_copy(update={"missed": EXPOSURE_LEFT_OUT}))
+    numbers = watched.numbers()
+    assert (numbers.taken, numbers.looked_at, numbers.missed) == (2, 2, 0)
+    assert (numbers.exposures_left_out, numbers.why_missed) == (2, "")
+    assert (numbers.false_detections, numbers.false_per_picture) == (1, 0.5)
+    assert (numbers.false_per_minute, numbers.false_confirmed_per_minute) == (None, None)
+
+
+def test_at_the_full_rate_no_exposure_is_left_out() -> None:
+    numbers = Watched().picture(0, by=(found(NOWHERE),)).picture(1).numbers()
+    assert (numbers.exposures_left_out, numbers.false_per_picture) == (0, 0.5)
+    assert numbers.false_per_minute is not None
 
 
 def test_a_picture_that_a_detector_missed_counts_as_that_and_nothing_else() -> None:

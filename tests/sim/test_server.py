@@ -142,6 +142,15 @@ def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops() -> None:
     assert +bench.server.dropped == {"left": 2}
 
 
+def test_an_input_without_a_payload_replaces_none_that_has_one_and_is_not_counted() -> None:
+    bench = Bench(echo, Fixed(10))
+    for t_ns, payload in ((0, b"a"), (1, b""), (2, b"b"), (3, b""), (14, b""), (15, b"c")):
+        bench.offer_at(t_ns, payload, "latest")
+    bench.run()
+    assert bench.out == [(10, b"a"), (20, b"b"), (30, b"c")]
+    assert not bench.server.dropped.total()
+
+
 def test_of_several_keys_that_are_too_fast_each_has_its_turn() -> None:
     bench = Bench(echo, Fixed(10))
     for t_ns in range(0, 60, 6):

@@ -13,6 +13,7 @@ from airhilt.assistant.vision.tracker import Tracker
 from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.messages import (
+    EXPOSURE_LEFT_OUT,
     Box,
     CameraFrame,
     CameraInfo,
@@ -56,7 +57,8 @@ class VisionWorker:
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Look at the pictures that have arrived.
 
-        The detections of a picture that the detector has missed say why.
+        The detections of a picture that the detector has missed say why, and those of an exposure
+        that the camera left out say that.
 
         Raises
         ------
@@ -91,7 +93,6 @@ class VisionWorker:
 
     def _look(self, item: Input) -> Detections:
         header = header_of(item)
-        picture = picture_of(header, item.payload, self._infos.get(header.camera))
         seen = Detections(
             camera=header.camera,
             seq=header.seq,
@@ -99,6 +100,9 @@ class VisionWorker:
             view=header.view,
             engine=self._engine,
         )
+        if header.encoding == "none":
+            return seen.model_copy(update={"missed": EXPOSURE_LEFT_OUT})
+        picture = picture_of(header, item.payload, self._infos.get(header.camera))
         mask = self._masks.get(header.camera)
         shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
         try:

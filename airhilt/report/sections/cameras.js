@@ -102,11 +102,14 @@ function zoom(picture, image) {
 function visionTiles() {
   const v = vision, first = v.first_detections.find((one) => pair.includes(one.actor)) || v.first_detections[0];
   const late = v.latency, dropped = v.dropped ? `, ${whole(v.dropped)} dropped` : "";
+  const leftOut = v.exposures_left_out ? `, ${whole(v.exposures_left_out)} exposures left out` : "";
   return [
     tile("First detection", first ? metres(first.range_m) : "–", first ? `${first.actor} by ${first.camera}` : "", first ? `at ${seconds(first.t_s)}, when it was ${pixels(first.size_px)} long` : "nobody was found"),
     tile("Recall", percent(v.recall), `of ${counted(v.sightings, "sighting")}`, known(v.labels_right) ? `of what was found ${percent(v.labels_right)} had its class right` : ""),
-    tile("False detections", perMinute(v.false_confirmed_per_minute), `${perMinute(v.false_per_minute)} before confirmation`, `a camera; ${counted(v.false_tracks, "confirmed track")} about nothing`, v.false_confirmed_per_minute > 1 ? "warn" : ""),
-    tile("Vision latency", duration(late.p50_s), late.n ? `${duration(late.min_s)} least, ${duration(late.p95_s)} p95` : "", `${whole(v.taken)} pictures, ${whole(v.looked_at)} looked at${dropped}`),
+    v.exposures_left_out
+      ? tile("False detections", percent(v.false_per_picture), "of the pictures looked at", `${counted(v.false_tracks, "confirmed track")} about nothing`)
+      : tile("False detections", perMinute(v.false_confirmed_per_minute), `${perMinute(v.false_per_minute)} before confirmation`, `a camera; ${counted(v.false_tracks, "confirmed track")} about nothing`, v.false_confirmed_per_minute > 1 ? "warn" : ""),
+    tile("Vision latency", duration(late.p50_s), late.n ? `${duration(late.min_s)} least, ${duration(late.p95_s)} p95` : "", `${whole(v.taken)} pictures, ${whole(v.looked_at)} looked at${dropped}${leftOut}`),
   ];
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -42,6 +43,20 @@ class Sighting:
     truncation: float
     range_m: float
     transmission: float
+
+
+class Prospect(NamedTuple):
+    """What a picture of an instant would show, if it were taken.
+
+    Attributes
+    ----------
+    has_body
+        True if a body other than the one that carries the camera would cover two pixels or more,
+        or if one of its lights would be seen.
+    """
+
+    view: View
+    has_body: bool
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
-from airhilt.sensors.cameras.frame import Frame, Sighting
+from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
 from airhilt.sensors.cameras.renderer_link import COMMAND, ENVIRONMENT, RendererLink
 from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -109,13 +109,35 @@ class RendererProcess:
         RendererError
             The renderer's process has died, or does not answer.
         """
+        views = self._views(names, bodies)
+        pictures = self._ask_of(names, bodies, t_ns, draw=True)["pictures"]
+        return [self._frame(name, t_ns, views[name], pictures[name]) for name in names]
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        """Return what pictures of an instant would show, by camera, without taking them.
+
+        It raises what `shoot` does.
+        """
+        views = self._views(names, bodies)
+        has_body = self._ask_of(names, bodies, t_ns, draw=False)["has_body"]
+        return {name: Prospect(views[name], has_body[name]) for name in names}
+
+    def _views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
         there = {body.actor: body for body in bodies}
-        views = {name: find_camera(self._cameras, name).view(there) for name in names}
-        answer = self._ask(
-            {"cameras": list(names), "bodies": [list(body) for body in bodies], "t_ns": t_ns},
-            self._patience_s,
-        )
-        return [self._frame(name, t_ns, views[name], answer["pictures"][name]) for name in names]
+        return {name: find_camera(self._cameras, name).view(there) for name in names}
+
+    def _ask_of(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int, *, draw: bool
+    ) -> Any:
+        question = {
+            "cameras": list(names),
+            "bodies": [list(body) for body in bodies],
+            "t_ns": t_ns,
+            "draw": draw,
+        }
+        return self._ask(question, self._patience_s)
 
     def _frame(self, name: str, t_ns: int, view: View, answer: Mapping[str, Any]) -> Frame:
         sightings = tuple(_sighting(found) for found in answer["sightings"])

@@ -64,8 +64,12 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
     for line in questions:
         question = json.loads(line)
         bodies = [BodyState(*body) for body in question["bodies"]]
+        ask = question["cameras"], bodies, question["t_ns"]
         try:
-            frames = scene_renderer.shoot(question["cameras"], bodies, question["t_ns"])
+            if not question["draw"]:
+                answer({"has_body": scene_renderer.has_body(*ask)})
+                continue
+            frames = scene_renderer.shoot(*ask)
         except AirhiltError as error:
             answer(_failure(error))
             continue

@@ -42,6 +42,8 @@ MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """Number of actors that ``Frame.instance`` tells apart."""
 FAINTEST = 1.0 / 512.0
 """Least area in pixels, times the contrast that the air leaves, that changes a level of a pixel."""
+LEAST_BODY_PX = 2.0
+"""Least area of the box about a body, in pixels, before which a camera exposes at its rate."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
 SMALL_PX = 4000
@@ -195,6 +197,34 @@ class SceneRenderer:
         lights = self._lights(there, t_ns)
         return [self._picture(self._cameras[name], there, poses, lights, t_ns) for name in names]
 
+    def has_body(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, bool]:
+        """Return whether a picture would show another body of two pixels, or a light, by camera.
+
+        A body counts, hidden or not, if it would change a pixel through the air that there is. An
+        exposure without a body counts as taken by the rain, which is the same with or without it.
+
+        Raises
+        ------
+        CameraError
+            As `shoot`.
+        """
+        there = {body.actor: body for body in bodies}
+        poses = {actor: body.pose for actor, body in there.items()}
+        lights = self._lights(there, t_ns)
+        found = {}
+        for name in names:
+            camera = self._cameras[name]
+            view = camera.view(there)
+            others = [body for actor, body in there.items() if actor != camera.carrier]
+            found[name] = bool(
+                self._carried_spots(view, lights, poses, camera.carrier)
+                or any(self._is_large(body, poses[body.actor], view) for body in others)
+            )
+            self._taken[name] += not found[name]
+        return found
+
     def own_aircraft(self, name: str) -> Mask:
         """Return the pixels of a camera that its own aircraft may cover, shape (rows, columns).
 
@@ -334,6 +364,10 @@ class SceneRenderer:
         left = math.exp(-self._light.extinction_per_m * away)
         return _Seen(body, pose, self._fitting(shape, window), window, box, whole, away, left)
 
+    def _is_large(self, body: BodyState, pose: Pose, view: View) -> bool:
+        seen = self._seen(body, pose, view)
+        return seen is not None and seen.leaves_a_trace and seen.box.area >= LEAST_BODY_PX
+
     def _layer(self, seen: _Seen, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
         number = self._numbers[seen.body.actor]
         return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
@@ -398,11 +432,21 @@ class SceneRenderer:
         poses: Mapping[str, Pose],
         carrier: str | None,
     ) -> list[Spot]:
-        carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
-        found = Lights.carried(carried).seen(view, self._light)
+        found = self._carried_spots(view, lights, poses, carrier)
         if not camera.is_fixed and self._light.needs_lights:
             found.extend(self._fixed_lights.seen(view, self._light))
         return found
+
+    def _carried_spots(
+        self,
+        view: View,
+        lights: Mapping[str, Sequence[Light]],
+        poses: Mapping[str, Pose],
+        carrier: str | None,
+    ) -> list[Spot]:
+        """Return the lights of others than the carrier of the camera."""
+        carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
+        return Lights.carried(carried).seen(view, self._light)
 
     def _sightings(
         self, layers: Sequence[Layer], faint: Sequence[_Seen], own: Layer | None = None

@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -24,13 +24,15 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import Camera
 from airhilt.sensors.base import Publish
-from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.frame import Frame, Prospect
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
 from airhilt.sim import Director, Priority
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
+
+NO_PIXELS_SHA256 = hashlib.sha256(b"").hexdigest()
 
 
 class FrameSource(Protocol):
@@ -41,6 +43,18 @@ class FrameSource(Protocol):
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
         """Take the pictures.
+
+        Raises
+        ------
+        RendererError
+            It cannot, and never will again.
+        """
+        ...
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        """Return what pictures of an instant would show, by camera, without taking them.
 
         Raises
         ------
@@ -67,6 +81,13 @@ class Exposures:
         """Return when an exposure ends."""
         return self.phase_ns + round(seq * SECOND_NS / self.rate_hz)
 
+    def begins_second(self, seq: int) -> bool:
+        """Return whether an exposure is the first of its second; seconds begin with exposure 0."""
+        return seq == 0 or self._second(seq) > self._second(seq - 1)
+
+    def _second(self, seq: int) -> int:
+        return (self.end_ns(seq) - self.phase_ns) // SECOND_NS
+
 
 class CameraSensor:
     """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
@@ -74,8 +95,14 @@ class CameraSensor:
     A picture is published at the end of its exposure; drawing it takes no simulation time. The
     camera of an aircraft that has come to its end gives no more pictures.
 
+    With adaptive exposure a camera exposes once a second until a body would cover two pixels, and
+    at its rate from then on. Of an exposure that is left out only the header is published, so that
+    workers take their turns at the same times as with all pictures.
+
     Parameters
     ----------
+    is_adaptive
+        True for adaptive exposure.
     state_at_ns
         Returns the time that the states of the actors are of.
     lost
@@ -90,6 +117,7 @@ class CameraSensor:
         site: ScenarioSite,
         actors: Mapping[str, Actor],
         *,
+        is_adaptive: bool = False,
         state_at_ns: Callable[[], int],
         publish: Publish,
         lost: Callable[[str], None],
@@ -107,7 +135,10 @@ class CameraSensor:
             camera.name: Exposures(camera.rate_hz, seconds_to_ns(camera.phase_s))
             for camera in cameras
         }
-        self._taken = dict.fromkeys(self._cameras, 0)
+        self._passed = dict.fromkeys(self._cameras, 0)
+        """Number of exposures that are over, by camera."""
+        self._sparse = set(self._cameras) if is_adaptive else set()
+        """Cameras that expose once a second."""
         self._sha256: dict[str, str] = {}
 
     def start(self) -> None:
@@ -134,7 +165,7 @@ class CameraSensor:
         self._director.at(due_ns, self._expose, Priority.SENSOR)
 
     def _due_ns(self, name: str) -> int:
-        return self._exposures[name].end_ns(self._taken[name])
+        return self._exposures[name].end_ns(self._passed[name])
 
     def _expose(self) -> None:
         """Take the pictures of all cameras that are due now."""
@@ -142,15 +173,33 @@ class CameraSensor:
         due = [name for name in self._cameras if self._due_ns(name) == now_ns]
         able = [name for name in due if not self._has_ended(self._cameras[name])]
         try:
-            frames = self._frame_source.shoot(able, self._bodies(), now_ns) if able else []
+            left_out, frames = self._look(able, now_ns) if able else ({}, {})
         except (CameraError, RendererError) as error:
             self._lost(str(error))
             return
-        for frame in frames:
-            self._publish_frame(frame, self._taken[frame.camera])
+        for name in able:
+            if name in left_out:
+                self._publish_left_out(name, left_out[name])
+            else:
+                self._publish_frame(frames[name])
         for name in due:
-            self._taken[name] += 1
+            self._passed[name] += 1
         self._schedule()
+
+    def _look(self, names: Sequence[str], now_ns: int) -> tuple[dict[str, View], dict[str, Frame]]:
+        """Return the views of cameras whose exposures are left out, and the pictures of others."""
+        bodies = self._bodies()
+        doubtful = [
+            name
+            for name in names
+            if name in self._sparse and not self._exposures[name].begins_second(self._passed[name])
+        ]
+        prospects = self._frame_source.prospects(doubtful, bodies, now_ns) if doubtful else {}
+        self._sparse -= {name for name, prospect in prospects.items() if prospect.has_body}
+        left_out = {name: each.view for name, each in prospects.items() if not each.has_body}
+        taken = [name for name in names if name not in left_out]
+        frames = self._frame_source.shoot(taken, bodies, now_ns) if taken else []
+        return left_out, {frame.camera: frame for frame in frames}
 
     def _has_ended(self, camera: Camera) -> bool:
         carrier = camera.carrier
@@ -165,28 +214,39 @@ class CameraSensor:
             self._state_at_ns(),
         )
 
-    def _publish_frame(self, frame: Frame, seq: int) -> None:
+    def _publish_frame(self, frame: Frame) -> None:
         now_ns, name = self._director.now_ns, frame.camera
         pixels = frame.colour.tobytes()
         if not frame.unchanged or name not in self._sha256:
             self._sha256[name] = hashlib.sha256(pixels).hexdigest()
-        header = CameraFrame(
-            t_ns=now_ns,
-            camera=name,
-            seq=seq,
-            t_frame_ns=now_ns,
-            view=view_message(frame.view, self._local_frame, self._cameras[name].carrier),
-            sha256=self._sha256[name],
-        )
         truth = CameraTruth(
             t_ns=now_ns,
             camera=name,
-            seq=seq,
+            seq=self._passed[name],
             t_frame_ns=now_ns,
             sightings=tuple(SightingTruth(**asdict(each)) for each in frame.sightings),
         )
         self._publish(f"truth/camera/{name}", truth)
+        header = self._header(name, frame.view, "rgb8", self._sha256[name])
         self._publish(f"camera/{name}/frame", header, raw=pixels)
+
+    def _publish_left_out(self, name: str, view: View) -> None:
+        header = self._header(name, view, "none", NO_PIXELS_SHA256)
+        self._publish(f"camera/{name}/frame", header, raw=b"")
+
+    def _header(
+        self, name: str, view: View, encoding: Literal["rgb8", "none"], sha256: str
+    ) -> CameraFrame:
+        now_ns = self._director.now_ns
+        return CameraFrame(
+            t_ns=now_ns,
+            camera=name,
+            seq=self._passed[name],
+            t_frame_ns=now_ns,
+            view=view_message(view, self._local_frame, self._cameras[name].carrier),
+            encoding=encoding,
+            sha256=sha256,
+        )
 
 
 def view_message(view: View, local_frame: LocalFrame, carrier: str | None) -> CameraView:

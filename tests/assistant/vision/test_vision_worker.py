@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
 from airhilt.assistant.vision.worker import VisionWorker
 from airhilt.errors import VisionError
 from airhilt.imaging.masks import runs_of
-from airhilt.messages import Detection, Detections
+from airhilt.messages import EXPOSURE_LEFT_OUT, Detection, Detections
 from airhilt.sim import Input, WorkerLost
 from airhilt.workers.pool import parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker
@@ -48,6 +49,15 @@ def test_a_picture_becomes_detections_of_it() -> None:
 def test_nothing_found_is_told_too_so_that_nobody_waits_for_it() -> None:
     (told,) = seen(VisionWorker(BlobDetector()), frame(EMPTY))
     assert told.detections == ()
+
+
+def test_an_exposure_that_was_left_out_is_told_as_that_and_changes_no_track() -> None:
+    left_out = replace(frame(TRUCK, 1, encoding="none"), payload=b"")
+    items = [frame(TRUCK, 0), left_out, frame(TRUCK, 2)]
+    before, between, after = seen(VisionWorker(BlobDetector()), *items)
+    assert (between.missed, between.detections) == (EXPOSURE_LEFT_OUT, ())
+    assert (before.detections[0].track_id, after.detections[0].track_id) == (1, 1)
+    assert (between.seq, after.detections[0].hits) == (1, 2)
 
 
 def test_what_stays_has_one_track_and_more_hits_from_picture_to_picture() -> None:

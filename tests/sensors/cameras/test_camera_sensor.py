@@ -19,7 +19,7 @@ from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import Intrinsics, Pose, View, attitude
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame, Sighting
+from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.sensor import CameraSensor, Exposures, angles_of, view_message
@@ -40,6 +40,16 @@ class Fake:
     shots: list[tuple[int, tuple[str, ...]]] = field(default_factory=list)
     places: list[dict[str, tuple[float, float]]] = field(default_factory=list)
     own_aircraft: dict[str, Mask] = field(default_factory=dict)
+    body_from_ns: dict[str, int] = field(default_factory=dict)
+    """Time from which a camera has a body before it."""
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        view = View(LENS, Pose.of((10.0, 20.0, 30.0), 1.0, 0.1, -0.2))
+        return {
+            name: Prospect(view, t_ns >= self.body_from_ns.get(name, t_ns + 1)) for name in names
+        }
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
         if self.fails_at_ns is not None and t_ns >= self.fails_at_ns:
@@ -57,7 +67,9 @@ class Fake:
 class Run:
     """A camera sensor on its own, with all that it publishes."""
 
-    def __init__(self, scenario: Scenario, frame_source: Fake, until_s: float) -> None:
+    def __init__(
+        self, scenario: Scenario, frame_source: Fake, until_s: float, is_adaptive: bool = False
+    ) -> None:
         site = ScenarioSite.of(scenario)
         self.cast: dict[str, Actor] = build_actors(scenario, site, 0, 0.05)
         self.published: list[tuple[str, Message, bytes | None]] = []
@@ -69,6 +81,7 @@ class Run:
             scenario.cameras,
             site,
             self.cast,
+            is_adaptive=is_adaptive,
             state_at_ns=lambda: 0,
             publish=lambda key, message, *, raw=None: self.published.append((key, message, raw)),
             lost=lambda cause: self.losses.append((self.director.now_ns, cause)),
@@ -124,6 +137,48 @@ def test_pictures_are_numbered_and_vouched_for() -> None:
     assert len({frame.sha256 for frame in frames}) == 9
     raw = [raw for key, _, raw in run.published if key == "camera/nose-AAL123/frame"]
     assert all(pixels is not None and len(pixels) == 64 * 36 * 3 for pixels in raw)
+
+
+def test_with_adaptive_exposure_a_camera_exposes_once_a_second_until_there_is_a_body() -> None:
+    fake = Fake(body_from_ns={"nose-DAL456": 2 * SECOND_NS + SECOND_NS // 2})
+    run = Run(scenario_with(), fake, 3.0, is_adaptive=True).go()
+    taken = {
+        name: [frame.seq for frame in run.frames(name) if frame.encoding == "rgb8"]
+        for name in ("nose-AAL123", "nose-DAL456")
+    }
+    assert taken["nose-AAL123"] == [0, 16, 32, 48]
+    assert taken["nose-DAL456"] == [0, 16, 32, *range(40, 49)]
+
+
+def test_an_exposure_that_is_left_out_has_its_number_its_time_and_no_pixels() -> None:
+    full = Run(scenario_with(), Fake(), 1.5).go()
+    adaptive = Run(scenario_with(), Fake(), 1.5, is_adaptive=True).go()
+    names = "t_ns", "camera", "seq", "t_frame_ns", "view"
+    grids = [
+        [tuple(getattr(message, name) for name in names)
+         for _, message, _ in run.published if isinstance(message, CameraFrame)]
+        for run in (full, adaptive)
+    ]  # fmt: skip
+    assert grids[0] == grids[1]
+    raw = {len(raw or b"") for _, message, raw in adaptive.published
+           if isinstance(message, CameraFrame) and message.encoding == "none"}  # fmt: skip
+    assert raw == {0}
+    told = [m.seq for _, m, _ in adaptive.published if isinstance(m, CameraTruth)]
+    assert told == [0, 0, 16, 16]
+
+
+def test_a_camera_that_has_had_a_body_before_it_goes_on_at_its_rate() -> None:
+    class Passing(Fake):
+        def prospects(
+            self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+        ) -> dict[str, Prospect]:
+            found = super().prospects(names, bodies, t_ns)
+            is_there = t_ns == SECOND_NS // 2
+            return {name: each._replace(has_body=is_there) for name, each in found.items()}
+
+    run = Run(scenario_with(), Passing(), 2.0, is_adaptive=True).go()
+    taken = [frame.seq for frame in run.frames("nose-AAL123") if frame.encoding == "rgb8"]
+    assert taken == [0, *range(8, 33)]
 
 
 def test_what_is_in_a_picture_is_told_as_truth() -> None:
