@@ -28,7 +28,7 @@ from airhilt.configuration import read_configuration
 from airhilt.engines import ASR, DETECTOR, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.library import nearest
-from airhilt.messages import RadarKind
+from airhilt.messages import Modality, RadarKind
 from airhilt.scenario.models import Topology
 from airhilt.scenario.models.weather import Visibility
 
@@ -38,6 +38,8 @@ RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
 """Names of runs: one chunk of a key of Zenoh, and of a path."""
 LONGEST_S = 86_400.0
 """Greatest timeout in s."""
+MODALITIES: tuple[Modality, ...] = ("adsb", "asr", "vision")
+"""Modalities by which an assistant observes."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,18 @@ def _one_chunk(name: str) -> str:
             {"name": shown(name)},
         )
     return name
+
+
+def _in_order(text: str) -> str:
+    """Return names of modalities, each once and in the order of `MODALITIES`."""
+    given = text.split("+")
+    if not set(given) <= set(MODALITIES):
+        raise PydanticCustomError(
+            "modalities",
+            "found {text}; expected some of adsb, asr and vision, such as adsb+asr",
+            {"text": shown(text)},
+        )
+    return "+".join(each for each in MODALITIES if each in given)
 
 
 def _contents(given: Any) -> Any:
@@ -129,6 +143,17 @@ class Options(BaseModel):
             needs=("assistant",),
         ),
     ] = None
+    modalities: Annotated[
+        str,
+        AfterValidator(_in_order),
+        Flag(
+            "--modalities",
+            "What the assistant is given, such as adsb+asr: ADS-B reports, radio calls and their "
+            "transcripts (asr), pictures and detections (vision). Crews and equipment keep theirs.",
+            "NAMES",
+            needs=("assistant",),
+        ),
+    ] = "+".join(MODALITIES)
     pace: Annotated[
         str | None,
         Flag(
@@ -357,6 +382,11 @@ class Options(BaseModel):
         ),
     ] = True
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
+
+    @property
+    def given_modalities(self) -> frozenset[str]:
+        """Modalities that the assistant is given."""
+        return frozenset(self.modalities.split("+"))
 
     @model_validator(mode="before")
     @classmethod

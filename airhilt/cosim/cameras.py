@@ -166,7 +166,11 @@ def started_renderer(
         or options.video
         or options.endpoint is not None
         or bool(options.attach)
-        or (options.detector != NO_DETECTOR and options.assistant != NO_ASSISTANT)
+        or (
+            options.detector != NO_DETECTOR
+            and options.assistant != NO_ASSISTANT
+            and "vision" in options.given_modalities
+        )
     )
     link = None
     if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from airhilt.assistant.decision.engines import FAMILY
-from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, NO_DETECTOR, families
+from airhilt.assistant.decision.engines import FAMILY, decision_engine
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.reference import (
+    EXTERNAL,
+    NO_ASSISTANT,
+    NO_DETECTOR,
+    families,
+    is_own_engine,
+)
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.cosim.given_modalities import inputs_given
 from airhilt.engines import ASSISTANT
 from airhilt.errors import AirhiltError, shown
-from airhilt.options import Options, flag_of
+from airhilt.messages import Modality
+from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
+
+READ_BY: Mapping[str, Modality] = {"asr": "asr", "detector": "vision"}
+"""Modality that an engine of workers gives the assistant, by the engine's option."""
 
 
 def check_options(options: Options, scenario: Scenario) -> None:
@@ -41,11 +54,14 @@ def check_options(options: Options, scenario: Scenario) -> None:
     if options.assistant_config is not None:
         assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)
         assistant.configured(options.assistant_config)
+    _require_evidence(options)
     require_known_equipment((*scenario.equipment, *options.equipment))
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
     """Yield in words what leaves out, or does not bring, what an option needs."""
+    if name in READ_BY and READ_BY[name] not in options.given_modalities:
+        yield f"with --modalities {options.modalities}; expected only one of the two"
     for need in needs:
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name
@@ -58,6 +74,22 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
             options.assistant == EXTERNAL and name in ("wording", "llm", "assistant_config")
         ):
             yield f"with {spelling} {options.assistant}; expected only one of the two"
+
+
+def _require_evidence(options: Options) -> None:
+    """Complain about modalities of which an engine of AIRHILT reads none.
+
+    Raises
+    ------
+    WorkerError
+        Nothing of the traffic is left to it.
+    """
+    name = options.assistant or ASSISTANT
+    if options.given_modalities.issuperset(MODALITIES) or not is_own_engine(name):
+        return
+    engine = decision_engine(name, configuration=options.assistant_config)
+    inputs = DecisionWorker(engine, Template()).description.inputs
+    inputs_given(name, inputs, options.given_modalities)
 
 
 def _require_known_engines(options: Options) -> None:

@@ -16,6 +16,7 @@ from airhilt.assistant.reference import (
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
+from airhilt.cosim.given_modalities import limited
 from airhilt.cosim.other_machines import other_machines
 from airhilt.cosim.recorded import Recorded
 from airhilt.engines import ASSISTANT
@@ -92,7 +93,7 @@ def connect(
         An engine cannot be loaded.
     WorkerError
         A worker has no description or no method `step`, two have the same name, or one decides
-        though the options name another assistant.
+        though the options name another assistant, or reads nothing that the options give it.
     """
     workers = list(recorded.workers)
     workers += [_participant(worker, "caller") for worker in given]
@@ -106,6 +107,7 @@ def connect(
         require_no_equipment(workers)
     programs = [worker.name for worker, description in attached if description is None]
     programs = programs or list(recorded.programs)
+    _require_no_programs(options, programs)
     taken = {worker.description.modality for worker in workers}
     if "decision" in taken and not recorded.is_replay:
         assistant = _external_assistant(options)
@@ -119,6 +121,7 @@ def connect(
         for sentence in other_machines(assistant, engines):
             notice(sentence)
     workers += [_participant(worker, "in process") for worker in reference]
+    workers = [limited(worker, options.given_modalities) for worker in workers]
     workers += equipment_of(scenario, [worker.description.name for worker in workers])
     _require_different_names(workers, programs)
     return Participants(assistant, tuple(workers), tuple(programs))
@@ -154,6 +157,21 @@ def _require_used(options: Options, assistant: str) -> None:
         )
 
 
+def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
+    """Complain about a program that hears what the assistant is not to be given.
+
+    Raises
+    ------
+    WorkerError
+        One takes no grants, and so reads whatever it likes.
+    """
+    if programs and options.modalities != Options.model_fields["modalities"].default:
+        raise WorkerError(
+            f"--modalities {options.modalities}: {programs[0]!r} takes no grants, so it hears "
+            "everything on the bus; expected a worker (docs/workers.md)"
+        )
+
+
 def _participant(worker: Worker, where: Where) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
@@ -172,8 +190,9 @@ def _require_different_names(workers: Sequence[Participant], programs: Sequence[
 
 
 def _engines(options: Options, scenario: Scenario) -> Engines:
+    is_read = "asr" in options.given_modalities or scenario.radio.topology == "asr_first"
     return Engines(
-        asr=options.asr if options.speech else None,
+        asr=options.asr if options.speech and is_read else None,
         tts=options.tts if options.speech else None,
         detector=_detector(options, scenario),
         wording=options.wording,
@@ -193,5 +212,7 @@ def _language_model(options: Options) -> LanguageModelSettings | None:
 def _detector(options: Options, scenario: Scenario) -> str | None:
     """Return the engine that looks at pictures, None if there are none or nobody is to look."""
     if not options.cameras or not scenario.cameras or options.detector == NO_DETECTOR:
+        return None
+    if "vision" not in options.given_modalities:
         return None
     return options.detector

@@ -192,6 +192,7 @@ class Simulation:
                 for worker in self._participants.workers
                 if worker.description.modality == "decision"
             ],
+            setup.options.given_modalities,
         )
 
     def _connect_workers(self) -> WorkerPool:
@@ -435,13 +436,14 @@ class Simulation:
 
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does
+        given = self._setup.options.given_modalities
         is_equipped = any(
             not isinstance(spec, WildlifeSpec) and spec.transponder.has_adsb
             for spec in scenario.actors
         )
-        self._modalities.set("adsb", "on" if is_equipped else "off")
+        self._modalities.set("adsb", "on" if is_equipped and "adsb" in given else "off")
         self._modalities.set("radio", "on" if scenario.radio.lines else "off")
-        self._modalities.set("asr", "on" if does("asr") else "off")
+        self._modalities.set("asr", "on" if does("asr") and "asr" in given else "off")
         self._modalities.set("tts", "on" if does("tts") else "off")
         self._modalities.set("vision", *self._vision.state)
         self._modalities.set("decision", "on" if self._programs.has_decision else "off")

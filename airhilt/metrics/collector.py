@@ -33,6 +33,7 @@ from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
+from airhilt.options import MODALITIES
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.scenario.roster import callsigns_of, roster_of
@@ -68,6 +69,8 @@ class Collector:
         Monitors of the run; runways is None away from airports.
     deciders
         Names of the workers that decide.
+    given
+        Modalities that they are given.
 
     Attributes
     ----------
@@ -90,6 +93,7 @@ class Collector:
         plans: Plans,
         is_on_frequency: bool = False,
         deciders: Collection[str] = (),
+        given: Collection[str] = MODALITIES,
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
@@ -102,7 +106,7 @@ class Collector:
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
         self._latencies = StageLatencies()
         self._calls = CallRecords()
-        self._evidence = EvidenceAges(deciders)
+        self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
         new_records = partial(

@@ -21,6 +21,7 @@ from airhilt.messages import HearingTruth, Modality
 from airhilt.metrics.derived import DERIVED
 from airhilt.metrics.latencies import STAGES
 from airhilt.metrics.summary import Summary
+from airhilt.options import MODALITIES
 
 Kind = Literal["string", "bool", "int64", "float64"]
 """Type of a column, by the name that Apache Arrow has for it."""
@@ -28,11 +29,9 @@ Value = str | bool | int | float | None
 
 NOT_METRICS = frozenset({"scenario", "seed", "assistant", "real_time_factor", "cpu_s"})
 """Fields of the summary that are no result: what the run was, and what depends on the machine."""
-OBSERVING = ("adsb", "asr", "vision")
-"""Modalities whose evidence has an age."""
 KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
     "latencies": STAGES,
-    "evidence": OBSERVING,
+    "evidence": MODALITIES,
     "modalities": get_args(get_args(Modality)[0]),
     "hearing": get_args(HearingTruth.model_fields["outcome"].annotation),
 }

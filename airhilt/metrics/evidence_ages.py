@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from airhilt.messages import AdsbReport, Detections, Message, Modality, Transcript
 from airhilt.metrics.summary import STALE_S, EvidenceAge
+from airhilt.options import MODALITIES
 from airhilt.sim import StepRecord
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -68,10 +69,13 @@ class EvidenceAges:
     ----------
     deciders
         Names of the workers that decide.
+    given
+        Modalities that they are given.
     """
 
-    def __init__(self, deciders: Collection[str]) -> None:
+    def __init__(self, deciders: Collection[str], given: Collection[str] = MODALITIES) -> None:
         self._deciders = frozenset(deciders)
+        self._given = frozenset(given)
         self._evidence: dict[Modality, _Evidence] = {}
 
     def take(self, message: Message) -> None:
@@ -102,6 +106,7 @@ class EvidenceAges:
             if modality in CONTINUOUS
             else _of_calls(evidence, now_ns)
             for modality, evidence in sorted(self._evidence.items())
+            if modality in self._given
         }
 
 
