@@ -6,7 +6,16 @@ import json
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    JsonValue,
+    Tag,
+    ValidationError,
+    model_validator,
+)
 
 from airhilt.errors import AirhiltError, first_problem, shown
 
@@ -76,7 +85,15 @@ class Range(Interval):
         return tuple(_plain(self.at(index / last)) for index in range(self.count))
 
 
-Values = Range | Annotated[tuple[JsonValue, ...], Field(min_length=1)]
+def _form(values: object) -> str:
+    return "range" if isinstance(values, dict | Range) else "list"
+
+
+Values = Annotated[
+    Annotated[Range, Tag("range")]
+    | Annotated[tuple[JsonValue, ...], Field(min_length=1), Tag("list")],
+    Discriminator(_form),
+]
 """Values of an axis, as a sweep file has them."""
 
 
@@ -102,6 +119,8 @@ def read_values(text: str) -> Range | Interval | tuple[JsonValue, ...]:
             found = json.loads(text)
         except json.JSONDecodeError as error:
             raise AirhiltError(f"values {shown(text)}: no JSON: {error.msg}") from None
+        if found == []:
+            raise AirhiltError("values []: expected at least 1")
         return tuple(found) if isinstance(found, list) else (found,)
     range_given = _read_range(text)
     if range_given is not None:

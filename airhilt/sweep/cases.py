@@ -23,6 +23,7 @@ from airhilt.scenario import Scenario, loading
 from airhilt.scenario.problems import error_for, problems_of
 from airhilt.sweep.axes import listed
 from airhilt.sweep.environment import Environment
+from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
 from airhilt.sweep.parameters import Parameter, Plan, parameter
 from airhilt.sweep.sampling import points
 from airhilt.sweep.specification import Specification
@@ -67,7 +68,7 @@ class Case:
     @property
     def assistant(self) -> str:
         """Name of who decides."""
-        return str(self.options.get("assistant", ASSISTANT))
+        return str(self.options[ASSISTANT_OPTION])
 
     def key(self, environment: Environment) -> str:
         """Return what tells this run from all others: a SHA-256 in hexadecimal."""
@@ -174,7 +175,7 @@ def _plan(document: Json, options: Json, combination: Combination) -> Plan:
     AirhiltError
         A value is not what the scenario or the option takes.
     """
-    plan = Plan(document, dict(options))
+    plan = Plan(document, {ASSISTANT_OPTION: ASSISTANT, **options})
     for each, value in combination:
         plan = each.put(plan, value)
     scenario = _scenario(plan.document)

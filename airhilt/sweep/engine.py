@@ -16,7 +16,7 @@ from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.clusters import FAMILY
 from airhilt.sweep.dask_client import described, outcomes, prepare
 from airhilt.sweep.dask_worker import RunnerPlugin
-from airhilt.sweep.environment import Environment
+from airhilt.sweep.environment import Environment, environment
 from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.specification import Specification
@@ -108,7 +108,9 @@ def renderer_of(grid: Sequence[Case]) -> str:
 
 
 def _own_environment(renderer: str, limits: Limits) -> Environment:
-    """Return the environment of a runner on this machine."""
+    """Return the environment of runs on this machine; a renderer is tried in another process."""
+    if not renderer:
+        return environment("")
     runner = RunnerProcess(renderer, limits)
     runner.close()
     return runner.environment

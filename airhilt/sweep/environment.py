@@ -25,9 +25,9 @@ class Environment(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     versions: dict[str, str]
-    """Of AIRHILT, Python, and the packages that decide results."""
+    """Versions of AIRHILT, Python, and the packages that decide results."""
     code_sha256: str
-    """Of AIRHILT's code and models, of its aircraft and airports."""
+    """SHA-256 of AIRHILT's code and models, and of its aircraft and airports."""
     renderer: str
     """Renderer that draws; empty without cameras."""
 

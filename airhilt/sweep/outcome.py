@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 Keep = Literal["none", "failed", "all"]
-"""Which run folders stay: of no run, of runs that failed, of all."""
+"""Runs whose folders stay: none, those that failed, or all."""
 Status = Literal["finished", "failed", "over_time", "over_memory", "crashed"]
 """Ways in which a run ends.
 

@@ -7,13 +7,12 @@ top of a scenario to a value. There, entries of lists are named by callsign, id 
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce
 from operator import getitem
 from typing import Any
 
-from airhilt.engines import ASSISTANT as ASSISTANT_NAME
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.options import Options, flag_of
@@ -71,10 +70,7 @@ class Parameter:
     def value(self, plan: Plan) -> Any:
         """Return the value that a checked plan has of it."""
         if self.path in Options.model_fields:
-            default = Options.model_fields[self.path].default
-            return plan.options.get(
-                self.path, ASSISTANT_NAME if self.path == ASSISTANT else default
-            )
+            return plan.options.get(self.path, Options.model_fields[self.path].default)
         first, _, rest = self.path.partition(".")
         if first == ASSISTANT:
             return reduce(getitem, rest.split("."), plan.options["assistant_config"])
@@ -83,24 +79,18 @@ class Parameter:
 
 
 def parameter(path: str) -> Parameter:
-    """Return the parameter that a path names.
+    """Return the parameter that a path names; a scenario's is looked for when it is put.
 
     Raises
     ------
     AirhiltError
-        There is no such option, or it is not one of sweeps.
+        It is an option, but not one of sweeps.
     """
-    path = OPTIONS_OF_PATHS.get(path, path)
-    if "." in path:
-        return Parameter(path)
     if path == "seed":
-        raise AirhiltError("parameter seed: expected in seeds (--seeds), not among the axes")
-    known = swept_options()
-    if path not in known:
-        raise AirhiltError(
-            f"parameter {path!r}: there is no option of that name in sweeps{nearest(path, known)}; "
-            "a value of the scenario has dots in its path, such as weather.visibility_m"
-        )
+        raise AirhiltError("parameter seed: expected in seeds (--seeds), not among the parameters")
+    path = OPTIONS_OF_PATHS.get(path, path)
+    if path in Options.model_fields and path not in swept_options():
+        raise AirhiltError(f"parameter {path}: this option belongs to one run; sweeps have it not")
     return Parameter(path)
 
 
@@ -127,9 +117,12 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
     try:
         container, key = locate(changed, path.replace(".", "/"))
     except PathError as error:
-        hint = nearest(error.chunk, error.known)
+        is_at_top = error.chunk == path.partition(".")[0]
+        known = [*error.known, *swept_options(), ASSISTANT] if is_at_top else error.known
+        what = "there is no such option, and" if is_at_top else "there"
         raise AirhiltError(
-            f"parameter {path}: {document['name']!r} has no {error.chunk!r} there{hint}"
+            f"parameter {path}: {what} {document['name']!r} has no {error.chunk!r}"
+            f"{nearest(error.chunk, known)}"
         ) from None
     changed["perturbations"] = [
         each
@@ -142,23 +135,3 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
 
 def _is_place(place: tuple[Any, str | int], container: Any, key: str | int) -> bool:
     return place[0] is container and place[1] == key
-
-
-def paths_of(document: Any, above: str = "") -> Iterator[str]:
-    """Yield the paths of all values of a scenario's document that are no objects or lists."""
-    if isinstance(document, dict):
-        for name, value in document.items():
-            yield from paths_of(value, f"{above}.{name}" if above else name)
-    elif isinstance(document, list):
-        for index, value in enumerate(document):
-            yield from paths_of(value, f"{above}.{_name(value, index)}")
-    elif above:
-        yield above
-
-
-def _name(entry: Any, index: int) -> str:
-    from airhilt.scenario.perturbation import NAMING_FIELDS
-
-    if isinstance(entry, dict):
-        return str(next((entry[field] for field in NAMING_FIELDS if field in entry), index))
-    return str(index)

@@ -35,7 +35,7 @@ class Work:
         Number of workers to start, if the scheduler is not there already; None: as many as this
         machine has cores and memory for.
     keep
-        Which run folders stay.
+        Runs whose folders stay.
     sample
         Number of run folders that stay if ``keep`` is ``none``: the first by key.
     dashboard

@@ -15,6 +15,7 @@ Examples:
   airhilt schema --scenario > scenario.schema.json
   airhilt schema --services > services.schema.json
   airhilt schema --assistant reference
+  airhilt schema --sweep > sweep.schema.json
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
@@ -22,10 +23,11 @@ Examples:
 @click.option(
     "--assistant", metavar="NAME", help="The schema of an assistant's configuration instead."
 )
-def schema(scenario: bool, services: bool, assistant: str | None) -> None:
+@click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
+def schema(scenario: bool, services: bool, assistant: str | None, sweep: bool) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    if sum((scenario, services, assistant is not None)) > 1:
-        raise click.UsageError("--scenario, --services, --assistant: expected one of them")
+    if sum((scenario, services, assistant is not None, sweep)) > 1:
+        raise click.UsageError("--scenario, --services, --assistant, --sweep: expected one of them")
     document: dict[str, Any]
     if services:
         from airhilt.assistant.decision.service_messages import service_schemas
@@ -35,6 +37,10 @@ def schema(scenario: bool, services: bool, assistant: str | None) -> None:
         from airhilt.assistant.decision.engines import configuration_model
 
         document = configuration_model(assistant).model_json_schema()
+    elif sweep:
+        from airhilt.sweep.specification import Specification
+
+        document = Specification.model_json_schema()
     elif scenario:
         from airhilt.scenario import Scenario
 

@@ -1,0 +1,130 @@
+"""The folder of a sweep: nothing that was finished is lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyarrow as pa
+import pytest
+
+from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import MOST_PARTS, SweepFolder
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> SweepFolder:
+    made = SweepFolder(tmp_path / "sweep")
+    made.create()
+    made.write_info({"format": 1})
+    return made
+
+
+def run(key: str, value: float = 0.5) -> pa.Table:
+    return pa.table({"key": [key], "value": [value]})
+
+
+def keys(folder: SweepFolder) -> list[str]:
+    told: list[str] = []
+    table = folder.finished(told.append)
+    assert not told
+    return [] if table is None else sorted(table["key"].to_pylist())
+
+
+def test_each_run_is_on_the_disk_when_it_is_kept(folder: SweepFolder) -> None:
+    assert keys(folder) == []
+    for count, key in enumerate("abc", start=1):
+        folder.keep(run(key))
+        assert len(keys(SweepFolder.open(folder.path))) == count
+
+
+def test_many_parts_become_one_and_no_run_is_lost(folder: SweepFolder) -> None:
+    expected = sorted(f"{number:03}" for number in range(MOST_PARTS + 10))
+    for key in expected:
+        folder.keep(run(key))
+    assert keys(folder) == expected
+    assert len(list(folder.parts_path.glob("*.parquet"))) <= MOST_PARTS
+
+
+def test_parts_of_an_earlier_version_have_fewer_columns(folder: SweepFolder) -> None:
+    folder.keep(pa.table({"key": ["old"]}))
+    folder.keep(run("new"))
+    table = folder.finished(lambda _: None)
+    assert table is not None
+    assert {row["key"]: row["value"] for row in table.to_pylist()} == {"old": None, "new": 0.5}
+
+
+@pytest.mark.parametrize("damage", [b"", b"PAR1 nothing", "half"])
+def test_a_damaged_part_is_set_aside_by_name_and_the_others_count(
+    folder: SweepFolder, damage: bytes | str
+) -> None:
+    folder.keep(run("a"))
+    (part,) = folder.parts_path.glob("*.parquet")
+    folder.keep(run("b"))
+    part.write_bytes(part.read_bytes()[:200] if isinstance(damage, str) else damage)
+    told: list[str] = []
+    table = folder.finished(told.append)
+    assert table is not None
+    assert table["key"].to_pylist() == ["b"]
+    assert part.name in told[0]
+    assert "damaged" in told[0]
+    assert keys(folder) == ["b"]
+
+
+def test_what_was_written_by_half_is_not_read(folder: SweepFolder) -> None:
+    folder.keep(run("a"))
+    (folder.parts_path / "x.parquet.partial").write_bytes(b"PAR1")
+    assert keys(folder) == ["a"]
+
+
+def test_the_same_tables_have_the_same_bytes(folder: SweepFolder) -> None:
+    written = []
+    for _ in range(2):
+        folder.write_tables(run("a"), run("a", 2.0))
+        written.append((folder.table_path.read_bytes(), folder.machine_path.read_bytes()))
+    assert written[0] == written[1]
+
+
+def test_one_process_at_a_time_writes_into_a_folder(folder: SweepFolder) -> None:
+    other = SweepFolder(folder.path).locked()
+    with folder.locked(), pytest.raises(AirhiltError, match="another sweep is writing"), other:
+        pass
+    with folder.locked():
+        pass
+
+
+def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").write_text("")
+    with pytest.raises(AirhiltError, match="no sweep"):
+        SweepFolder(tmp_path).create()
+    with pytest.raises(AirhiltError, match=r"expected a folder with a sweep\.json"):
+        SweepFolder.open(tmp_path)
+
+
+def test_tables_that_are_missing_or_damaged_say_how_to_make_them(folder: SweepFolder) -> None:
+    with pytest.raises(AirhiltError, match="give the command of the sweep again"):
+        folder.table()
+    folder.table_path.write_bytes(b"PAR1")
+    with pytest.raises(AirhiltError, match="damaged"):
+        folder.table()
+
+
+@pytest.mark.parametrize("content", ["{", "[]", '{"format": 2}', "[" * 100_000])
+def test_a_damaged_specification_is_named(folder: SweepFolder, content: str) -> None:
+    folder.info_path.write_text(content)
+    with pytest.raises(AirhiltError, match=r"sweep\.json"):
+        folder.info()
+
+
+def test_a_full_disk_is_told_and_keeps_what_was_finished(
+    folder: SweepFolder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder.keep(run("a"))
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("airhilt.files.Path.write_bytes", full)
+    with pytest.raises(AirhiltError, match="No space left on device"):
+        folder.keep(run("b"))
+    monkeypatch.undo()
+    assert keys(folder) == ["a"]

@@ -1,0 +1,204 @@
+"""The runs that a specification gives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.errors import AirhiltError
+from airhilt.sweep.cases import Case, cases
+from airhilt.sweep.environment import Environment, require_same
+from airhilt.sweep.specification import Specification, specification_of
+
+HERE = Environment(versions={"airhilt": "1"}, code_sha256="0", renderer="embree")
+
+
+def given_as(**fields: Any) -> Specification:
+    return specification_of({"scenarios": ["s02a_headon"], **fields}, "test")
+
+
+def grid(**fields: Any) -> list[Case]:
+    return cases(given_as(**fields))
+
+
+def keys(found: list[Case]) -> set[str]:
+    return {case.key(HERE) for case in found}
+
+
+def test_a_grid_has_every_combination_once() -> None:
+    found = grid(
+        scenarios=["s02a_*"],
+        seeds={"from": 0, "to": 2, "step": 1},
+        axes={"snr_db": [0, 10, 10], "assistant": ["reference", "none"]},
+    )
+    names = {case.scenario for case in found}
+    assert all(name.startswith("s02a_") for name in names)
+    assert len(names) > 1
+    assert len(found) == len(names) * 3 * 2 * 2 == len(keys(found))
+
+
+def test_a_parameter_of_the_scenario_is_set_in_its_place_alone() -> None:
+    path = "actors.AAL123.initial.cas_kt"
+    slow, fast = grid(axes={path: [250, 270]})
+    speeds = [
+        {actor["callsign"]: actor["initial"]["cas_kt"] for actor in case.document["actors"]}
+        for case in (slow, fast)
+    ]
+    assert (speeds[0].pop("AAL123"), speeds[1].pop("AAL123")) == (250.0, 270.0)
+    assert speeds[0] == speeds[1]
+    assert [case.parameters for case in (slow, fast)] == [{path: 250.0}, {path: 270.0}]
+
+
+def test_a_parameter_that_is_swept_is_not_drawn_any_more() -> None:
+    (plain,) = grid()
+    drawn = [each["path"] for each in plain.document["perturbations"]]
+    path = drawn[0].replace("/", ".")
+    (swept,) = grid(axes={path: [240]})
+    assert [each["path"] for each in swept.document["perturbations"]] == drawn[1:]
+
+
+def test_settings_of_the_assistant_are_parameters() -> None:
+    (case,) = grid(axes={"assistant.tau_asr": [0.5]})
+    assert case.options["assistant_config"] == {"tau_asr": 0.5}
+    assert case.parameters == {"assistant.tau_asr": 0.5}
+
+
+def test_two_spellings_of_one_parameter_are_one() -> None:
+    assert keys(grid(axes={"radio.snr_db": [5]})) == keys(grid(axes={"snr_db": [5]}))
+    with pytest.raises(AirhiltError, match="snr_db: given twice"):
+        grid(axes={"radio.snr_db": [5], "snr_db": [6]})
+    with pytest.raises(AirhiltError, match="snr_db: given twice"):
+        grid(axes={"radio.snr_db": [5]}, options={"snr_db": 6})
+
+
+@pytest.mark.parametrize(
+    ("fields", "problem"),
+    [
+        ({"scenarios": ["s09*"]}, "no scenario matches 's09"),
+        ({"scenarios": ["s02a_hedon"]}, "did you mean 's02a_headon'"),
+        ({"axes": {"weather.visibilty_m": [5]}}, "did you mean 'visibility_m'"),
+        ({"axes": {"snr": [5]}}, "did you mean 'snr_db'"),
+        ({"axes": {"actors.AAL12.initial.cas_kt": [5]}}, "did you mean 'AAL123'"),
+        ({"axes": {"assistant.tau_as": [0.5]}}, "did you mean 'tau_asr'"),
+        ({"axes": {"snr_db": []}}, "at least 1 item"),
+        ({"axes": {"seed": [1]}}, "--seeds"),
+        ({"axes": {"out": ["/tmp"]}}, "belongs to one run"),
+        ({"seeds": [1.5]}, "expected integers"),
+        ({"seeds": [-1]}, "expected integers"),
+        ({"scenarios": []}, "at least 1 item"),
+        ({"axes": {"assistant": ["refrence"]}}, "did you mean 'reference'"),
+        ({"axes": {"assistant.tau_asr": [0.5]}, "options": {"assistant": "none"}}, "do nothing"),
+        ({"axis": {}}, "axis"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_by_name(fields: dict[str, Any], problem: str) -> None:
+    with pytest.raises(AirhiltError, match=problem):
+        grid(**fields)
+
+
+def test_all_values_that_a_scenario_refuses_are_told_at_once() -> None:
+    with pytest.raises(AirhiltError) as refused:
+        grid(axes={"actors.AAL123.initial.cas_kt": [250, 9000, -3], "snr_db": [0, 99]})
+    told = str(refused.value)
+    assert all(value in told for value in ("9000", "-3", "99"))
+    assert "cas_kt=250, snr_db=0" not in told
+
+
+def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.json"
+    broken.write_text("{")
+    with pytest.raises(AirhiltError, match=r"broken\.json"):
+        grid(scenarios=[str(broken)])
+
+
+# --- keys -----------------------------------------------------------------------------------
+
+
+def test_whatever_changes_a_run_changes_its_key() -> None:
+    variants = [
+        grid(),
+        grid(seeds=[1]),
+        grid(axes={"assistant": ["paper"]}),
+        grid(options={"speech": False}),
+        grid(axes={"latency": ["fixed"]}),
+        grid(axes={"actors.AAL123.initial.cas_kt": [251]}),
+        grid(axes={"assistant.tau_asr": [0.7]}),
+    ]
+    found = [case.key(HERE) for (case,) in variants]
+    others = [
+        HERE.model_copy(update={"versions": {"airhilt": "2"}}),
+        HERE.model_copy(update={"code_sha256": "1"}),
+        HERE.model_copy(update={"renderer": "open3d"}),
+    ]
+    found += [variants[0][0].key(other) for other in others]
+    assert len(set(found)) == len(found)
+
+
+def test_an_option_that_is_written_out_is_the_same_run() -> None:
+    assert keys(grid()) == keys(grid(axes={"assistant": ["reference"]}, options={"speech": True}))
+
+
+def test_a_model_that_was_trained_again_is_another_run(tmp_path: Path) -> None:
+    model = tmp_path / "mine.onnx"
+    found = []
+    for content in (b"one", b"two", b"one"):
+        model.write_bytes(content)
+        case = Case({"name": "x"}, {"asr": f"embedded:{model}"}, 0, {})
+        found.append(case.key(HERE))
+    assert found[0] == found[2] != found[1]
+
+
+def test_software_that_differs_is_told_by_name() -> None:
+    require_same(HERE, HERE, "tcp://here")
+    other = HERE.model_copy(update={"versions": {"airhilt": "2"}, "renderer": "moderngl"})
+    with pytest.raises(AirhiltError, match=r"tcp://a: airhilt 2 instead of 1; .*moderngl"):
+        require_same(HERE, other, "tcp://a")
+
+
+# --- samples --------------------------------------------------------------------------------
+
+
+@settings(deadline=None)
+@given(
+    method=st.sampled_from(["sobol", "latin_hypercube"]),
+    count=st.integers(1, 40),
+    seed=st.integers(0, 99),
+)
+def test_samples_lie_in_their_intervals_and_are_the_same_again(
+    method: str, count: int, seed: int
+) -> None:
+    from airhilt.sweep.sampling import points
+    from airhilt.sweep.specification import Sample
+
+    sample = Sample.model_validate(
+        {
+            "method": method,
+            "count": count,
+            "seed": seed,
+            "intervals": {
+                "snr_db": {"from": -5, "to": 20},
+                "visibility_m": {"from": 400, "to": 10000, "scale": "log"},
+            },
+        }
+    )
+    found = list(points(sample))
+    assert found == list(points(sample))
+    assert len(found) == count
+    assert all(
+        -5 <= point["snr_db"] <= 20 and 400 <= point["visibility_m"] <= 10_000 for point in found
+    )
+
+
+def test_each_point_of_a_sample_meets_the_whole_grid() -> None:
+    sample = {
+        "method": "sobol",
+        "count": 4,
+        "intervals": {"snr_db": {"from": 0, "to": 20}},
+    }
+    found = grid(sample=sample, axes={"assistant": ["reference", "none"]}, seeds=[0, 1, 2])
+    assert len(keys(found)) == 4 * 2 * 3
+    assert len({case.parameters["snr_db"] for case in found}) == 4

@@ -1,0 +1,229 @@
+"""Sweeps with real workers: processes on this machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+import airhilt
+from airhilt.metrics.columns import metrics_of
+from airhilt.scenario import Scenario
+from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.outcome import Outcome
+from airhilt.sweep.runner_process import Limits
+from airhilt.sweep.specification import Specification, specification_of
+from airhilt.sweep.work import Work
+
+OPTIONS: dict[str, Any] = {"speech": False, "latency": "lognormal:0.3"}
+UNLIMITED = Limits(wall_s=300.0, memory_mb=4000.0)
+
+
+class Noted(SweepObserver):
+    """Keeps what it is told."""
+
+    def __init__(self) -> None:
+        self.outcomes: list[Outcome] = []
+        self.notices: list[str] = []
+
+    def ended(self, outcome: Outcome) -> None:
+        self.outcomes.append(outcome)
+
+    def notice(self, text: str) -> None:
+        self.notices.append(text)
+
+
+@pytest.fixture(scope="session")
+def scenario_file(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Some seconds of an encounter whose drawn speeds are out of range with some seeds."""
+    document = encounter.model_dump(mode="json") | {"name": "short", "duration_s": 6.0}
+    document["perturbations"] = [
+        {
+            "path": "actors/AAL123/initial/cas_kt",
+            "distribution": {"type": "uniform", "limit": 78.0},
+        }
+    ]
+    path = tmp_path_factory.mktemp("scenario") / "short.json"
+    path.write_text(json.dumps(document))
+    return path
+
+
+def specification(scenario: Path, **fields: Any) -> Specification:
+    return specification_of(
+        {
+            "scenarios": [str(scenario)],
+            "seeds": {"from": 0, "to": 3, "step": 1},
+            "options": OPTIONS,
+            "axes": {"assistant": ["reference", "none"]},
+            **fields,
+        },
+        "test",
+    )
+
+
+@pytest.fixture(scope="session")
+def done(scenario_file: Path, tmp_path_factory: pytest.TempPathFactory) -> SweepResult:
+    """A sweep of eight runs by two workers, of which three run folders are kept, if they ran."""
+    out = tmp_path_factory.mktemp("sweeps") / "two"
+    return sweep(
+        specification(scenario_file), Work(out, UNLIMITED, workers=2, sample=3), SweepObserver()
+    )
+
+
+def rows(result: SweepResult) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = result.folder.table().to_pylist()
+    return found
+
+
+def test_every_run_is_a_row_sorted_by_key(done: SweepResult) -> None:
+    found = rows(done)
+    assert [row["key"] for row in found] == sorted(row["key"] for row in found)
+    assert {(row["assistant"], row["seed"]) for row in found} == {
+        (assistant, seed) for assistant in ("reference", "none") for seed in range(4)
+    }
+    assert (done.runs, done.rows, done.missing) == (8, 8, 0)
+
+
+def test_a_row_has_the_numbers_of_the_run_itself(
+    done: SweepResult, scenario_file: Path, tmp_path: Path
+) -> None:
+    """No run leaves anything to the next, so the last one of a worker is as the first."""
+    finished = [row for row in rows(done) if row["status"] == "finished"]
+    assert len(finished) >= 4
+    for row in finished:
+        alone = airhilt.run(
+            scenario_file,
+            out=tmp_path / row["key"],
+            seed=row["seed"],
+            assistant=row["assistant"],
+            **OPTIONS,
+        )
+        metrics = metrics_of(alone.summary)
+        assert {name: row[name] for name in metrics} == metrics
+
+
+def test_a_run_that_fails_is_a_row_with_its_cause(done: SweepResult) -> None:
+    failed = [row for row in rows(done) if row["status"] == "failed"]
+    assert failed
+    assert done.failed == len(failed)
+    assert all("short" in row["cause"] for row in failed)
+    assert all(row["avoided"] is None and row["duration_s"] is None for row in failed)
+
+
+def test_the_table_says_units_and_meanings_and_nothing_of_the_machine(done: SweepResult) -> None:
+    schema = done.folder.table().schema
+    assert all(field.metadata[b"description"] for field in schema)
+    assert schema.field("duration_s").metadata[b"unit"] == b"s"
+    assert not {"cpu_s", "wall_s", "real_time_factor", "host"} & set(schema.names)
+    machine = {row["key"]: row for row in done.folder.machine().to_pylist()}
+    assert machine.keys() == {row["key"] for row in rows(done)}
+    assert all(row["cpu_s"] > 0.0 and row["peak_memory_mb"] > 50.0 for row in machine.values())
+
+
+def test_sampled_runs_are_kept_whole_and_can_be_replayed(done: SweepResult, tmp_path: Path) -> None:
+    kept = [row["folder"] for row in done.folder.machine().to_pylist() if row["folder"]]
+    assert 1 <= len(kept) == len(list(done.folder.runs_path.iterdir())) <= 3
+    told = subprocess.run(
+        [sys.executable, "-m", "airhilt", "replay", str(done.folder.path / kept[0])],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        check=False,
+    )
+    assert "identical" in told.stdout, told.stderr
+
+
+def test_the_same_again_runs_nothing_and_has_the_same_bytes(
+    done: SweepResult, scenario_file: Path
+) -> None:
+    before, observer = done.folder.table_path.read_bytes(), Noted()
+    sweep(specification(scenario_file), Work(done.folder.path, UNLIMITED, workers=2), observer)
+    assert observer.outcomes == []
+    assert done.folder.table_path.read_bytes() == before
+
+
+def test_one_worker_gives_the_bytes_of_two(
+    done: SweepResult, scenario_file: Path, tmp_path: Path
+) -> None:
+    """The seeds come in another order, and some of them in an earlier sweep into the folder."""
+    work, observer = Work(tmp_path / "one", UNLIMITED, workers=1), Noted()
+    sweep(specification(scenario_file, seeds=[2]), work, observer)
+    assert len(observer.outcomes) == 2
+    again = sweep(specification(scenario_file, seeds=[3, 2, 1, 0]), work, observer)
+    assert len(observer.outcomes) == 8
+    assert again.folder.table_path.read_bytes() == done.folder.table_path.read_bytes()
+
+
+def test_runs_whose_part_was_damaged_are_done_again(
+    done: SweepResult, scenario_file: Path, tmp_path: Path
+) -> None:
+    copy = tmp_path / "copy"
+    subprocess.run(["cp", "-r", str(done.folder.path), str(copy)], check=True)
+    damaged = sorted((copy / "parts").glob("*.parquet"))[0]
+    damaged.write_bytes(b"no parquet")
+    observer = Noted()
+    result = sweep(specification(scenario_file), Work(copy, UNLIMITED, workers=1), observer)
+    assert len(observer.outcomes) == 1
+    assert damaged.name in observer.notices[0]
+    assert result.folder.table_path.read_bytes() == done.folder.table_path.read_bytes()
+
+
+def test_a_sweep_that_was_killed_goes_on_where_it_was(
+    done: SweepResult, scenario_file: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "killed"
+    command = [
+        *(sys.executable, "-m", "airhilt", "sweep", "--scenario", str(scenario_file)),
+        *("--seeds", "4", "--assistant", "reference,none", "--no-speech", "--workers", "1"),
+        *("--set", "latency=lognormal:0.3", "--out", str(out), "--quiet"),
+    ]
+    with subprocess.Popen(command, start_new_session=True) as process:
+        until = time.monotonic() + 120.0
+        while not any(out.glob("parts/*.parquet")) and time.monotonic() < until:
+            time.sleep(0.02)
+        os.killpg(process.pid, signal.SIGKILL)
+    left = len(list(out.glob("parts/*.parquet")))
+    assert 0 < left < 8
+    table = out / "sweep.parquet"
+    assert not table.exists()
+    finished = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (finished.returncode, finished.stdout) == (0, "")
+    assert all("failed: short" in line for line in finished.stderr.splitlines())
+    killed, whole = (pq.read_table(each) for each in (table, done.folder.table_path))
+    without_column = [name for name in whole.column_names if name in killed.column_names]
+    assert killed.select(without_column).equals(whole.select(without_column))
+    assert killed.num_rows == 8
+
+
+def test_runs_in_hand_finish_when_the_user_stops(scenario_file: Path, tmp_path: Path) -> None:
+    class Stopping(Noted):
+        @property
+        def stops(self) -> bool:
+            return bool(self.outcomes)
+
+    observer = Stopping()
+    work = Work(tmp_path / "stopped", UNLIMITED, workers=1)
+    result = sweep(specification(scenario_file), work, observer)
+    assert 1 <= len(observer.outcomes) <= 3
+    assert result.missing == 8 - len(observer.outcomes)
+    assert len(rows(result)) == len(observer.outcomes)
+
+
+def test_a_limit_ends_a_run_and_not_the_sweep(scenario_file: Path, tmp_path: Path) -> None:
+    work = Work(tmp_path / "limited", Limits(wall_s=0.02, memory_mb=4000.0), workers=1)
+    few = specification(scenario_file, axes={}, seeds=[1, 3])
+    result = sweep(few, work, observer := Noted())
+    assert [outcome.status for outcome in observer.outcomes] == ["over_time"] * 2
+    assert (result.rows, result.failed, result.missing) == (0, 2, 0)
+    assert {row["status"] for row in result.folder.machine().to_pylist()} == {"over_time"}
+    retried = sweep(few, replace(work, limits=UNLIMITED, retry=True), Noted())
+    assert (retried.rows, retried.failed) == (2, 0)
