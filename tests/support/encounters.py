@@ -13,7 +13,7 @@ from geographiclib.geodesic import Geodesic
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import relative
-from airhilt.messages import Advisory, Climb, MaintainLevel, VisibleClass
+from airhilt.messages import Advisory, Briefing, Climb, MaintainLevel, VisibleClass
 from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.transponders import Transponder
@@ -143,11 +143,15 @@ class Encounter:
     least: dict[tuple[str, str], float] = field(default_factory=dict)
     """Least distance of each pair in units of 5 NM and 1000 ft."""
     cameras: list[Camera] = field(default_factory=list)
+    minima: tuple[float, float] | None = None
+    """Separation minima of the briefing, in NM and ft; None: there is no briefing."""
 
     def fly(self) -> Encounter:
         station = Receiver("all", State(CENTRE[0] * DEGREE, CENTRE[1] * DEGREE, 1e4), 1e6)
         begun = self._reports(station, 0, -2)  # an even and an odd position before the start
         assert not begun
+        if self.minima is not None:
+            self._step(0, [self._briefing(*self.minima)])
         underway: list[list[Input]] = [[] for _ in range(round(2 * self.late_s))]
         for step in range(round(2 * self.seconds)):
             t_ns = step * HALF_SECOND_NS
@@ -173,6 +177,13 @@ class Encounter:
             assert output.key == f"advisory/{advisory.recipient}"
             self.told.append((t_ns / SECOND_NS, advisory))
             self._follow(advisory)
+
+    def _briefing(self, horizontal_nm: float, vertical_ft: float) -> Input:
+        briefing = Briefing(
+            t_ns=0, controller="Potomac Approach", horizontal_separation_nm=horizontal_nm,
+            vertical_separation_ft=vertical_ft,
+        )  # fmt: skip
+        return Input("briefing", 0, briefing.model_dump_json().encode())
 
     def _reports(self, station: Receiver, t_ns: int, step: int) -> list[Input]:
         inputs = []

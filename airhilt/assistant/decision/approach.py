@@ -24,7 +24,9 @@ LEAST_OBSERVATIONS = 5
 SIDE_ERROR_PX = 0.4
 """Least standard deviation of a side of a box, in pixels."""
 CORRELATION_S = 0.2
-"""Time within which the errors of pictures are alike, in s."""
+"""Least time within which the errors of pictures are alike, in s."""
+MOST_CORRELATION = 0.95
+"""Largest autocorrelation of the errors of successive pictures that is believed."""
 SHOWN_S, SHOWN_QUANTILE, SHOWN_PART = 1.0, 0.8, 0.75
 """Sizes count that reach this part of this quantile of all sizes within this time in s.
 
@@ -62,6 +64,12 @@ class Approach(NamedTuple):
     def time_s(self) -> float:
         """Time until contact, in s; infinite if it does not come nearer."""
         return 1.0 / self.closing if self.closing > 0.0 else math.inf
+
+    @property
+    def longest_s(self) -> float:
+        """Longest time until contact, by two standard deviations, in s; infinite if unknown."""
+        slowest = self.closing - 2.0 * self.closing_error
+        return 1.0 / slowest if slowest > 0.0 else math.inf
 
     @property
     def is_growing(self) -> bool:
@@ -129,7 +137,7 @@ def _line(times: Floats, values: Floats, errors: Floats) -> _Line:
     """Fit a straight line to values of known least errors, the second time without outliers.
 
     The error of the slope comes from the scatter, with the pictures of one correlation time counted
-    as one.
+    as one, and with as many as one as their errors show to be alike.
     """
     kept = np.ones_like(times, dtype=bool)
     now = slope = scatter = 0.0
@@ -137,13 +145,28 @@ def _line(times: Floats, values: Floats, errors: Floats) -> _Line:
         weights = 1.0 / errors[kept]
         design = np.column_stack((np.ones(kept.sum()), times[kept])) * weights[:, None]
         (now, slope), *_ = np.linalg.lstsq(design, values[kept] * weights, rcond=None)
-        misfit = np.abs(values - now - slope * times) / errors
-        scatter = max(float(np.median(misfit[kept])) / MAD_PER_SIGMA, 1.0)
-        kept = misfit <= OUTLIER_SIGMAS * scatter
+        misfit = (values - now - slope * times) / errors
+        scatter = float(np.median(np.abs(misfit[kept]))) / MAD_PER_SIGMA
+        kept = np.abs(misfit) <= OUTLIER_SIGMAS * max(scatter, 1.0)
     t, w = times[kept], 1.0 / errors[kept] ** 2
     middle = np.average(t, weights=w)
     spread = float(np.sum(w * (t - middle) ** 2))
     span_s = float(t.max() - t.min())
     alike = max(len(t) * CORRELATION_S / max(span_s, CORRELATION_S), 1.0)
-    slope_error = scatter * math.sqrt(alike / spread) if spread > 0.0 else math.inf
+    variance = max(max(scatter, 1.0) ** 2 * alike, scatter**2 * _variance_ratio(misfit[kept]))
+    slope_error = math.sqrt(variance / spread) if spread > 0.0 else math.inf
     return _Line(float(now), float(slope), slope_error)
+
+
+def _variance_ratio(misfit: Floats) -> float:
+    """Return the factor by which errors that last raise the variance of a slope, 1 if none do.
+
+    It is (1 + r) / (1 - r) for errors whose autocorrelation at one step is r and falls
+    exponentially (Bayley and Hammersley, The "effective" number of independent observations in an
+    autocorrelated time series, J. R. Stat. Soc. Suppl. 8 (1946) 184-197).
+    """
+    squares = float(np.sum(misfit * misfit))
+    if squares <= 0.0:
+        return 1.0
+    r = min(max(float(np.sum(misfit[1:] * misfit[:-1])) / squares, 0.0), MOST_CORRELATION)
+    return (1.0 + r) / (1.0 - r)

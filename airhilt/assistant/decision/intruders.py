@@ -17,8 +17,9 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import Approach, approach_of
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Intruder, Where
+from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.resolution import STRONG_VERTICAL_RATE_FPM, TURN_DEG
+from airhilt.assistant.decision.standing import may_stand, moves_with_ground
 from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
 from airhilt.assistant.decision.visual_tracks import (
     BLIND_NS,
@@ -26,40 +27,32 @@ from airhilt.assistant.decision.visual_tracks import (
     VisualTracks,
 )
 from airhilt.configuration import Configuration, Seconds, require_order
+from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import (
     CONTROLLER,
     CameraView,
-    Climb,
     Evidence,
     GoAround,
     Recommendation,
     Severity,
-    Turn,
 )
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS, wrap_angle
+from airhilt.units import DEGREE, FOOT, SECOND_NS, wrap_angle
 
-FLOCK_M = 20.0
-AIRLINER_M = 80.0
-"""Largest sizes of a flock and of an aircraft, in m.
-
-What is no larger where its line of sight meets the ground may stand there."""
 SAME_DIRECTION_RAD = 4.0 * DEGREE
 """Angle, in rad, within which a new track is the same aircraft as one that was lost."""
 GROUNDED_M = 20.0
 """Height, in m, below which the carrier of a camera stands on the ground if it has no ADS-B."""
-LEAST_CLIMB_FT = 500.0
-LEVEL_STEP_FT = 100.0
-LEAST_HEIGHT_M = 600.0
-"""Height, in m, below which nobody is recommended to descend."""
-LEVEL_RAD = 0.5 * DEGREE
-"""Angle from the horizon, in rad, within which an aircraft is at about the same level."""
-ABOVE_SIZES = 1.0
-"""Height in its own sizes from which an aircraft passes above."""
 AHEAD_RAD = 15.0 * DEGREE
 BESIDE_RAD = 60.0 * DEGREE
 BEHIND_RAD = 120.0 * DEGREE
+BIRDS = Minima(0.0, 300.0 * FOOT)
+"""Distances to keep from birds, to which no separation minima apply; chosen."""
 UNRELIABLE_S = 90.0
 """Longest time to contact that is told, in s."""
+SMALLEST_M = 8.0
+"""Least span of an aircraft, in m; an assumption."""
+LONGEST_S = 180.0
+"""Longest time for which an intruder that is no longer seen is avoided, in s; chosen."""
 
 
 class IntruderConfig(Configuration):
@@ -118,11 +111,17 @@ class _Encounter(NamedTuple):
     def ray(self) -> Ray:
         return self.track.last.ray
 
-    @property
-    def past_ns(self) -> int:
-        """Time at which the two have met, with a margin for the error."""
-        error_s = self.approach.closing_error * self.approach.time_s**2
-        left_s = min(self.approach.time_s + error_s, UNRELIABLE_S)
+    def past_ns(self, minima: Minima) -> int:
+        """Return the time at which the two are past each other by the horizontal minimum.
+
+        It is the latest such time by the errors. The distance to something of a size in the
+        picture is at least that of the smallest aircraft, so the two draw apart at least as fast
+        as that distance over the longest time to contact.
+        """
+        contact_s = min(self.approach.longest_s, UNRELIABLE_S)
+        distance_m = SMALLEST_M / self.approach.size_rad
+        apart_s = contact_s * minima.horizontal_m / distance_m
+        left_s = min(contact_s + apart_s, LONGEST_S)
         return self.track.last.t_ns + round(left_s * SECOND_NS)
 
 
@@ -146,6 +145,8 @@ class IntruderWatch:
     ----------
     runway_of
         Returns the runway for which a callsign is on final; None if it is not.
+    minima
+        Returns the separation minima, which the briefing sets.
     """
 
     def __init__(
@@ -153,10 +154,12 @@ class IntruderWatch:
         config: IntruderConfig,
         visual_tracks: VisualTracks,
         runway_of: Callable[[str], str | None],
+        minima: Callable[[], Minima],
     ) -> None:
         self.config = config
         self._visual_tracks = visual_tracks
         self._runway_of = runway_of
+        self._minima = minima
         self._ongoing: list[_Ongoing] = []
         self._count = 0
 
@@ -172,7 +175,7 @@ class IntruderWatch:
         for encounter in self._encounters(t_ns):
             ongoing = self._known(encounter)
             if ongoing is not None and encounter.approach.closing > 0.0:
-                ongoing.past_ns = encounter.past_ns
+                ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
             if encounter.severity is None:
                 continue
             ongoing = ongoing or self._new(encounter)
@@ -193,10 +196,10 @@ class IntruderWatch:
             carrier = track.carrier
             if carrier is None or not self._is_flying(track.last.geometry.view):
                 continue
-            if not self._is_unknown(track) or _may_stand(track):
+            if not self._is_unknown(track) or may_stand(track):
                 continue
             approach = approach_of(track.observations)
-            if approach is not None:
+            if approach is not None and not moves_with_ground(track, approach):
                 severity = self._grade(track, approach, t_ns)
                 found.append(_Encounter(carrier, track, approach, severity))
         found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))
@@ -223,12 +226,21 @@ class IntruderWatch:
             return None
         if left_s < 0.0:
             return None
-        is_certain = self._visual_tracks.shows((track,)) and approach.is_growing
+        is_certain = self._is_there(track) and approach.is_growing
         if is_certain and left_s <= config.warning_s and miss <= config.warning_sizes:
             return Severity.WARNING
         if is_certain and left_s <= config.caution_s:
             return Severity.CAUTION
         return Severity.ADVISORY if left_s <= config.advisory_s else None
+
+    def _is_there(self, track: VisualTrack) -> bool:
+        """Return whether something is there that stays in one direction.
+
+        Its pictures are alike, and so are the errors of a detector in them: many doubtful ones
+        make no certain one.
+        """
+        believed = track.belief_of_one_look >= self._visual_tracks.config.tau_vis
+        return believed and self._visual_tracks.shows((track,))
 
     # --- what is told -----------------------------------------------------------------------
 
@@ -246,7 +258,7 @@ class IntruderWatch:
     def _new(self, encounter: _Encounter) -> _Ongoing:
         self._count += 1
         ongoing = _Ongoing(f"intruder-{self._count}", encounter.carrier, encounter)
-        ongoing.past_ns = encounter.past_ns
+        ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
         self._ongoing.append(ongoing)
         return ongoing
 
@@ -272,28 +284,17 @@ class IntruderWatch:
         return [self._alert(t_ns, ongoing, active=False)]
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
-        """Return how to stay clear: climb or descend away from it, or turn right.
-
-        Within half a minute more distance is gained vertically, and less of it is needed. Aircraft
-        that meet head-on, and one that overtakes, turn right (14 CFR 91.113).
-        """
+        """Return how to stay clear."""
+        track = encounter.track
         runway = self._runway_of(encounter.carrier)
         if runway is not None:
             return GoAround(runway=runway)
-        view = encounter.track.last.geometry.view
-        report = self._visual_tracks.traffic.carrier(view)
-        if report is None or report.altitude_ft is None:
-            return Turn(degrees=TURN_DEG)
-        sense = _sense(encounter, report.vertical_rate_fpm * FOOT_PER_MINUTE)
-        if sense < 0 and view.height_m - LEAST_CLIMB_FT * FOOT < LEAST_HEIGHT_M:
-            return Turn(degrees=TURN_DEG)
-        level = (report.altitude_ft + sense * LEAST_CLIMB_FT) / LEVEL_STEP_FT
-        rounded = math.ceil(level) if sense > 0 else math.floor(level)
-        return Climb(
-            sense="climb" if sense > 0 else "descend",
-            altitude_ft=rounded * LEVEL_STEP_FT,
-            vertical_rate_fpm=STRONG_VERTICAL_RATE_FPM,
-        )
+        report = self._visual_tracks.traffic.carrier(track.last.geometry.view)
+        return evasion(track, encounter.approach, report, self._minima_from(track).vertical_m)
+
+    def _minima_from(self, track: VisualTrack) -> Minima:
+        """Return the distances to keep from something."""
+        return BIRDS if track.label == "bird" else self._minima()
 
     def _alert(self, t_ns: int, ongoing: _Ongoing, active: bool = True) -> Alert:
         """Return the alert about an encounter; crews are told from CAUTION on."""
@@ -337,36 +338,6 @@ class IntruderWatch:
 
 def _rank(severity: Severity | None) -> int:
     return -1 if severity is None else severity.rank
-
-
-def _may_stand(track: VisualTrack) -> bool:
-    """Return whether something may stand on the ground, by the size that it would have there."""
-    last = track.last
-    view: CameraView = last.geometry.view
-    depression_rad = -last.geometry.foot(last.box).elevation_rad
-    if depression_rad <= 0.0 or view.height_m <= 0.0:
-        return False
-    distance_m = view.height_m / math.sin(depression_rad)
-    largest_m = FLOCK_M if track.label == "bird" else AIRLINER_M
-    return max(last.size_rad) * distance_m <= largest_m
-
-
-def _sense(encounter: _Encounter, vertical_rate_m_s: float) -> int:
-    """Return 1 to climb and -1 to descend, away from where it is or will be."""
-    above = encounter.approach.passes_above()
-    if abs(above) > ABOVE_SIZES and _is_told(encounter.approach):
-        return -1 if above > 0.0 else 1
-    if encounter.track.label == "bird":
-        return 1  # Birds that take fright dive.
-    elevation_rad = encounter.ray.elevation_rad
-    if abs(elevation_rad) > LEVEL_RAD:
-        return -1 if elevation_rad > 0.0 else 1
-    return -1 if vertical_rate_m_s < 0.0 else 1
-
-
-def _is_told(approach: Approach) -> bool:
-    """Return whether it turns up or down by more than two standard deviations."""
-    return abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
 
 
 def _where(encounter: _Encounter) -> Where:

@@ -152,10 +152,18 @@ class VisualTrack:
         so are their errors: a sign that is taken for a truck once always is. Its belief is that of
         one look.
         """
-        means = [look.mean for look in list(self._looks)[:-1]]
-        if self.has_moved or not means:
-            return 1.0 - math.prod(1.0 - mean for mean in means)
-        return sum(means) / len(means)
+        if self.has_moved:
+            return 1.0 - math.prod(1.0 - mean for mean in self._means())
+        return self.belief_of_one_look
+
+    @property
+    def belief_of_one_look(self) -> float:
+        """Mean confidence in the looks that are over, from 0 to 1; 0 in a picture without it."""
+        means = self._means()
+        return sum(means) / len(means) if means else 0.0
+
+    def _means(self) -> list[float]:
+        return [look.mean for look in list(self._looks)[:-1]]
 
     @property
     def is_doubtful(self) -> bool:

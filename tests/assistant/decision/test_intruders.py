@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -11,19 +12,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import approach_of
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.messages import Climb, Detections, Severity, Turn
-from airhilt.units import DEGREE, SECOND_NS
+from airhilt.geodesy.relative_motion import Minima
+from airhilt.messages import Climb, Detections, Severity, Turn, VisibleClass
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from encounters import Encounter, Flight
-from projected import AIRLINER, CESSNA, FLOCK, Camera, still
+from projected import AIRLINER, CESSNA, FLOCK, Body, Camera, still
 
 SEEDS = range(2)
 MEET_S = 34.0
 KT = 233.0
+MINIMA = Minima(0.66 * NAUTICAL_MILE, 450.0 * FOOT)
 
 
 def meeting(
@@ -49,7 +53,7 @@ def meeting(
         "N172SP", "a0c172", track, kt * meet_s / 3600.0, altitude_ft, kt, offset_nm=offset_nm,
         seed=seed, equipped=equipped,
     )  # fmt: skip
-    encounter = Encounter([own, other], meet_s + 40.0)
+    encounter = Encounter([own, other], meet_s + 40.0, minima=(0.66, 450.0))
     encounter.cameras = [own.nose(other.body(label, size), seed=seed, **how)]
     return encounter
 
@@ -126,6 +130,16 @@ def test_the_way_out_is_away_from_it(altitude_ft: float, sense: str) -> None:
         assert {each.sense for each in told} == {sense}
 
 
+@pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
+def test_the_climb_keeps_more_than_the_minimum(vertical_ft: float) -> None:
+    """The height of an intruder is known roughly, and the end of a climb is flown slowly."""
+    encounter = meeting()
+    encounter.minima = (0.66, vertical_ft)
+    (told,) = [a.recommendation for a in encounter.fly().to("AAL123") if a.recommendation]
+    assert isinstance(told, Climb)
+    assert told.altitude_ft >= 4000.0 + vertical_ft + 150.0
+
+
 def test_nobody_is_sent_down_near_the_ground() -> None:
     encounter = meeting(altitude_ft=2000.0, own_ft=1900.0).fly()
     told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
@@ -142,8 +156,7 @@ def test_who_squitters_is_the_matter_of_the_watch_for_separation(seed: int) -> N
 
 def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intruder() -> None:
     encounter = meeting(equipped=True, own_equipped=False, size=AIRLINER).fly()
-    warning = encounter.to("AAL123")[-2]
-    assert warning.severity is Severity.WARNING
+    warning = next(a for a in encounter.to("AAL123") if a.severity is Severity.WARNING)
     assert warning.traffic == ("AAL123", "N172SP")
     assert warning.message.startswith("AAL123 traffic N172SP ahead, closing, turn right")
 
@@ -217,7 +230,7 @@ def test_what_may_stand_on_the_ground_is_not_in_the_air() -> None:
 def test_time_goes_on_after_the_last_picture() -> None:
     """Contact is 26 s away in it, and 24 s away when it is judged again: within 25 s."""
     visual_tracks = VisualTracks()
-    watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None)
+    watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None, lambda: MINIMA)
     camera = closing_camera(130.0, 0.0, 26.0, 5.0, sizes=AIRLINER)
     for step in range(41):
         visual_tracks.take_detections(
@@ -228,6 +241,80 @@ def test_time_goes_on_after_the_last_picture() -> None:
         for t_ns in (round(t_s * SECOND_NS) for t_s in (5.0, 5.5, 7.0, 7.5))
     ]
     assert told == [[], [(Severity.CAUTION, 2)], [], [(Severity.WARNING, 2)]]
+
+
+# --- by motion ------------------------------------------------------------------------------
+
+
+def watching(camera: Camera, seconds: float, later_s: Sequence[float] = ()) -> list[Alert]:
+    """Return what is told while a camera watches, and at some times after that."""
+    visual_tracks = VisualTracks()
+    watch = IntruderWatch(IntruderConfig(), visual_tracks, lambda _: None, lambda: MINIMA)
+    told = []
+    for step in range(round(8 * seconds) + 1):
+        t_ns = step * SECOND_NS // 8
+        visual_tracks.take_detections(camera.detections(t_ns), t_ns)
+        told += watch.judge(t_ns)
+    for t_s in later_s:
+        visual_tracks.forget(round(t_s * SECOND_NS))
+        told += watch.judge(round(t_s * SECOND_NS))
+    return told
+
+
+def over_ground(*bodies: Body, seed: int = 1, **how: Any) -> Camera:
+    """Return a camera that flies north at 120 m/s, 1,100 m above the ground, and looks ahead."""
+
+    def look(t_s: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        return (0.0, 120.0 * t_s, 1100.0), (0.0, 0.0, 0.0)
+
+    return Camera(
+        "c", FRAME, look, list(bodies), "AAL123", fov_deg=54.0, width_px=1920, height_px=1080,
+        seed=seed, **how,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("east_m", [1500.0, -2000.0])
+@pytest.mark.parametrize("label", ["airplane", "bird"])
+def test_a_wood_larger_than_any_aircraft_is_not_in_the_air(
+    label: VisibleClass, east_m: float
+) -> None:
+    """It grows as something does that is met in less than a minute, and nearly stays in place."""
+    wood = still(label, (east_m, 6500.0, 0.0), (300.0, 250.0, 15.0))
+    assert watching(over_ground(wood), 6.0) == []
+
+
+def test_who_climbs_up_from_below_is_in_the_air_for_all_that() -> None:
+    """It stays in one direction, 6 degrees below the horizon, and the ground behind it does not."""
+
+    def climbs(t_s: float) -> tuple[tuple[float, float, float], float]:
+        left_s = 18.0 - t_s
+        return (60.0 * left_s, 120.0 * 18.0 + 50.0 * left_s, 1100.0 - 18.0 * left_s), 0.0
+
+    intruder = replace(still("airplane", (0.0, 0.0, 0.0), AIRLINER), at=climbs)
+    told = watching(over_ground(intruder), 8.0)
+    assert told[-1].severity is Severity.WARNING
+
+
+def test_what_is_doubtful_in_all_pictures_is_not_certain_in_many() -> None:
+    """A detector takes a cloud for an aircraft in every other picture, and it comes nearer."""
+    cloud = closing_camera(130.0, 0.0, 15.0, 6.0, sizes=AIRLINER)
+    cloud.recall, cloud.confidence = 0.5, 0.6
+    assert [alert.severity for alert in watching(cloud, 6.0)] == [Severity.ADVISORY]
+    aircraft = closing_camera(130.0, 0.0, 15.0, 6.0, sizes=AIRLINER)
+    assert watching(aircraft, 6.0)[-1].severity is Severity.WARNING
+
+
+def test_nobody_goes_back_before_the_two_are_past_by_the_minimum() -> None:
+    """Contact is 24 s after the last picture, and the two draw apart at 40 m/s."""
+    apart_s = 4.0 + 24.0 + MINIMA.horizontal_m / 40.0
+    later_s = [4.5 + 0.5 * step for step in range(300)]
+
+    def told(until_s: float) -> list[Alert]:
+        camera = closing_camera(40.0, 0.0, 24.0, 4.0)
+        return watching(camera, 4.0, [t_s for t_s in later_s if t_s < until_s])
+
+    assert told(apart_s)[-1].severity is Severity.WARNING
+    assert not told(math.inf)[-1].active
 
 
 # --- time to contact ------------------------------------------------------------------------
@@ -294,6 +381,24 @@ def test_the_error_that_it_tells_is_about_the_one_that_it_makes(error_px: float)
         shifts.append((approach.closing - 1.0 / 12.0) / approach.closing_error)
     rms = math.sqrt(sum(shift**2 for shift in shifts) / len(shifts))
     assert 0.3 < rms < 2.0
+
+
+def test_errors_that_last_for_a_second_are_not_taken_for_growth() -> None:
+    """A wing thinner than a pixel shows for a second, then does not: boxes err by a fifth."""
+    step = math.exp(-1.0 / 8.0)
+    shifts = []
+    for seed in range(30):
+        generator = np.random.default_rng(seed)
+        seen, error = [], generator.normal(0.0, 0.2)
+        for each in glimpses_of(60.0, 0.0, 40.0, 5.0, 0.0, 0.0):
+            error = step * error + generator.normal(0.0, 0.2 * math.sqrt(1.0 - step * step))
+            width, height = each.size_rad
+            wrong = (width * math.exp(error), height * math.exp(error))
+            seen.append(each._replace(size_rad=wrong))
+        approach = approach_of(seen)
+        shifts.append((approach.closing - 1.0 / 40.0) / approach.closing_error)
+    rms = math.sqrt(sum(shift**2 for shift in shifts) / len(shifts))
+    assert rms < 2.0
 
 
 def test_a_passage_to_the_side_is_told_in_sizes() -> None:

@@ -82,7 +82,10 @@ class ReferenceEngine:
         self.separation = SeparationWatch(config.separation, guard)
         self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
         self.intruders = IntruderWatch(
-            config.intruders, self.visual_tracks, self.runways.runway_of_arrival
+            config.intruders,
+            self.visual_tracks,
+            self.runways.runway_of_arrival,
+            lambda: self.separation.config.standard,
         )
 
     def receive(self, received: Received) -> None:
