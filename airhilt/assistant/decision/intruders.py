@@ -19,7 +19,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Intruder, Where
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.standing import may_stand, moves_with_ground
+from airhilt.assistant.decision.standing import may_stand, stays_in_place
 from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
 from airhilt.assistant.decision.visual_tracks import (
     BLIND_NS,
@@ -199,7 +199,7 @@ class IntruderWatch:
             if not self._is_unknown(track) or may_stand(track):
                 continue
             approach = approach_of(track.observations)
-            if approach is not None and not moves_with_ground(track, approach):
+            if approach is not None and not stays_in_place(track, approach):
                 severity = self._grade(track, approach, t_ns)
                 found.append(_Encounter(carrier, track, approach, severity))
         found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))

@@ -1,7 +1,7 @@
-"""Things below the horizon that a camera in flight shows: on the ground, or in the air.
+"""Things that a camera in flight shows and that are no aircraft: clouds, and what is on the ground.
 
-What stands on the ground moves in the pictures as its place does while the camera flies by. What is
-on a collision course stays in one direction.
+What stays in its place moves in the pictures while the camera flies by. What is on a collision
+course stays in one direction.
 """
 
 from __future__ import annotations
@@ -18,74 +18,66 @@ from airhilt.units import DEGREE, SECOND_NS
 
 FLOCK_M = 20.0
 AIRLINER_M = 80.0
-"""Largest sizes of a flock and of an aircraft, in m.
-
-What is no larger where its line of sight meets the ground may stand there."""
-TOLD_APART_SIGMAS = 2.0
-"""Least ratio of the motion of a place on the ground to the error of the motion that was seen.
-
-Below it the two cannot be told apart from standing still in the picture."""
-ALIKE_SIGMAS = 3.0
-RELIEF = 0.25
-"""Largest error of the expected motion, as a share of it: the ground is not flat, and fields and
-woods reach nearer and farther than their middle. An assumption."""
+"""Largest sizes of a flock and of an aircraft, in m."""
+TOLD_SIGMAS, ALIKE_SIGMAS = 2.0, 3.0
+"""Errors from which a motion is told from none, and within which two motions are alike."""
+SLACK = 0.25
+"""Largest error of the motion of a cloud, as a share of it: its middle is not one place on it. An
+assumption."""
 
 
 def may_stand(track: VisualTrack) -> bool:
     """Return whether something may stand on the ground, by the size that it would have there."""
-    distance_m = _ground_distance_m(track.last)
-    if distance_m is None:
-        return False
-    largest_m = FLOCK_M if track.label == "bird" else AIRLINER_M
-    return max(track.last.size_rad) * distance_m <= largest_m
-
-
-def moves_with_ground(track: VisualTrack, approach: Approach) -> bool:
-    """Return whether its direction turns as that to a place on the ground, whatever its size.
-
-    A field or a wood is larger than any aircraft. It is told from what stays in one direction only
-    where the errors allow it.
-    """
-    expected = _turning_of_ground(track.observations)
-    if expected is None:
-        return False
-    amount, seen = math.hypot(*expected), approach.turning_rad_s
-    apart = math.dist(expected, seen)
-    return (
-        amount > TOLD_APART_SIGMAS * approach.turning_error
-        and apart <= ALIKE_SIGMAS * approach.turning_error + RELIEF * amount
-        and apart < math.hypot(*seen)
-    )
-
-
-def _ground_distance_m(observation: Observation) -> float | None:
-    """Return the distance at which the lower side of a box meets flat ground; None if nowhere."""
-    height_m = observation.geometry.view.height_m
-    depression_rad = -observation.geometry.foot(observation.box).elevation_rad
+    last = track.last
+    height_m = last.geometry.view.height_m
+    depression_rad = -last.geometry.foot(last.box).elevation_rad
     if depression_rad <= 0.0 or height_m <= 0.0:
-        return None
-    return height_m / math.sin(depression_rad)
+        return False
+    return max(last.size_rad) * height_m / math.sin(depression_rad) <= _largest_m(track)
 
 
-def _turning_of_ground(observations: Sequence[Observation]) -> tuple[float, float] | None:
-    """Return the rates at which the direction to a place on the ground turns, in rad/s.
+def _largest_m(track: VisualTrack) -> float:
+    return FLOCK_M if track.label == "bird" else AIRLINER_M
 
-    They are to the right and up. The place is where the line of sight meets flat ground; None if it
-    does not.
+
+def stays_in_place(track: VisualTrack, approach: Approach) -> bool:
+    """Return whether something moves and grows as what is larger than an aircraft and stays.
+
+    The direction to what stays in its place turns away from the camera's course, the slower the
+    farther it is. So the turning tells its distance, and the size in the picture its own.
     """
-    last = observations[-1]
-    ray, height_m = last.ray, last.geometry.view.height_m
-    seconds = (last.t_ns - observations[0].t_ns) / SECOND_NS
-    if ray.up >= 0.0 or height_m <= 0.0 or seconds <= 0.0:
-        return None
-    distance_m = height_m / -ray.up
-    moved = _moved_m(observations[0].geometry.view, last.geometry.view)
-    right, up = _across(ray)
-    rate = -1.0 / (distance_m * seconds)
-    return (
-        rate * sum(a * b for a, b in zip(moved, right, strict=True)),
-        rate * sum(a * b for a, b in zip(moved, up, strict=True)),
+    observations, last = track.observations, track.last
+    speeds = _across_and_along_m_s(observations)
+    across_m_s = math.hypot(*speeds[:2])
+    error = approach.turning_error
+    if across_m_s <= 0.0:
+        return False
+    away = (-speeds[0] / across_m_s, -speeds[1] / across_m_s)
+    turning = approach.turning_rad_s
+    outward = turning[0] * away[0] + turning[1] * away[1]
+    sideward = turning[0] * away[1] - turning[1] * away[0]
+    if outward <= TOLD_SIGMAS * error or abs(sideward) > ALIKE_SIGMAS * error + SLACK * outward:
+        return False
+    fastest = speeds[2] / across_m_s * outward
+    if approach.closing > ALIKE_SIGMAS * approach.closing_error + (1.0 + SLACK) * fastest:
+        return False
+    nearest_m = across_m_s / (outward + TOLD_SIGMAS * error)
+    return max(last.size_rad) * nearest_m > _largest_m(track)
+
+
+def _across_and_along_m_s(observations: Sequence[Observation]) -> tuple[float, float, float]:
+    """Return the speeds of a camera to the right of a line of sight, above it and along it."""
+    first, last = observations[0], observations[-1]
+    seconds = (last.t_ns - first.t_ns) / SECOND_NS
+    if seconds <= 0.0:
+        return 0.0, 0.0, 0.0
+    moved = _moved_m(first.geometry.view, last.geometry.view)
+    right, up = _across(last.ray)
+    to_right, upward, along = (
+        sum(a * b for a, b in zip(moved, axis, strict=True)) / seconds
+        for axis in (right, up, last.ray)
     )
+    return to_right, upward, along
 
 
 def _moved_m(before: CameraView, now: CameraView) -> tuple[float, float, float]:
