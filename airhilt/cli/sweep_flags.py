@@ -8,6 +8,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of
 from airhilt.sweep.axes import Interval, Range, read_values
@@ -15,6 +16,8 @@ from airhilt.sweep.specification import Specification, specification_of
 
 WHOLE = ("latency", "llm")
 """Options whose one value may have commas and colons in it."""
+CONFIGURATION = "assistant_config"
+"""Option that is the content of a file."""
 METHODS = {"lhs": "latin_hypercube", "latin_hypercube": "latin_hypercube", "sobol": "sobol"}
 Json = dict[str, Any]
 
@@ -44,12 +47,13 @@ def _option(name: str) -> click.Option:
             default=bool(field.default),
             help=flag.help,
         )
-    several = "" if name in WHOLE else "S"
+    is_multiple = field.annotation == tuple[str, ...]
+    is_one = is_multiple or name in (*WHOLE, CONFIGURATION)
     metavar = flag.metavar or name.upper()
     return click.Option(
         [flag.name, *flag.former, name],
-        metavar=f"{metavar}{several}",
-        multiple=field.annotation == tuple[str, ...],
+        metavar=metavar if is_one else f"{metavar},...",
+        multiple=is_multiple,
         help=flag.help,
     )
 
@@ -119,9 +123,7 @@ def _given(context: click.Context, options: Json, set_: tuple[str, ...]) -> list
             options[name] = value
         elif isinstance(value, tuple):
             options[name] = list(value)
-        elif name == "assistant_config":
-            from airhilt.configuration import read_configuration
-
+        elif name == CONFIGURATION:
             options[name] = read_configuration(Path(value))
         else:
             found.append((name, (value,) if name in WHOLE else read_values(value)))

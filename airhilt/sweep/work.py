@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 import psutil
 
+from airhilt.engines import Package
 from airhilt.errors import AirhiltError
 from airhilt.sweep.clusters import LOCAL
 from airhilt.sweep.outcome import Keep
@@ -77,6 +78,21 @@ def default_workers(renderer: str) -> int:
     needed_mb = RUN_MB + (CAMERAS_MB if renderer else 0.0)
     by_memory = psutil.virtual_memory().available / MEGABYTE / needed_mb
     return max(1, min(len(os.sched_getaffinity(0)), int(by_memory)))
+
+
+def require_dashboard(address: str | None) -> None:
+    """Complain about a dashboard where the package that draws it is not installed.
+
+    Raises
+    ------
+    AirhiltError
+        The message says how to install it.
+    """
+    bokeh = Package("bokeh", "cluster")
+    if address is not None and not bokeh.found():
+        raise AirhiltError(
+            f"--dashboard {address}: Dask draws it with bokeh, which is missing: {bokeh.remedy()}"
+        )
 
 
 def read_settings(path: Path | None) -> Mapping[str, Any] | None:

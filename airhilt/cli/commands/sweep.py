@@ -57,7 +57,7 @@ Examples:
     multiple=True,
     metavar="PATH=VALUES",
     help="Any parameter by its path: of the scenario (weather.visibility_m, "
-    "actors.AAL123.initial.distance_m), of the assistant (assistant.tau_asr), or an option; may be "
+    "actors.AAL123.initial.cas_kt), of the assistant (assistant.tau_asr), or an option; may be "
     "given again.",
 )
 @click.option(
@@ -125,7 +125,7 @@ Examples:
 @click.option(
     "--dashboard",
     metavar="ADDRESS",
-    help="Serve Dask's dashboard, such as 127.0.0.1:8787; it needs the package bokeh.",
+    help="Serve Dask's dashboard, such as on 127.0.0.1:8787; it needs the extra cluster.",
 )
 @click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long.")
 @click.option("--quiet", is_flag=True, help="Print nothing but errors.")
@@ -144,13 +144,14 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     from airhilt.sweep.engine import sweep as run_sweep
     from airhilt.sweep.estimate import estimate
     from airhilt.sweep.runner_process import Limits
-    from airhilt.sweep.work import Work, keep_of, read_settings
+    from airhilt.sweep.work import Work, keep_of, read_settings, require_dashboard
 
     document = {} if given["file"] is None else _document(given["file"])
     specification = specification_given(
         context, document, given["scenarios"], given["seeds"], given["set_"], given["sample"]
     )
     keep, sample = keep_of(given["keep"])
+    require_dashboard(given["dashboard"])
     work = Work(
         out=given["out"] or _default_folder(),
         limits=Limits(given["run_timeout"], given["run_memory"]),
