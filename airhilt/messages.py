@@ -577,12 +577,15 @@ class Transcript(Message):
 
 
 class Climb(Part):
-    """Climb or descend to a level and stay there."""
+    """Climb or descend to a level and stay there; the turn is made at the same time."""
 
     action: Literal["altitude"] = "altitude"
     sense: Literal["climb", "descend"]
     altitude_ft: float
     vertical_rate_fpm: float = Field(gt=0.0)
+    turn_deg: float = Field(
+        default=0.0, ge=-180.0, le=180.0, description="turn from the present track, to the right"
+    )
 
 
 class Turn(Part):

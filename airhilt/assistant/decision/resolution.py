@@ -7,36 +7,39 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
+from airhilt.assistant.decision.manoeuvres import (
+    HORIZON_S,
+    NONE,
+    Manoeuvre,
+    Paths,
+    paths,
+    separations,
+    straight_paths,
+)
 from airhilt.assistant.decision.tracks import Track
-from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.geodesy.relative_motion import Minima, Relative, relative
 from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
 
 VERTICAL_RATE_FPM = 1500.0
 """Recommended rate, in ft/min: that of TCAS II's initial advisories (ICAO Doc 9863)."""
 STRONG_VERTICAL_RATE_FPM = 2500.0
-"""Recommended rate in a WARNING, in ft/min: that of TCAS II's strengthened advisories."""
+"""Recommended rate in a WARNING, or where the other one is not enough, in ft/min: that of TCAS
+II's strengthened advisories."""
 TURN_DEG = 30.0
 WIDE_TURNS_DEG = (-30.0, 60.0, -60.0, 90.0, -90.0)
 """Turns, to the right if positive, where all else loses separation."""
-RESPONSE_S = 10.0
-"""Time allowed for speech and for the reactions of crew and aircraft, in s."""
 BUFFER_FT = 200.0
 """Distance aimed at beyond the vertical minimum, in ft."""
-STEP_S = 2.0
-HORIZON_S = 600.0
+LEAST_LEVEL_M = 600.0
+"""Lowest level that an aircraft is told to descend to, in m above the sea; an assumption, because
+the engine does not know the terrain."""
 LEVEL_STEP_M = 100 * FOOT
 
-
-class Manoeuvre(NamedTuple):
-    """A manoeuvre of one aircraft: a level to fly to at a rate, and a turn."""
-
-    target_m: float | None = None
-    rate_m_s: float = 0.0
-    turn_rad: float = 0.0
-
-
-NONE = Manoeuvre()
+Candidate = tuple[Manoeuvre, Manoeuvre]
+"""Manoeuvres of the upper aircraft and of the lower one."""
 
 
 @dataclass(frozen=True)
@@ -67,68 +70,113 @@ def resolve(
     Candidates are coordinated: of two that move vertically, the higher one climbs (of two at the
     same level the one with the higher address, so that the choice never flips).
     """
-    rate_fpm = STRONG_VERTICAL_RATE_FPM if strong else VERTICAL_RATE_FPM
-    best: tuple[float, Manoeuvre, Manoeuvre] | None = None
-    for own, other in _candidates(first, second, standard, rate_fpm * FOOT_PER_MINUTE):
-        if (first.in_distress and own != NONE) or (second.in_distress and other != NONE):
-            continue
-        margin = _least_margin(first, second, own, other, infringed)
-        if _threatens(first, own, others, infringed) or _threatens(
-            second, other, others, infringed
-        ):
-            margin -= 1.0
-        if best is None or margin > best[0]:
-            best = (margin, own, other)
-        if margin >= 1.0:
-            break
-    if best is None:
-        return Resolution(None, None, 0.0)
-    margin, own, other = best
-    return Resolution(
-        _recommendation(first, own, rate_fpm), _recommendation(second, other, rate_fpm), margin
-    )
-
-
-def _candidates(
-    first: Track, second: Track, standard: Minima, rate_m_s: float
-) -> Iterator[tuple[Manoeuvre, Manoeuvre]]:
-    """Yield pairs of manoeuvres, the least disturbing first."""
     first_is_upper = (first.altitude_m, first.icao24) > (second.altitude_m, second.icao24)
     if abs(first.altitude_m - second.altitude_m) < 0.5 * standard.vertical_m:
         first_is_upper = first.icao24 > second.icao24
     upper, lower = (first, second) if first_is_upper else (second, first)
+    encounter = _Encounter(upper, lower, others, infringed)
+    best = _Choice(-math.inf, NONE, NONE)
+    for candidates in _candidates(_Pair(upper, lower, standard), strong):
+        best = encounter.better(best, [each for each in candidates if _is_fair(upper, lower, each)])
+        if best.margin >= 1.0:
+            break
+    if math.isinf(best.margin):
+        return Resolution(None, None, 0.0)
+    told = _recommendation(upper, best.up), _recommendation(lower, best.down)
+    return Resolution(*(told if first_is_upper else told[::-1]), best.margin)
 
-    def ordered(up: Manoeuvre, down: Manoeuvre) -> tuple[Manoeuvre, Manoeuvre]:
-        return (up, down) if first_is_upper else (down, up)
 
-    # Who climbs or descends towards the other stops short of it.
+def _is_fair(upper: Track, lower: Track, candidate: Candidate) -> bool:
+    """Return whether a candidate tells nothing to an aircraft in distress."""
+    up, down = candidate
+    return not (upper.in_distress and up != NONE) and not (lower.in_distress and down != NONE)
+
+
+# --- candidates -----------------------------------------------------------------------------
+
+
+class _Pair(NamedTuple):
+    """Two aircraft in conflict, of which one is, or counts as, the upper one."""
+
+    upper: Track
+    lower: Track
+    standard: Minima
+
+    def levels_apart(self) -> tuple[float, float] | None:
+        """Return levels that are far enough apart if both leave theirs; None if these are."""
+        gap_m = self.upper.altitude_m - self.lower.altitude_m
+        half_m = 0.5 * (self._aimed_at_m - gap_m)
+        if half_m <= 0.0:
+            return None
+        return (
+            _flight_level_above(self.upper.altitude_m + half_m),
+            _flight_level_below(self.lower.altitude_m - half_m),
+        )
+
+    def level_above(self) -> float:
+        """Return a level above the lower one, wherever that one gets to while the two are near."""
+        highest_m = max(self.lower.profile().at(time_s) for time_s in self._near_s())
+        return _flight_level_above(highest_m + self._aimed_at_m)
+
+    def level_below(self) -> float:
+        """Return a level below the upper one, wherever that one gets to while the two are near."""
+        lowest_m = min(self.upper.profile().at(time_s) for time_s in self._near_s())
+        return _flight_level_below(lowest_m - self._aimed_at_m)
+
+    @property
+    def _aimed_at_m(self) -> float:
+        return self.standard.vertical_m + BUFFER_FT * FOOT
+
+    def _near_s(self) -> tuple[float, float]:
+        """Return from when to when the two are within the horizontal minimum."""
+        interval = relative(self.upper, self.lower).interval_within(self.standard.horizontal_m)
+        begin_s, end_s = interval or (0.0, 0.0)
+        return max(begin_s, 0.0), min(max(end_s, 0.0), HORIZON_S)
+
+
+def _candidates(pair: _Pair, strong: bool) -> Iterator[list[Candidate]]:
+    """Yield groups of candidates, the least disturbing first."""
+    strongest = list(_verticals(pair, STRONG_VERTICAL_RATE_FPM))
+    verticals = strongest if strong else list(_verticals(pair, VERTICAL_RATE_FPM))
+    right = Manoeuvre(turn_rad=TURN_DEG * DEGREE)
+    yield [*_stops(pair), *verticals]
+    yield [(right, right), (NONE, right), (right, NONE)]
+    if not strong:
+        yield strongest
+    wide = [Manoeuvre(turn_rad=degrees * DEGREE) for degrees in WIDE_TURNS_DEG]
+    yield [each for turn in wide for each in ((NONE, turn), (turn, NONE))]
+    yield [
+        (_with_turn(up, degrees), _with_turn(down, degrees))
+        for degrees in (TURN_DEG, *WIDE_TURNS_DEG)
+        for up, down in strongest
+    ]
+
+
+def _stops(pair: _Pair) -> Iterator[Candidate]:
+    """Yield that whoever climbs or descends towards the other stops short of it."""
+    upper, lower, standard = pair
     stop_lower = _flight_level_below(upper.altitude_m - standard.vertical_m)
     if _vertical(lower) > 0.0 and stop_lower > lower.altitude_m:
-        yield ordered(NONE, Manoeuvre(stop_lower, _vertical(lower)))
+        yield NONE, Manoeuvre(stop_lower, _vertical(lower))
     stop_upper = _flight_level_above(lower.altitude_m + standard.vertical_m)
     if _vertical(upper) < 0.0 and stop_upper < upper.altitude_m:
-        yield ordered(Manoeuvre(stop_upper, -_vertical(upper)), NONE)
+        yield Manoeuvre(stop_upper, -_vertical(upper)), NONE
 
-    # Both share what is missing; then one alone, then turns to the right.
-    gap = upper.altitude_m - lower.altitude_m
-    missing = standard.vertical_m + BUFFER_FT * FOOT - gap
-    up_half = Manoeuvre(_flight_level_above(upper.altitude_m + 0.5 * missing), rate_m_s)
-    down_half = Manoeuvre(_flight_level_below(lower.altitude_m - 0.5 * missing), rate_m_s)
-    yield ordered(up_half, down_half)
-    yield ordered(Manoeuvre(_flight_level_above(upper.altitude_m + missing), rate_m_s), NONE)
-    yield ordered(NONE, Manoeuvre(_flight_level_below(lower.altitude_m - missing), rate_m_s))
-    turn = Manoeuvre(turn_rad=TURN_DEG * DEGREE)
-    yield turn, turn
-    yield ordered(NONE, turn)
-    yield ordered(turn, NONE)
-    yield ordered(
-        up_half._replace(turn_rad=TURN_DEG * DEGREE),
-        down_half._replace(turn_rad=TURN_DEG * DEGREE),
-    )
-    for degrees in WIDE_TURNS_DEG:
-        wide = Manoeuvre(turn_rad=degrees * DEGREE)
-        yield NONE, wide
-        yield wide, NONE
+
+def _verticals(pair: _Pair, rate_fpm: float) -> Iterator[Candidate]:
+    """Yield a climb and a descent that share what is missing, and then one of them alone."""
+    rate_m_s = rate_fpm * FOOT_PER_MINUTE
+    apart, up, down = pair.levels_apart(), pair.level_above(), pair.level_below()
+    if apart is not None and apart[1] >= LEAST_LEVEL_M:
+        yield Manoeuvre(apart[0], rate_m_s), Manoeuvre(apart[1], rate_m_s)
+    if up > pair.upper.altitude_m:
+        yield Manoeuvre(up, rate_m_s), NONE
+    if LEAST_LEVEL_M <= down < pair.lower.altitude_m:
+        yield NONE, Manoeuvre(down, rate_m_s)
+
+
+def _with_turn(manoeuvre: Manoeuvre, degrees: float) -> Manoeuvre:
+    return manoeuvre if manoeuvre == NONE else manoeuvre._replace(turn_rad=degrees * DEGREE)
 
 
 def _vertical(track: Track) -> float:
@@ -143,74 +191,85 @@ def _flight_level_below(altitude_m: float) -> float:
     return math.floor(altitude_m / LEVEL_STEP_M + 1e-6) * LEVEL_STEP_M
 
 
-def _least_margin(
-    first: Track, second: Track, own: Manoeuvre, other: Manoeuvre, minima: Minima
-) -> float:
-    """Return the least of max(horizontal, vertical) distance in units of the minima."""
-    before = relative(first, second)
-    after = relative(_turned(first, own), _turned(second, other))
-    profiles = (first.profile(), second.profile())
-    turning = before.at(RESPONSE_S)
-    least = math.inf
-    for step in range(int(HORIZON_S / STEP_S)):
-        time_s = step * STEP_S
-        flown = time_s - RESPONSE_S
-        if flown <= 0.0:
-            horizontal = before.at(time_s).distance_m
-        else:
-            horizontal = math.hypot(
-                turning.north_m + after.velocity_north_m_s * flown,
-                turning.east_m + after.velocity_east_m_s * flown,
+# --- the choice -----------------------------------------------------------------------------
+
+
+class _Choice(NamedTuple):
+    """A candidate with its margin, less 1 if it brings either into conflict with others."""
+
+    margin: float
+    up: Manoeuvre
+    down: Manoeuvre
+
+
+class _Encounter:
+    """Paths of two aircraft, and of the others, in the frame of the upper one."""
+
+    def __init__(self, upper: Track, lower: Track, others: Sequence[Track], minima: Minima) -> None:
+        self._upper, self._lower, self._minima = upper, lower, minima
+        self._motions = _over_ground(upper, upper), _over_ground(upper, lower)
+        self._traffic = straight_paths(
+            [_over_ground(upper, each) for each in others], [each.profile() for each in others]
+        )
+
+    def better(self, best: _Choice, candidates: Sequence[Candidate]) -> _Choice:
+        """Return the first candidate that keeps separation, or the best one so far."""
+        if not candidates:
+            return best
+        ups, downs = (
+            paths(motion, track.profile(), manoeuvres)
+            for motion, track, manoeuvres in zip(
+                self._motions,
+                (self._upper, self._lower),
+                zip(*candidates, strict=True),
+                strict=True,
             )
-        vertical = abs(_altitude(profiles[0], own, time_s) - _altitude(profiles[1], other, time_s))
-        ratio = max(horizontal / minima.horizontal_m, vertical / minima.vertical_m)
-        least = min(least, ratio)
-    return least
+        )
+        margins = separations(ups, downs, self._minima)
+        for row, (up, down) in enumerate(candidates):
+            margin = float(margins[row])
+            if margin <= best.margin:
+                continue
+            if self._threatens(up, ups.soon(row)) or self._threatens(down, downs.soon(row)):
+                margin -= 1.0
+            if margin > best.margin:
+                best = _Choice(margin, up, down)
+            if margin >= 1.0:
+                break
+        return best
+
+    def _threatens(self, manoeuvre: Manoeuvre, flown: Paths) -> bool:
+        """Return whether a manoeuvre brings an aircraft into conflict with somebody else."""
+        if manoeuvre == NONE:
+            return False
+        return bool(np.any(separations(flown, self._traffic, self._minima) < 1.0))
 
 
-def _threatens(track: Track, manoeuvre: Manoeuvre, others: Sequence[Track], minima: Minima) -> bool:
-    """Return whether a manoeuvre brings an aircraft into conflict with somebody else."""
-    if manoeuvre == NONE:
-        return False
-    turned = _turned(track, manoeuvre)
-    profile = track.profile()
-    if manoeuvre.target_m is not None:
-        rate = math.copysign(manoeuvre.rate_m_s, manoeuvre.target_m - track.altitude_m)
-        profile = VerticalProfile(track.altitude_m, rate, manoeuvre.target_m)
-    return any(
-        time_to_loss_s(relative(turned, other), profile, other.profile(), minima) is not None
-        for other in others
+def _over_ground(origin: Track, track: Track) -> Relative:
+    """Return where an aircraft is as seen from another one, and how it moves over the ground."""
+    motion = relative(origin, track)
+    return motion._replace(
+        velocity_north_m_s=motion.velocity_north_m_s + origin.velocity_north_m_s,
+        velocity_east_m_s=motion.velocity_east_m_s + origin.velocity_east_m_s,
     )
 
 
-def _turned(track: Track, manoeuvre: Manoeuvre) -> Track:
-    cos_t, sin_t = math.cos(manoeuvre.turn_rad), math.sin(manoeuvre.turn_rad)
-    north, east = track.velocity_north_m_s, track.velocity_east_m_s
-    turned = track.at(track.t_ns)
-    turned.velocity_north_m_s = north * cos_t - east * sin_t
-    turned.velocity_east_m_s = north * sin_t + east * cos_t
-    return turned
+def _recommendation(track: Track, manoeuvre: Manoeuvre) -> Recommendation | None:
+    """Return what is told of a manoeuvre: all of it.
 
-
-def _altitude(profile: VerticalProfile, manoeuvre: Manoeuvre, time_s: float) -> float:
-    if manoeuvre.target_m is None or time_s <= RESPONSE_S:
-        return profile.at(time_s)
-    begun = profile.at(RESPONSE_S)
-    moved = manoeuvre.rate_m_s * (time_s - RESPONSE_S)
-    to_go = manoeuvre.target_m - begun
-    return begun + math.copysign(min(abs(to_go), moved), to_go)
-
-
-def _recommendation(track: Track, manoeuvre: Manoeuvre, rate_fpm: float) -> Recommendation | None:
-    if manoeuvre.target_m is not None:
-        target_ft = round(manoeuvre.target_m / FOOT)
-        if (manoeuvre.target_m - track.altitude_m) * _vertical(track) > 0.0:
-            return MaintainLevel(altitude_ft=target_ft)
-        return Climb(
-            sense="climb" if manoeuvre.target_m > track.altitude_m else "descend",
-            altitude_ft=target_ft,
-            vertical_rate_fpm=rate_fpm,
-        )
-    if manoeuvre.turn_rad != 0.0:
-        return Turn(degrees=round(manoeuvre.turn_rad / DEGREE))
-    return None
+    Whoever climbs or descends to a level at its present rate is told to maintain that level.
+    """
+    turn_deg = round(manoeuvre.turn_rad / DEGREE)
+    if manoeuvre.target_m is None:
+        return Turn(degrees=turn_deg) if turn_deg else None
+    target_ft = round(manoeuvre.target_m / FOOT)
+    to_go_m = manoeuvre.target_m - track.altitude_m
+    is_stop = manoeuvre.rate_m_s == abs(_vertical(track)) and to_go_m * _vertical(track) > 0.0
+    if is_stop and not turn_deg:
+        return MaintainLevel(altitude_ft=target_ft)
+    return Climb(
+        sense="climb" if to_go_m > 0.0 else "descend",
+        altitude_ft=target_ft,
+        vertical_rate_fpm=round(manoeuvre.rate_m_s / FOOT_PER_MINUTE),
+        turn_deg=turn_deg,
+    )

@@ -47,10 +47,11 @@ function place(position) {
 function instruction(action, drives = false) {
   const points = (n) => `${n} point${n === 1 ? "" : "s"}`;
   const given = (value, text) => (known(value) && value !== "" ? text(value) : "");
+  const turn = (degrees) => `turn ${degrees < 0 ? "left" : "right"} ${fixed(Math.abs(degrees), 0)}°`;
   const climb = (sense) => given(action.climb_to_ft, (value) => `${sense}climb to ${feet(value)}`);
   switch (action && action.action) {
-    case "altitude": return `${action.sense || "go"} to ${feet(action.altitude_ft)}${given(action.vertical_rate_fpm, (rate) => ` at ${whole(rate)} ft/min`)}`;
-    case "turn": return `turn ${action.degrees < 0 ? "left" : "right"} ${fixed(Math.abs(action.degrees), 0)}°`;
+    case "altitude": return `${action.turn_deg ? `${turn(action.turn_deg)} and ` : ""}${action.sense || "go"} to ${feet(action.altitude_ft)}${given(action.vertical_rate_fpm, (rate) => ` at ${whole(rate)} ft/min`)}`;
+    case "turn": return turn(action.degrees);
     case "maintain": return `maintain ${feet(action.altitude_ft)}`;
     case "track": return `turn to track ${bearing(action.track_deg)}`;
     case "speed": return `fly ${whole(action.cas_kt)} kt`;

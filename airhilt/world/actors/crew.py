@@ -175,15 +175,20 @@ class Crew:
         if not self._followed:
             self._altitude_before_m = self.aircraft.target_altitude_m
         match recommendation:
-            case Climb(altitude_ft=altitude, vertical_rate_fpm=rate):
+            case Climb(altitude_ft=altitude, vertical_rate_fpm=rate, turn_deg=degrees):
                 self.aircraft.en_route.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+                if degrees:
+                    self._turn_by(degrees)
             case MaintainLevel(altitude_ft=altitude):
                 self.aircraft.en_route.hold_altitude(altitude * FOOT)
             case Turn(degrees=degrees):
-                self.aircraft.en_route.turn_by(degrees * DEGREE)
-                self._has_turned = True
+                self._turn_by(degrees)
         self._followed[advisory.id] = advisory.revision
         return True
+
+    def _turn_by(self, degrees: float) -> None:
+        self.aircraft.en_route.turn_by(degrees * DEGREE)
+        self._has_turned = True
 
     def _must_descend_below(self, recommendation: Climb | MaintainLevel | Turn) -> bool:
         """Return whether a crew without cabin pressure descends below a recommended level."""

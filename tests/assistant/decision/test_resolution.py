@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from airhilt.assistant.decision.manoeuvres import NONE, Manoeuvre, Paths, paths, separations
 from airhilt.assistant.decision.resolution import resolve
 from airhilt.assistant.decision.tracks import Track
-from airhilt.geodesy.relative_motion import Minima, relative, time_to_loss_s
+from airhilt.geodesy.relative_motion import Minima, Relative, relative, time_to_loss_s
 from airhilt.messages import Climb, MaintainLevel, Turn
-from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 STANDARD = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 INFRINGED = Minima(5 * NAUTICAL_MILE, 850 * FOOT)
@@ -95,6 +97,72 @@ def test_it_does_not_matter_who_is_named_first(pair: tuple[Track, Track]) -> Non
     one = resolve(*pair, [], STANDARD, INFRINGED, strong=False)
     other = resolve(*pair[::-1], [], STANDARD, INFRINGED, strong=False)
     assert (one.first, one.second) == (other.second, other.first)
+
+
+def flown_by(own: Track, recommendation: object, origin: Track) -> Paths:
+    """Return the path of an aircraft that does what it is told."""
+    manoeuvre = NONE
+    match recommendation:
+        case Climb(altitude_ft=level, vertical_rate_fpm=rate, turn_deg=turn):
+            manoeuvre = Manoeuvre(level * FOOT, rate * FOOT / 60.0, turn * DEGREE)
+        case MaintainLevel(altitude_ft=level):
+            manoeuvre = Manoeuvre(level * FOOT, abs(own.vertical_rate_m_s))
+        case Turn(degrees=turn):
+            manoeuvre = Manoeuvre(turn_rad=turn * DEGREE)
+    there = relative(origin, own)
+    motion = Relative(
+        there.north_m, there.east_m,
+        there.velocity_north_m_s + origin.velocity_north_m_s,
+        there.velocity_east_m_s + origin.velocity_east_m_s,
+    )  # fmt: skip
+    return paths(motion, own.profile(), [manoeuvre])
+
+
+@settings(deadline=None, max_examples=100)
+@given(pairs_in_conflict(), st.booleans())
+def test_what_is_told_is_what_was_computed(pair: tuple[Track, Track], strong: bool) -> None:
+    first, second = pair
+    resolution = resolve(first, second, [], STANDARD, INFRINGED, strong)
+    apart = separations(
+        flown_by(first, resolution.first, first),
+        flown_by(second, resolution.second, first),
+        INFRINGED,
+    )
+    assert apart[0] == pytest.approx(resolution.margin, rel=0.01)
+
+
+def diver_and_crosser() -> tuple[Track, Track]:
+    """Return one without cabin pressure, and one 4,000 ft below it that flies across."""
+    diver = track("a00001", 0.0, 0.0, 37_000, (0.0, 228.0), -5_000)
+    diver.in_distress = True
+    return diver, track("a00002", -11_000.0, 11_000.0, 33_000, (234.0, 0.0))
+
+
+def test_where_neither_a_turn_nor_a_descent_is_enough_both_are_told() -> None:
+    diver, crosser = diver_and_crosser()
+    resolution = resolve(diver, crosser, [], STANDARD, INFRINGED, strong=False)
+    assert resolution.first is None
+    assert isinstance(resolution.second, Climb)
+    assert resolution.second.sense == "descend"
+    assert resolution.second.turn_deg != 0.0
+
+
+def test_who_gives_way_to_a_diver_goes_below_the_level_where_the_two_are_past() -> None:
+    diver, crosser = diver_and_crosser()
+    told = resolve(diver, crosser, [], STANDARD, INFRINGED, strong=False).second
+    near_s = relative(diver, crosser).interval_within(STANDARD.horizontal_m)
+    assert isinstance(told, Climb)
+    assert near_s is not None
+    assert told.altitude_ft * FOOT < diver.profile().at(near_s[1]) - STANDARD.vertical_m
+
+
+def test_nobody_is_told_to_descend_into_the_ground() -> None:
+    lander = track("a00001", 0.0, 0.0, 4_000, (60.0, 0.0), -1_000)
+    lander.in_distress = True
+    told = resolve(
+        lander, track("a00002", 6_000.0, 0.0, 3_000, (-60.0, 0.0)), [], STANDARD, INFRINGED, True
+    ).second
+    assert sense(told) != "descend" or told.altitude_ft * FOOT >= 600.0
 
 
 def head_on_pair(gap_ft: float = 0.0, rate_fpm: float = 0.0) -> tuple[Track, Track]:

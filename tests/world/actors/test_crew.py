@@ -94,6 +94,20 @@ def test_a_crew_follows_after_its_reaction_time_and_not_before(aircraft: Aircraf
     assert aircraft.target_vertical_rate_m_s == pytest.approx(500 * FOOT_PER_MINUTE, rel=0.01)
 
 
+def test_a_turn_with_a_climb_is_flown_too(aircraft: Aircraft) -> None:
+    before_rad = aircraft.state.track_rad
+    crew = crew_of(aircraft)
+    crew.hear(advisory(CLIMB.model_copy(update={"turn_deg": 40.0}))).act()
+    assert level_ft(aircraft) == pytest.approx(5_600)
+    for _ in range(20 * 120):
+        aircraft.advance()
+    assert aircraft.state.track_rad - before_rad == pytest.approx(40 * DEGREE, abs=3 * DEGREE)
+    crew.hear(over()).act()
+    for _ in range(20 * 120):
+        aircraft.advance()
+    assert aircraft.state.track_rad == pytest.approx(before_rad, abs=3 * DEGREE)
+
+
 def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft: Aircraft) -> None:
     crew = crew_of(aircraft)
     crew.hear(advisory()).act()

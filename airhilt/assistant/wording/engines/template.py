@@ -16,7 +16,7 @@ from airhilt.assistant.decision.findings import (
     Unclear,
 )
 from airhilt.engines import Engine
-from airhilt.messages import CONTROLLER, Climb, GoAround, MaintainLevel, Recommendation, Turn
+from airhilt.messages import CONTROLLER, Climb, MaintainLevel, Recommendation, Turn
 
 OVER = "clear of conflict"
 SELF_CONTAINED = (RunwayMisread, NotReadBack, RecipientUnclear, Occupied)
@@ -43,7 +43,7 @@ class Template:
                 return _intruder(alert, intruder, recipient)
             case Announcement(aural=aural):
                 turn = alert.recommendations.get(recipient)
-                return f"{aural}, {in_flight(turn)}" if isinstance(turn, Turn) else aural
+                return f"{aural}, {_action(turn)}" if isinstance(turn, Turn) else aural
             case None:
                 return _on_ground(alert, recipient, alert.evidence.note or _kind(alert))
             case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
@@ -61,9 +61,10 @@ def _loss_of_separation(alert: Alert, loss: LossOfSeparation, recipient: str) ->
         return _with_advice(loss.statement(), alert)
     first, second = loss.callsigns
     other = second if recipient == first else first
-    advice = in_flight(alert.recommendations.get(recipient))
+    recommended = alert.recommendations.get(recipient)
+    advice = "" if recommended is None else f", {_action(recommended)}"
     time_s = loss.time_to_loss_s or 0.0
-    return f"{recipient} traffic {other}, loss of separation in {time_s:.0f} s, {advice}"
+    return f"{recipient} traffic {other}, loss of separation in {time_s:.0f} s{advice}"
 
 
 def _intruder(alert: Alert, intruder: Intruder, recipient: str) -> str:
@@ -71,14 +72,14 @@ def _intruder(alert: Alert, intruder: Intruder, recipient: str) -> str:
         when = "" if intruder.contact_s is None else f", {intruder.contact_s:.0f} s"
         return _with_advice(f"{intruder.carrier}: {intruder.statement()}{when}", alert)
     recommendation = alert.recommendations.get(recipient)
-    advice = in_flight(recommendation) if recommendation else "look out"
+    advice = _action(recommendation) if recommendation else "look out"
     return f"{recipient} {intruder.statement()}, {advice}"
 
 
 def _with_advice(text: str, alert: Alert) -> str:
     """Return a text for the controller with what each in flight is recommended."""
     advice = "; ".join(
-        f"{callsign} {in_flight(recommendation)}"
+        f"{callsign} {_action(recommendation)}"
         for callsign, recommendation in alert.recommendations.items()
     )
     return f"{text}; {advice}" if advice else text
@@ -99,24 +100,21 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
 
 
 def _action(recommendation: Recommendation) -> str:
-    if isinstance(recommendation, Climb | MaintainLevel | Turn):
-        return in_flight(recommendation)
-    return recommendation.action.replace("_", " ")
-
-
-def in_flight(recommendation: Recommendation | None) -> str:
-    """Return what somebody in flight is recommended, in words."""
+    """Return what somebody is recommended, in words."""
     match recommendation:
-        case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate):
-            return f"{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
+        case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate, turn_deg=degrees):
+            turn = f"{_turn(degrees)} and " if degrees else ""
+            return f"{turn}{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
         case MaintainLevel(altitude_ft=altitude):
             return f"maintain {altitude:.0f} ft"
         case Turn(degrees=degrees):
-            return f"turn {'right' if degrees >= 0 else 'left'} {abs(degrees):.0f} degrees"
-        case GoAround():
-            return "go around"
+            return _turn(degrees)
         case _:
-            return "maintain present level and track"
+            return recommendation.action.replace("_", " ")
+
+
+def _turn(degrees: float) -> str:
+    return f"turn {'right' if degrees >= 0 else 'left'} {abs(degrees):.0f} degrees"
 
 
 ENGINE = Engine(
