@@ -120,6 +120,7 @@ class Collector:
         match message:
             case ConflictTruth(phase="begun", t_ns=now_ns):
                 self.window.begun_ns = now_ns
+                self._first_warning.begin()
             case ConflictTruth(phase="opened", t_ns=now_ns):
                 self.window.opened_ns = now_ns
             case ConflictTruth(phase="closed", t_ns=now_ns):
@@ -154,6 +155,8 @@ class Collector:
             self._latencies.add("decision", advisory.t_ready_ns, advisory.t_ns)
         if advisory.active:
             self.last_advisory = advisory
+        else:
+            self._first_warning.withdrawn(advisory.id)
         if self._advisories.warns_of_conflict(advisory):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
             self._first_warning.warned(advisory, is_voiced)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from airhilt.messages import Advisory
 from airhilt.metrics.plans import Plans
 from airhilt.surveillance import tcas
@@ -9,49 +11,77 @@ from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
 
 
+class _Warning(NamedTuple):
+    """A warning that was heard or read."""
+
+    t_ns: int
+    advisory: Advisory
+    projection: tcas.Projection | None
+
+
 class FirstWarning:
     """The first warning: when it was heard or, where no voice speaks, read.
 
-    Attributes
-    ----------
-    t_ns
-        Time of the first warning, None before it.
-    advisory
-        The first warning as it was published, None before it was heard or read.
+    A warning that is withdrawn before the conflict begins is none of it.
     """
 
     def __init__(
         self, pair: Pair | None, monitor: ConflictMonitor, plans: Plans, ground_m: float
     ) -> None:
-        self.t_ns: int | None = None
-        self.advisory: Advisory | None = None
         self._pair = pair
         self._monitor = monitor
         self._plans = plans
         self._ground_m = ground_m
+        self._has_begun = False
         self._unspoken: dict[tuple[str, str, int], Advisory] = {}
         """Warnings that wait for their audio, by id, recipient and revision."""
-        self._projection: tcas.Projection | None = None
+        self._warnings: dict[str, _Warning] = {}
+        """First warning of each conflict of the assistant, by id, in their order."""
+
+    @property
+    def t_ns(self) -> int | None:
+        """Time of the first warning, None before it."""
+        return None if self._first is None else self._first.t_ns
+
+    @property
+    def advisory(self) -> Advisory | None:
+        """The first warning as it was published, None before it was heard or read."""
+        return None if self._first is None else self._first.advisory
+
+    @property
+    def _first(self) -> _Warning | None:
+        return next(iter(self._warnings.values()), None)
+
+    def begin(self) -> None:
+        """Record that the conflict begins: what is in force now, or comes, is a warning of it."""
+        self._has_begun = True
+
+    def withdrawn(self, advisory_id: str) -> None:
+        """Record that an advisory is not active any more."""
+        if not self._has_begun:
+            self._warnings.pop(advisory_id, None)
+            self._unspoken = {
+                name: each for name, each in self._unspoken.items() if each.id != advisory_id
+            }
 
     def warned(self, advisory: Advisory, is_spoken: bool) -> None:
         """Record an advisory that warns of the conflict; if it is spoken, its audio counts."""
-        if self.t_ns is not None:
-            return
         if is_spoken:
             self._unspoken[advisory.id, advisory.recipient, advisory.revision] = advisory
         else:
-            self._set(advisory, advisory.t_ns)
+            self._add(advisory, advisory.t_ns)
 
     def heard(self, name: tuple[str, str, int], t_ns: int) -> None:
         """Record when the voice of an advisory began, by its id, recipient and revision."""
-        spoken = self._unspoken.get(name)
+        spoken = self._unspoken.pop(name, None)
         if spoken is not None:
-            self._set(spoken, t_ns)
+            self._add(spoken, t_ns)
 
     def voice_lost(self, now_ns: int) -> None:
         """Record the loss of the voice: warnings that wait for it are read now."""
-        if self._unspoken:
-            self._set(next(iter(self._unspoken.values())), now_ns)
+        for advisory in self._unspoken.values():
+            self._add(advisory, now_ns)
+        self._unspoken.clear()
 
     def margin_s(self, alert: tcas.Alert, truth: PairTruth | None) -> float | None:
         """Return the time from the first warning to an alert of TCAS II, had nobody reacted, in s.
@@ -63,22 +93,23 @@ class FirstWarning:
         truth
             Truth of the annotated pair.
         """
-        if self.t_ns is None or self._projection is None or self._pair is None:
+        first = self._first
+        if first is None or first.projection is None:
             return None
         alert_ns = truth.first_ns.get(alert) if truth else None
-        if alert_ns is not None and alert_ns <= self.t_ns:
-            return (alert_ns - self.t_ns) / SECOND_NS
-        return self._projection.traffic_s if alert == "tcas_ta" else self._projection.resolution_s
+        if alert_ns is not None and alert_ns <= first.t_ns:
+            return (alert_ns - first.t_ns) / SECOND_NS
+        projection = first.projection
+        return projection.traffic_s if alert == "tcas_ta" else projection.resolution_s
 
-    def _set(self, advisory: Advisory, now_ns: int) -> None:
-        self._unspoken.clear()
-        if self.t_ns is not None:
+    def _add(self, advisory: Advisory, now_ns: int) -> None:
+        if advisory.id in self._warnings or (self._has_begun and self._warnings):
             return
-        self.t_ns = now_ns
-        self.advisory = advisory
         pair = self._pair
+        projection = None
         if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
-            self._projection = self._project(pair, now_ns)
+            projection = self._project(pair, now_ns)
+        self._warnings[advisory.id] = _Warning(now_ns, advisory, projection)
 
     def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
         """Return when TCAS II would speak if both went on as the script plans."""

@@ -141,6 +141,25 @@ def test_a_warning_before_the_conflict_begins_has_a_negative_time() -> None:
     assert followed.summary().time_to_first_warning_s == -1.0
 
 
+def test_a_warning_withdrawn_before_the_conflict_begins_is_none_of_it() -> None:
+    followed = FollowedRun().take(advisory(4.0)).take(advisory(6.0, "INFO", active=False))
+    followed.take(conflict(10.0, "begun"))
+    assert followed.summary().t_first_warning_s is None
+    assert followed.take(advisory(13.0, name="b")).summary().time_to_first_warning_s == 3.0
+
+
+def test_of_two_warnings_before_the_conflict_the_one_that_stays_counts() -> None:
+    followed = FollowedRun().take(advisory(4.0)).take(advisory(5.0, name="b"))
+    followed.take(advisory(6.0, "INFO", active=False)).take(conflict(10.0, "begun"))
+    assert followed.summary().time_to_first_warning_s == -5.0
+
+
+def test_a_warning_withdrawn_after_the_conflict_began_was_the_first_one() -> None:
+    followed = FollowedRun().take(advisory(9.0)).take(conflict(10.0, "begun"))
+    followed.take(advisory(11.0, "INFO", active=False)).take(advisory(15.0, name="b"))
+    assert followed.summary().t_first_warning_s == 9.0
+
+
 def test_the_time_counts_from_the_begin_of_the_conflict_and_not_from_its_window() -> None:
     followed = FollowedRun().take(conflict(2.0, "begun")).take(conflict(5.0, "opened"))
     summary = followed.take(advisory(9.0)).summary()
