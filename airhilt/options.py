@@ -18,6 +18,7 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    StringConstraints,
     ValidationError,
     model_validator,
 )
@@ -312,6 +313,7 @@ class Options(BaseModel):
     ] = None
     llm_model: Annotated[
         str,
+        StringConstraints(strip_whitespace=True, min_length=1),
         Flag("--llm-model", "Name of the language model there.", "NAME", needs=("llm",)),
     ] = "gpt-oss:20b"
     llm_deadline_s: Annotated[

@@ -24,6 +24,8 @@ import argparse
 import importlib
 import json
 
+import standard_output
+
 BENCHMARKS = {
     "headon": "traffic",
     "fifty": "traffic",
@@ -86,4 +88,4 @@ def print_procedures(seeds: int, *, as_json: bool) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import airhilt
+import standard_output
 from airhilt import library
 from airhilt.metrics.summary import Summary
 
@@ -118,4 +119,4 @@ def _print(row: Row) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

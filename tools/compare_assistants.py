@@ -21,6 +21,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import track
 
+import standard_output
 from airhilt.assistant.reference import NO_ASSISTANT
 from airhilt.library import names
 from comparison.rows import Case, Row, run_case
@@ -84,4 +85,4 @@ def _run(cases: Sequence[Case], folder: Path, workers: int) -> list[Row]:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

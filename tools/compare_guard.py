@@ -23,6 +23,7 @@ from rich.progress import track
 from rich.table import Table
 
 import airhilt
+import standard_output
 from airhilt.assistant.decision.engines.reference import ReferenceConfig, ReferenceEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
@@ -141,4 +142,4 @@ def _lines(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

@@ -19,6 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 from rich.progress import track
 
+import standard_output
 from airhilt.assistant.decision.engines import decision_engine
 from pairs.flying import Outcome, fly
 from pairs.geometry import draw
@@ -106,4 +107,4 @@ def _is_late(outcome: Outcome) -> bool:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

@@ -21,6 +21,7 @@ from rich.progress import track
 from rich.table import Table
 
 import airhilt
+import standard_output
 from airhilt import library
 from airhilt.files import replace_file
 from airhilt.metrics.summary import Summary, WarningParts
@@ -161,4 +162,4 @@ def _summary(given: argparse.Namespace, name: str, seed: int) -> Summary:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

@@ -24,6 +24,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+import standard_output
 from airhilt import load, run
 from airhilt.library import names
 from airhilt.messages import Advisory, Severity
@@ -135,4 +136,4 @@ def median_of(leads: Sequence[Lead], field: str) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    standard_output.run(main)

@@ -27,7 +27,7 @@ MAXIMUM_BYTES = 1_000_000
 MOST_TOKENS = 1_024
 """Length of the longest answer, in tokens, with what a model thinks before it answers."""
 MOST_FAILURES = 3
-"""Number of questions in a row without an answer after which the model is not asked any more."""
+"""Number of questions in a row without a usable answer after which a model is asked no more."""
 Dialect = Literal["json_schema", "json_object"]
 """Ways to ask for JSON of a schema: OpenAI's, and that of llama-cpp-python."""
 _PATH = "/chat/completions"
@@ -105,7 +105,9 @@ class LanguageModel:
         self._service(settings.deadline_s)
 
     def ask(self, instructions: str, question: str, schema: Mapping[str, Any]) -> str:
-        """Return the answer: a text that should be JSON of a schema; the caller checks that.
+        """Return the answer: a text that should be JSON of a schema.
+
+        The caller checks that, and calls `accept` if it is.
 
         Raises
         ------
@@ -115,7 +117,7 @@ class LanguageModel:
         if self._failures >= MOST_FAILURES:
             raise LanguageModelError(
                 f"language model {self.name!r} is not asked any more: {MOST_FAILURES} questions "
-                "in a row had no answer"
+                "in a row had no usable answer"
             )
         begun = time.monotonic()
         request = self._request(instructions, question)
@@ -128,8 +130,11 @@ class LanguageModel:
                 raise
             data = self._post(request | _format(schema, "json_object"), left_s)
             self._dialect = "json_object"
-        self._failures = 0
         return self._content(data)
+
+    def accept(self) -> None:
+        """Record that the last answer is of its schema: the model goes on being asked."""
+        self._failures = 0
 
     def _post(self, request: Mapping[str, Any], timeout_s: float) -> bytes:
         body = json.dumps(request).encode()

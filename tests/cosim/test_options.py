@@ -210,3 +210,9 @@ def test_an_option_that_does_something_or_nothing_new_is_taken(
     given: dict[str, Any], encounter: Scenario
 ) -> None:
     assert set_up(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)
+
+
+@pytest.mark.parametrize("name", ["", "  "])
+def test_a_language_model_has_a_name(name: str) -> None:
+    with pytest.raises(ValueError, match="llm_model"):
+        Options(assistant="llm", llm="http://127.0.0.1:1/v1", llm_model=name)

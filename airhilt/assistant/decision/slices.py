@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping
+from types import MappingProxyType
 
 from airhilt.assistant.decision.engine import Received
+from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.service_messages import (
     AssistantRequest,
     CameraSlice,
@@ -12,7 +15,14 @@ from airhilt.assistant.decision.service_messages import (
     RadioTurn,
     TrackSlice,
 )
-from airhilt.messages import AdsbReport, Briefing, Detections, Message, Transcript
+from airhilt.messages import (
+    AdsbReport,
+    Briefing,
+    CameraInfo,
+    Detections,
+    Message,
+    Transcript,
+)
 from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
 
@@ -24,6 +34,8 @@ TRACKS_NS = 15 * SECOND_NS
 """Age up to which a report is given; `airhilt.assistant.decision.air_tracks` keeps it as long."""
 READS: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
 """Messages that slices are made of."""
+INPUTS: Mapping[str, object] = MappingProxyType({"camera/*/info": CameraInfo})
+"""Further messages by which they are checked, by their keys."""
 MS_NS = 1_000_000
 """Nanoseconds in a millisecond."""
 SECOND_MS = 1_000
@@ -31,17 +43,27 @@ SECOND_MS = 1_000
 
 
 class Slices:
-    """Keeps the last minutes of what has arrived."""
+    """Keeps the last minutes of what has arrived and can be right.
+
+    Attributes
+    ----------
+    checks
+        Checks of what arrives, which know what was wrong.
+    """
 
     def __init__(self) -> None:
+        self.checks = InputChecks()
         self._context: FlightContext | None = None
         self._radio: dict[str, Transcript] = {}
         self._cameras: deque[Detections] = deque()
         self._tracks: dict[str, AdsbReport] = {}
 
     def receive(self, received: Received) -> None:
-        """Take in one message; of two about one transmission, the later one holds."""
+        """Take in one message if it is believed; of two about one call, the first holds."""
+        t_ns = received.t_ns
         match received.message:
+            case CameraInfo() as info:
+                self.checks.take_camera(info)
             case Briefing() as briefing:
                 self._context = FlightContext(
                     controller=briefing.controller,
@@ -51,13 +73,14 @@ class Slices:
                     airport=briefing.airport,
                     animals=briefing.animals,
                 )
-            case AdsbReport() as report:
+            case AdsbReport() as report if self.checks.believes_report(report, t_ns):
                 last = self._tracks.get(report.icao24)
                 if last is None or report.t_adsb_in_ns >= last.t_adsb_in_ns:
                     self._tracks[report.icao24] = report
             case Transcript() as transcript:
-                self._radio[transcript.id] = transcript
-            case Detections() as detections:
+                for each in self.checks.in_order(transcript, t_ns):
+                    self._radio[each.id] = each
+            case Detections() as detections if self.checks.believes_detections(detections, t_ns):
                 self._cameras.append(detections)
 
     def callsigns(self) -> tuple[str, ...]:

@@ -13,10 +13,21 @@ import pytest
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.engines.http import HttpAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
+from airhilt.assistant.decision.slices import Slices
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import WorkerError
-from airhilt.messages import Advisory, Briefing, Climb, RosterEntry, Severity, Transcript
+from airhilt.messages import (
+    AdsbReport,
+    Advisory,
+    Briefing,
+    CameraInfo,
+    Climb,
+    Detections,
+    RosterEntry,
+    Severity,
+    Transcript,
+)
 from airhilt.units import SECOND_NS
 from airhilt.workers import check_worker
 from airhilt.workers.samples import sample_inputs
@@ -161,8 +172,45 @@ def test_the_same_call_twice_and_old_calls_are_no_more_than_one() -> None:
         tell(engine, transcript("earlier", "c-1", 1.0), 7.0)
         tell(engine, transcript("second", "c-2", 5.0), 8.0)
         tell(engine, transcript("late", "c-3", 200.0), 201.0)
-    assert [each["text"] for each in answers.requests[2]["radio"]] == ["earlier", "second"]
+    assert [each["text"] for each in answers.requests[2]["radio"]] == ["earlier", "first"]
     assert [each["text"] for each in answers.requests[3]["radio"]] == ["late"]
+
+
+def adsb(t_s: float, latitude_deg: float) -> AdsbReport:
+    t_ns = int(t_s * SECOND_NS)
+    return AdsbReport(
+        icao24="a00001", callsign="AAL123", latitude_deg=latitude_deg, longitude_deg=-77.0,
+        altitude_ft=20_000.0, ground_speed_kt=480.0, track_deg=0.0, vertical_rate_fpm=0.0, nacp=9,
+        nacv=2, receiver="r", t_adsb_in_ns=t_ns, t_adsb_out_ns=t_ns,
+    )  # fmt: skip
+
+
+def test_what_cannot_be_right_is_left_out_and_the_advisory_says_so() -> None:
+    answers = Scripted([], [ADVISORY])
+    with service(answers) as url:
+        engine = HttpAssistant(url)
+        tell(engine, adsb(1.0, 40.0), 1.0)
+        decision = tell(engine, adsb(3.0, 41.0), 3.0)
+    (track,) = answers.requests[1]["tracks"]
+    assert track["latitude_deg"] == 40.0
+    (wrong,) = decision.alerts[0].evidence.inconsistencies
+    assert "ADS-B of AAL123" in wrong
+
+
+def test_pictures_of_a_camera_that_was_not_announced_are_left_out() -> None:
+    slices = Slices()
+    (sample,) = (
+        Detections.model_validate_json(item.payload)
+        for item in sample_inputs(SECOND_NS)
+        if item.key.startswith("vision/")
+    )
+    known, unknown = (sample.model_copy(update={"camera": name}) for name in ("RWY_A", "ELSEWHERE"))
+    info = CameraInfo(
+        camera="RWY_A", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0
+    )
+    for message in (info, known, unknown):
+        slices.receive(Received(message, SECOND_NS, SECOND_NS))
+    assert [each.camera_id for each in slices.request(SECOND_NS).cameras] == ["RWY_A"]
 
 
 @pytest.mark.parametrize(

@@ -161,6 +161,40 @@ def test_a_model_that_never_answers_is_not_asked_for_ever() -> None:
     assert "is not asked any more" in failures[-1]
 
 
+@pytest.mark.parametrize(
+    "useless",
+    [
+        lambda _: "I cannot help with that",
+        lambda _: {"m1": "go around"},
+        lambda _: "",
+    ],
+)
+def test_a_model_whose_answers_are_never_usable_is_not_asked_for_ever(
+    useless: Callable[[Json], Any],
+) -> None:
+    asked: list[Json] = []
+    with service(saying(useless, asked)) as url:
+        wording = LanguageModelWording()
+        wording.use(settings(url))
+        for _ in range(MOST_FAILURES + 2):
+            wording.words([ALERT])
+    assert len(asked) == MOST_FAILURES
+
+
+def test_a_usable_answer_in_between_keeps_a_model_asked() -> None:
+    asked: list[Json] = []
+
+    def now_and_then(question: Json) -> Any:
+        return "" if len(asked) % MOST_FAILURES else question
+
+    with service(saying(now_and_then, asked)) as url:
+        wording = LanguageModelWording()
+        wording.use(settings(url))
+        for _ in range(3 * MOST_FAILURES):
+            wording.words([ALERT])
+    assert len(asked) == 3 * MOST_FAILURES
+
+
 def test_the_key_is_sent_and_shown_nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(KEY_VARIABLE, "sk-secret")
     asked: list[Json] = []

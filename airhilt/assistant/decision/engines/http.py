@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from pydantic import ValidationError
 
 from airhilt.assistant.decision.alert_ledger import AlertLedger
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.service_messages import AssistantAnswer, ProposedAdvisory
-from airhilt.assistant.decision.slices import READS, Slices
+from airhilt.assistant.decision.slices import INPUTS, READS, Slices
 from airhilt.engines import Engine
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import Message, Transcript
@@ -32,6 +34,7 @@ class HttpAssistant:
 
     name = "http"
     reads: tuple[type[Message], ...] = READS
+    inputs: Mapping[str, object] = INPUTS
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
         self._service = HttpService("assistant http", url, timeout_s, MAXIMUM_BYTES, WorkerError)
@@ -61,7 +64,8 @@ class HttpAssistant:
         self._due_ns, self._earliest_ns = None, t_ns + PERIOD_NS
         request = self._slices.request(t_ns).model_dump_json().encode()
         answer = self._parse(self._service.post(request, "application/json"))
-        return Decision(self._ledger.update([_alert(each) for each in answer.advisories]))
+        news = self._ledger.update([_alert(each) for each in answer.advisories])
+        return Decision([self._slices.checks.marked(each, t_ns) for each in news])
 
     def _parse(self, data: bytes) -> AssistantAnswer:
         try:

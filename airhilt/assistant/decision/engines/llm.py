@@ -78,7 +78,11 @@ class LanguageModelAssistant:
             self._reviewed = Reviewed({}, (), ())
         again = {alert.id for alert in ruled.alerts if alert.active}
         questions = [alert for alert in ruled.alerts if alert.kind == "clarification"]
-        alerts = [*self._ledger.update(self._holding(), again), *questions]
+        told = [
+            self._slices.checks.marked(each, t_ns)
+            for each in self._ledger.update(self._holding(), again)
+        ]
+        alerts = [*told, *questions]
         self._told = {name: alert.severity for name, alert in self._ledger.holding().items()}
         wakes = [each for each in (ruled.again_ns, due_ns) if each is not None]
         earliest_ns = t_ns + AFTER_WARNING_NS
@@ -129,6 +133,7 @@ class LanguageModelAssistant:
         except ValidationError as error:
             failure = f"the answer is not of the schema: {first_problem(error)}"
             return (exchange.model_copy(update={"failure": failure}),)
+        self._model.accept()
         runway_of = self._rules.runways.runway_in_use
         self._reviewed = review(answer, situation, runway_of)
         self._reviewed_ns = t_ns

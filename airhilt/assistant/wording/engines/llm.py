@@ -115,6 +115,7 @@ def _reworded(
     except ValidationError as error:
         failure = f"the answer is not of the schema: {first_problem(error)}"
         return {}, exchange.model_copy(update={"failure": failure})
+    model.accept()
     kept: dict[tuple[str, str], str] = {}
     rejections: list[Rejection] = []
     for key, each in asked.items():
