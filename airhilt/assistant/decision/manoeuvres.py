@@ -59,7 +59,12 @@ class Paths(NamedTuple):
         return Paths(*(values[number : number + 1, :SOON_STEPS] for values in self))
 
 
-def paths(motion: Relative, profile: VerticalProfile, manoeuvres: Sequence[Manoeuvre]) -> Paths:
+def paths(
+    motion: Relative,
+    profile: VerticalProfile,
+    manoeuvres: Sequence[Manoeuvre],
+    response_s: float = RESPONSE_S,
+) -> Paths:
     """Return the paths of an aircraft by each of some manoeuvres.
 
     Parameters
@@ -68,10 +73,12 @@ def paths(motion: Relative, profile: VerticalProfile, manoeuvres: Sequence[Manoe
         Position and velocity of the aircraft at present.
     profile
         Climb or descent that is expected of it, until it responds and without another level.
+    response_s
+        Time until the manoeuvre begins.
     """
     turns_rad, rows = np.unique([each.turn_rad for each in manoeuvres], return_inverse=True)
-    north_m, east_m = _courses(motion, turns_rad)
-    return Paths(north_m[rows], east_m[rows], _levels(profile, manoeuvres))
+    north_m, east_m = _courses(motion, turns_rad, response_s)
+    return Paths(north_m[rows], east_m[rows], _levels(profile, manoeuvres, response_s))
 
 
 def straight_paths(motions: Sequence[Relative], profiles: Sequence[VerticalProfile]) -> Paths:
@@ -108,17 +115,17 @@ def turn_rate_rad_s(speed_m_s: float) -> float:
     return float(STANDARD_GRAVITY * np.tan(BANK_RAD) / speed_m_s)
 
 
-def _courses(motion: Relative, turns_rad: Array) -> tuple[Array, Array]:
+def _courses(motion: Relative, turns_rad: Array, response_s: float) -> tuple[Array, Array]:
     """Return where an aircraft is that flies on, turns at a steady rate, and flies straight on."""
     north, east = motion.velocity_north_m_s, motion.velocity_east_m_s
     rate = turn_rate_rad_s(float(np.hypot(north, east)))
-    flown_s = np.maximum(TIMES_S - RESPONSE_S, 0.0)
+    flown_s = np.maximum(TIMES_S - response_s, 0.0)
     turned = np.clip(rate * flown_s, 0.0, np.abs(turns_rad)[:, None])
     straight_s = TIMES_S - turned / rate
     side = np.sign(turns_rad)[:, None]
     sin_t, cos_t = np.sin(side * turned), np.cos(turned)
     # Before the turn and after it the aircraft flies straight, on the old and on the new track.
-    before_s = np.minimum(TIMES_S, RESPONSE_S)
+    before_s = np.minimum(TIMES_S, response_s)
     after_s = straight_s - before_s
     arc_ahead, arc_right = side * sin_t / rate, side * (1.0 - cos_t) / rate
     ahead = before_s + arc_ahead + after_s * cos_t
@@ -129,15 +136,15 @@ def _courses(motion: Relative, turns_rad: Array) -> tuple[Array, Array]:
     )
 
 
-def _levels(profile: VerticalProfile, manoeuvres: Sequence[Manoeuvre]) -> Array:
+def _levels(profile: VerticalProfile, manoeuvres: Sequence[Manoeuvre], response_s: float) -> Array:
     """Return the levels of an aircraft that flies on by its profile, and then to a target."""
-    begun_m = profile.at(RESPONSE_S)
+    begun_m = profile.at(response_s)
     targets_m = [begun_m if each.target_m is None else each.target_m for each in manoeuvres]
     to_go_m = np.array(targets_m)[:, None] - begun_m
     rates_m_s = np.array([each.rate_m_s for each in manoeuvres])[:, None]
-    flown_m = np.minimum(rates_m_s * np.maximum(TIMES_S - RESPONSE_S, 0.0), np.abs(to_go_m))
+    flown_m = np.minimum(rates_m_s * np.maximum(TIMES_S - response_s, 0.0), np.abs(to_go_m))
     levels: Array = begun_m + np.copysign(flown_m, to_go_m)
     expected = profile.altitude_m + profile.rate_m_s * np.minimum(TIMES_S, profile.level_off_s())
-    levels[:, TIMES_S <= RESPONSE_S] = expected[TIMES_S <= RESPONSE_S]
+    levels[:, response_s >= TIMES_S] = expected[response_s >= TIMES_S]
     levels[[each.target_m is None for each in manoeuvres]] = expected
     return levels
