@@ -18,6 +18,8 @@ from airhilt._version import __version__
 from airhilt.errors import AirhiltError
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
+
     from airhilt import messages
     from airhilt.cosim.observer import Observer, Result, Snapshot
     from airhilt.options import Options
@@ -39,6 +41,7 @@ __all__ = [
     "__version__",
     "load",
     "messages",
+    "read_sweep",
     "run",
 ]
 _HOMES = {
@@ -80,6 +83,31 @@ def load(name_or_file: str | Path) -> Scenario:
     if not isinstance(name_or_file, str | Path):
         raise TypeError(f"scenario {shown(name_or_file)}: expected its name, or a file")
     return load_scenario(name_or_file)
+
+
+def read_sweep(folder: str | Path, *, machine: bool = False) -> DataFrame:
+    """Return the runs of a sweep as a pandas data frame, a row a run.
+
+    The columns are those of docs/sweep-columns.md. ``attrs`` of the data frame has their ``units``
+    and ``descriptions`` by name.
+
+    Parameters
+    ----------
+    folder
+        The sweep folder.
+    machine
+        True adds what depends on the machine (time, memory, host, the folder of a run that is
+        kept), and with it the runs that a limit ended or that crashed.
+
+    Raises
+    ------
+    AirhiltError
+        There is no sweep in the folder, or a table is not there or damaged.
+    """
+    from airhilt.metrics.frames import read_frame
+    from airhilt.record.sweep_folder import SweepFolder
+
+    return read_frame(SweepFolder.open(Path(folder)), machine)
 
 
 def run(

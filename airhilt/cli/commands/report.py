@@ -1,10 +1,22 @@
-"""The command that makes the report of a run."""
+"""The command that makes the report of a run or of a sweep."""
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+from airhilt.errors import AirhiltError
+
+if TYPE_CHECKING:
+    from airhilt.record.sweep_folder import SweepFolder
+
+QUIET_S = 2.0
+"""Time for which figures are drawn without a word."""
+PERIOD_S = 5.0
+"""Time between two lines on the figures."""
 
 
 @click.command(
@@ -12,20 +24,74 @@ import click
 Examples:
   airhilt report runs/s02a_headon-0-20260101T120000
   airhilt report RUN --out headon.html
+  airhilt report SWEEP
+  airhilt report SWEEP --csv runs.csv
 """
 )
-@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Where to write it.  [default: report.html in the run folder]",
+    help="Where to write it.  [default: report.html in the folder]",
 )
-def report(run_folder: Path, out: Path | None) -> None:
-    """Make the report of a run: one HTML file that opens offline."""
-    from airhilt.report import write_report
+@click.option(
+    "--csv",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write the table of a sweep as CSV instead.",
+)
+def report(folder: Path, out: Path | None, csv: Path | None) -> None:
+    """Make the report of a run or of a sweep: one HTML file that opens offline.
 
-    click.echo(write_report(run_folder, out))
+    The figures of a sweep are in its folder too, under figures, as SVG and as PDF.
+    """
+    from airhilt.record.sweep_folder import SweepFolder
+
+    sweep = SweepFolder(folder)
+    if csv is not None:
+        if out is not None:
+            raise click.UsageError("--out, --csv: expected one of them")
+        _write_csv(SweepFolder.open(folder), csv)
+        click.echo(csv)
+    elif sweep.info_path.is_file():
+        from airhilt.report.sweeps import write_sweep_report
+
+        click.echo(write_sweep_report(folder, out, _Progress()))
+    else:
+        from airhilt.report import write_report
+
+        click.echo(write_report(folder, out))
+
+
+class _Progress:
+    """Tells how many figures have been drawn, where that takes longer than a moment."""
+
+    def __init__(self) -> None:
+        self._due_s = time.monotonic() + QUIET_S
+
+    def __call__(self, drawn: int) -> None:
+        """Tell the number of figures drawn."""
+        if time.monotonic() >= self._due_s:
+            click.echo(f"{drawn} figures drawn", err=True)
+            self._due_s = time.monotonic() + PERIOD_S
+
+
+def _write_csv(sweep: SweepFolder, path: Path) -> None:
+    """Write ``sweep.parquet`` as CSV; what is null is empty.
+
+    Raises
+    ------
+    AirhiltError
+        The table is not there, or the file cannot be written.
+    """
+    from pyarrow.csv import write_csv
+
+    table = sweep.table()
+    try:
+        write_csv(table, path)
+    except OSError as error:
+        raise AirhiltError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
 COMMAND = report

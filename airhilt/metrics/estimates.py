@@ -1,0 +1,128 @@
+"""Estimates over many runs, each with a 95 % confidence interval."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+CONFIDENCE = 0.95
+RESAMPLES = 1999
+"""Resamples of a bootstrap: 2.5 % of one more than their number is whole (Davison and Hinkley,
+Bootstrap Methods and their Application, 1997)."""
+MOST_RESAMPLED = 200
+"""Number of runs above which Student's t gives the interval of a mean: the mean of so many is close
+to normal, and a bootstrap would take memory by the square of their number."""
+SEED = 0
+"""Seed of every bootstrap, so that the same table gives the same intervals."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One number over many runs.
+
+    Attributes
+    ----------
+    value
+        The estimate, None without runs.
+    low, high
+        Limits of its 95 % interval, None if there are too few runs for one.
+    n
+        Number of runs that it rests on.
+    """
+
+    value: float | None
+    low: float | None
+    high: float | None
+    n: int
+
+    def times(self, factor: float) -> Estimate:
+        """Return the estimate in another unit."""
+        value, low, high = (
+            None if number is None else number * factor
+            for number in (self.value, self.low, self.high)
+        )
+        return Estimate(value, low, high, self.n)
+
+
+UNKNOWN = Estimate(None, None, None, 0)
+
+
+def share_of(flags: Sequence[bool] | NDArray[np.bool_]) -> Estimate:
+    """Return the share of true values, with the interval of Wilson (1927)."""
+    from scipy.stats import binomtest
+
+    n, count = len(flags), int(np.count_nonzero(flags))
+    if n == 0:
+        return UNKNOWN
+    interval = binomtest(count, n).proportion_ci(CONFIDENCE, method="wilson")
+    return Estimate(count / n, float(interval.low), float(interval.high), n)
+
+
+def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Estimate:
+    """Return the mean, with the interval of a BCa bootstrap over the runs.
+
+    The interval is None for a single value, or if none is asked for. For more than
+    `MOST_RESAMPLED` it is that of Student's t.
+    """
+    sample = np.asarray(values, dtype=np.float64)
+    if sample.size == 0:
+        return UNKNOWN
+    mean = float(sample.mean())
+    if sample.size == 1 or not with_interval:
+        return Estimate(mean, None, None, sample.size)
+    if np.ptp(sample) == 0.0:
+        return Estimate(mean, mean, mean, sample.size)
+    low, high = _interval_of_mean(sample)
+    return Estimate(mean, low, high, sample.size)
+
+
+def rate_of(
+    counts: Sequence[float] | Array,
+    exposures: Sequence[float] | Array,
+    with_interval: bool = True,
+) -> Estimate:
+    """Return a number of events by exposure, with the interval of a bootstrap over the runs.
+
+    Where nothing happened, the upper limit is that of a Poisson count of 0 (Garwood, 1936).
+    """
+    events = np.asarray(counts, dtype=np.float64)
+    whole = np.asarray(exposures, dtype=np.float64)
+    total = float(whole.sum())
+    if events.size == 0 or total <= 0.0:
+        return UNKNOWN
+    rate = float(events.sum()) / total
+    if not with_interval or (events.size == 1 and rate > 0.0):
+        return Estimate(rate, None, None, events.size)
+    if rate == 0.0:
+        return Estimate(0.0, 0.0, -math.log((1.0 - CONFIDENCE) / 2.0) / total, events.size)
+    random = np.random.default_rng(SEED)
+    drawn = random.multinomial(events.size, np.full(events.size, 1.0 / events.size), RESAMPLES)
+    low, high = np.quantile((drawn @ events) / (drawn @ whole), _tails())
+    return Estimate(rate, float(low), float(high), events.size)
+
+
+def _interval_of_mean(sample: Array) -> tuple[float, float]:
+    from scipy.stats import bootstrap, t
+
+    if sample.size > MOST_RESAMPLED:
+        error = float(sample.std(ddof=1)) / math.sqrt(sample.size)
+        low, high = t.interval(CONFIDENCE, sample.size - 1, float(sample.mean()), error)
+        return float(low), float(high)
+    found = bootstrap(
+        (sample,),
+        np.mean,
+        n_resamples=RESAMPLES,
+        confidence_level=CONFIDENCE,
+        random_state=np.random.default_rng(SEED),
+    ).confidence_interval
+    return float(found.low), float(found.high)
+
+
+def _tails() -> tuple[float, float]:
+    return (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0

@@ -1,0 +1,113 @@
+"""What is shown of many runs: a share, a mean or a rate of a column of the table of a sweep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from airhilt.metrics.estimates import UNKNOWN, Estimate, mean_of, rate_of, share_of
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+HOUR_S = 3600.0
+PERCENT = 100.0
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A number over many runs.
+
+    Attributes
+    ----------
+    name
+        Name in files and on pages.
+    title
+        The number in words.
+    unit
+        Its unit.
+    kind
+        share: of the runs in which the column is true, among those in which it is not null; mean:
+        of the values that are not null; per_hour: sum of the column by simulated hour.
+    column
+        Column of the table.
+    only_nominal
+        True if only runs without a conflict count.
+    """
+
+    name: str
+    title: str
+    unit: str
+    kind: Literal["share", "mean", "per_hour"]
+    column: str
+    only_nominal: bool = False
+
+    @property
+    def columns(self) -> list[str]:
+        """Columns that the number is made of."""
+        return list(dict.fromkeys((self.column, "nominal", "duration_s")))
+
+    @property
+    def label(self) -> str:
+        """Title with the unit, for an axis."""
+        return f"{self.title} ({self.unit})"
+
+    def estimate(self, runs: DataFrame, with_interval: bool = True) -> Estimate:
+        """Return the number over some runs of a table, in its unit.
+
+        It is unknown if the table has no such column, or no values in it.
+        """
+        estimate = self._estimate(runs, with_interval)
+        return estimate.times(PERCENT) if self.unit == "%" else estimate
+
+    def _estimate(self, runs: DataFrame, with_interval: bool) -> Estimate:
+        if self.column not in runs.columns:
+            return UNKNOWN
+        if self.only_nominal:
+            runs = runs[runs["nominal"].fillna(False).astype(bool)]
+        values = runs[self.column].dropna()
+        if self.kind == "share":
+            return share_of(values.to_numpy(dtype=np.bool_))
+        if self.kind == "mean":
+            return mean_of(values.to_numpy(dtype=np.float64), with_interval)
+        hours = runs.loc[values.index, "duration_s"].to_numpy(dtype=np.float64) / HOUR_S
+        return rate_of(values.to_numpy(dtype=np.float64), hours, with_interval)
+
+
+TIME_TO_FIRST_WARNING = Measure(
+    "time_to_first_warning", "Time to first warning", "s", "mean", "time_to_first_warning_s"
+)
+WARNED = Measure("warned", "Warned", "%", "share", "warned")
+IN_TIME = Measure("warned_in_time", "Warned in time", "%", "share", "warned_in_time")
+MISSED = Measure("missed", "Missed", "%", "share", "missed")
+AVOIDED = Measure("avoided", "Avoided", "%", "share", "avoided")
+LOST = Measure("lost", "Separation lost or worse", "%", "share", "lost")
+LEAD = Measure(
+    "lead", "Lead before closest approach", "s", "mean", "lead_before_closest_approach_s"
+)
+NUISANCE = Measure("nuisance", "Nuisance alerts", "1/h", "per_hour", "nuisance_alerts")
+NOMINAL_NUISANCE = Measure(
+    "nominal_nuisance", "Nuisance in nominal traffic", "1/h", "per_hour", "nuisance_alerts", True
+)
+WORD_ERRORS = Measure("wer", "Word error rate", "%", "mean", "radio_wer")
+FIRST_DETECTION = Measure(
+    "first_detection_range", "First detection range", "m", "mean", "first_detection_range_m"
+)
+RECALL = Measure("recall", "Recall of sightings", "%", "mean", "vision_recall")
+MEASURES = (
+    TIME_TO_FIRST_WARNING,
+    WARNED,
+    IN_TIME,
+    MISSED,
+    AVOIDED,
+    LOST,
+    LEAD,
+    NUISANCE,
+    NOMINAL_NUISANCE,
+    WORD_ERRORS,
+    FIRST_DETECTION,
+    RECALL,
+)
+"""All of them, in the order in which pages show them."""

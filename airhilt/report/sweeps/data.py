@@ -1,0 +1,148 @@
+"""A sweep as its page shows it: both tables, what the columns mean, and what was asked for."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from airhilt.errors import AirhiltError
+from airhilt.metrics.frames import frame_of
+from airhilt.metrics.measures import MEASURES
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.report.sweeps.axes import Axis, axis_of
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+    from pandas import DataFrame
+
+Json = dict[str, Any]
+
+BEFORE_PARAMETERS = ("key", "scenario", "family", "assistant", "seed")
+AFTER_PARAMETERS = "status"
+MEASURED = tuple(column for each in MEASURES for column in each.columns)
+"""Columns that measures are made of."""
+OTHER_FAMILY = "other"
+"""Name of the group of scenarios without a family."""
+
+
+@dataclass(frozen=True)
+class ColumnInfo:
+    """Unit and meaning of a column, as the file has them."""
+
+    unit: str
+    description: str
+
+
+@dataclass
+class SweepData:
+    """One sweep.
+
+    Attributes
+    ----------
+    folder
+        The sweep folder.
+    info
+        Content of ``sweep.json``.
+    runs
+        Rows of ``sweep.parquet``: runs that finished or failed.
+    machine
+        Rows of ``machine.parquet``: all runs.
+    columns
+        The columns of `runs`, by name.
+    parameters
+        Names of the columns that are parameters of the grid.
+    page
+        File that the page will be.
+    notes
+        Sentences on what cannot be shown.
+    """
+
+    folder: SweepFolder
+    info: Json
+    runs: DataFrame
+    machine: DataFrame
+    columns: dict[str, ColumnInfo]
+    parameters: tuple[str, ...]
+    page: Path
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def finished(self) -> DataFrame:
+        """Rows of the runs that finished."""
+        return self.runs[self.runs[AFTER_PARAMETERS] == "finished"]
+
+    @property
+    def assistants(self) -> list[str]:
+        """Names of the assistants, sorted."""
+        return sorted(self.runs["assistant"].dropna().unique())
+
+    def axes(self) -> list[Axis]:
+        """Return the parameters that have more than one value, and the assistant if it has."""
+        names = ("assistant", *self.parameters)
+        found = (axis_of(name, self.finished[name], self._unit(name)) for name in names)
+        return [axis for axis in found if len(axis.levels) > 1]
+
+    def families(self) -> list[tuple[str, DataFrame]]:
+        """Return name and finished runs of each family; first of all of them if there are more.
+
+        They have the columns that measures and axes are made of.
+        """
+        wanted = (*BEFORE_PARAMETERS, *self.parameters, *MEASURED)
+        runs = self.finished[[name for name in dict.fromkeys(wanted) if name in self.columns]]
+        names = runs["family"].fillna("").replace("", OTHER_FAMILY)
+        groups = [(str(name), group) for name, group in runs.groupby(names, sort=True)]
+        return [("all", runs), *groups] if len(groups) > 1 else groups
+
+    def link_to(self, path: Path) -> str:
+        """Return the address of a file in the sweep folder, as the page has to give it."""
+        return Path(os.path.relpath(path, self.page.absolute().parent)).as_posix()
+
+    def _unit(self, name: str) -> str:
+        return self.columns[name].unit
+
+
+def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
+    """Return what the page of a sweep shows.
+
+    Raises
+    ------
+    AirhiltError
+        A table is not there, is damaged, or is not one of a sweep.
+    """
+    info, table, machine = folder.info(), folder.table(), folder.machine()
+    parameters = parameters_of(table, str(folder.table_path))
+    return SweepData(
+        folder=folder,
+        info=info,
+        runs=frame_of(table),
+        machine=frame_of(machine),
+        columns={each.name: _column_info(each) for each in table.schema},
+        parameters=parameters,
+        page=page,
+    )
+
+
+def parameters_of(table: pa.Table, origin: str) -> tuple[str, ...]:
+    """Return the names of the columns that are parameters; ``origin`` begins an error message.
+
+    Raises
+    ------
+    AirhiltError
+        It is no table of a sweep.
+    """
+    names: Sequence[str] = table.column_names
+    first = len(BEFORE_PARAMETERS)
+    if tuple(names[:first]) != BEFORE_PARAMETERS or AFTER_PARAMETERS not in names:
+        raise AirhiltError(
+            f"{origin}: no table of a sweep; expected columns {', '.join(BEFORE_PARAMETERS)}, the "
+            f"parameters, and {AFTER_PARAMETERS}"
+        )
+    return tuple(names[first : names.index(AFTER_PARAMETERS)])
+
+
+def _column_info(column: pa.Field) -> ColumnInfo:
+    given = {key.decode(): value.decode() for key, value in (column.metadata or {}).items()}
+    return ColumnInfo(given.get("unit", ""), given.get("description", ""))

@@ -1,0 +1,73 @@
+"""A section that shows one of many figures, chosen by what they differ in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic.dataclasses import dataclass
+
+from airhilt.report.sweeps.data import SweepData
+from airhilt.report.sweeps.sections import SweepSection
+
+Json = dict[str, Any]
+
+HERE = Path(__file__)
+PX_PER_IN = 96.0
+
+
+@dataclass(frozen=True)
+class FigureSection(SweepSection):
+    """A section of figures; its template and script are those beside this module."""
+
+    def template(self) -> str:
+        """Return the Jinja template."""
+        return HERE.with_suffix(".html").read_text("utf-8")
+
+    def script(self) -> str:
+        """Return the script."""
+        return HERE.with_suffix(".js").read_text("utf-8")
+
+
+def figure_json(
+    sweep: SweepData, name: str, caption: str, width_in: float, choice: dict[str, str]
+) -> Json:
+    """Return a figure as its section shows it.
+
+    Parameters
+    ----------
+    choice
+        What the figure differs in from the others, such as ``{"Measure": "Avoided"}``.
+    """
+    folder = sweep.folder.figures_path
+    return {
+        "name": name,
+        "caption": caption,
+        "width_px": round(width_in * PX_PER_IN),
+        "choice": choice,
+        "svg": sweep.link_to(folder / f"{name}.svg"),
+        "pdf": sweep.link_to(folder / f"{name}.pdf"),
+    }
+
+
+def section_json(name: str, heading: str, text: str, figures: list[Json]) -> Json | None:
+    """Return the data of a section of figures, None if there are no figures."""
+    if not figures:
+        return None
+    labels = list(figures[0]["choice"])
+    return {
+        "name": name,
+        "heading": heading,
+        "text": text,
+        "figures": figures,
+        "choices": [
+            {"label": label, "values": list(dict.fromkeys(f["choice"][label] for f in figures))}
+            for label in labels
+        ],
+    }
+
+
+def slug(*words: str) -> str:
+    """Return words as the name of a file: letters, digits and underscores."""
+    text = "_".join(words).lower()
+    return "".join(each if each.isascii() and each.isalnum() else "_" for each in text)

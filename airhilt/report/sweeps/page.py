@@ -1,0 +1,79 @@
+"""The page of a sweep."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from airhilt.errors import AirhiltError
+from airhilt.files import replace_file
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.report.assembly import Assembly
+from airhilt.report.figures import Figures
+from airhilt.report.page_section import cannot_be_shown
+from airhilt.report.sweeps.data import SweepData, read_sweep_data
+from airhilt.report.sweeps.sections import SweepSection, load_sections
+from airhilt.report.text import cut
+
+SHARED = ("document", "page", "words", "tables")
+"""Scripts that all sections may use, in the order in which they build on each other."""
+
+
+def write_sweep_report(
+    sweep_folder: Path, out: Path | None = None, drawn: Callable[[int], None] = lambda _: None
+) -> Path:
+    """Write the page of a sweep, by default as ``report.html`` in its folder, and its figures.
+
+    Parameters
+    ----------
+    sweep_folder
+        Folder of a sweep whose tables have been written.
+    out
+        File to write the page to instead; the figures stay in ``figures`` of the sweep folder.
+    drawn
+        Called after each figure with the number of those that there are.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    AirhiltError
+        There is no sweep, a table is damaged, or the page or a figure cannot be written.
+    """
+    folder = SweepFolder.open(sweep_folder)
+    page = out or folder.report_path
+    sweep = read_sweep_data(folder, page)
+    figures = Figures(drawn)
+    html = render(sweep, figures)
+    figures.write(folder.figures_path)
+    try:
+        replace_file(page, f"{html}\n".encode())
+    except OSError as error:
+        raise AirhiltError(f"{page}: cannot be written: {error.strerror}") from None
+    return page
+
+
+def render(sweep: SweepData, figures: Figures) -> str:
+    """Return the page of a sweep as HTML."""
+    sections, problems = load_sections()
+    shown: list[SweepSection] = []
+    own: dict[str, Any] = {}
+    for section in sections:
+        try:
+            data = section.content(sweep, figures) if section.content else {}
+            json.dumps(data, allow_nan=False)
+        except Exception as error:
+            problems.append(cannot_be_shown(section.name, error))
+            continue
+        if data is not None:
+            shown.append(section)
+            own[section.name] = data
+    title = f"{sweep.folder.path.absolute().name}: AIRHILT sweep"
+    notes = [cut(each) for each in (*sweep.notes, *problems)]
+    data = {"title": title, "notes": notes, "sections": own}
+    return Assembly("sweep", title, SHARED, shown, data, figures.markup).page()
