@@ -47,6 +47,8 @@ BESIDE_RAD = 60.0 * DEGREE
 BEHIND_RAD = 120.0 * DEGREE
 BIRDS = Minima(0.0, 300.0 * FOOT)
 """Distances to keep from birds, to which no separation minima apply; chosen."""
+EVEN_ODDS = 0.5
+"""Belief of one look above which something is rather there than not."""
 UNRELIABLE_S = 90.0
 """Longest time to contact that is told, in s."""
 SMALLEST_M = 8.0
@@ -239,7 +241,7 @@ class IntruderWatch:
         Its pictures are alike, and so are the errors of a detector in them: many doubtful ones
         make no certain one.
         """
-        believed = track.belief_of_one_look >= self._visual_tracks.config.tau_vis
+        believed = track.belief_of_one_look > EVEN_ODDS
         return believed and self._visual_tracks.shows((track,))
 
     # --- what is told -----------------------------------------------------------------------
