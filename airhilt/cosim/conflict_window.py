@@ -58,6 +58,5 @@ class ConflictWindow:
         """Return whether the pair moves apart and will not lose separation, or one has ended."""
         if not self._monitor.flying(self._pair):
             return True
-        motion, _, _ = self._monitor.motion(self._pair)
-        is_receding = motion.time_to_closest_approach_s() < 0.0
+        is_receding = self._monitor.motion(self._pair).time_to_closest_approach_s() < 0.0
         return is_receding and self._monitor.time_to_loss_s(self._pair) is None

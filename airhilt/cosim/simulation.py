@@ -287,7 +287,7 @@ class Simulation:
         self._world.schedule()
         every(END_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
         every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
-        every(SECOND_NS, self._log.flush, Priority.OBSERVE, first_ns=SECOND_NS)
+        every(SECOND_NS, self._flush_logs, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
         duration_ns = seconds_to_ns(self._setup.scenario.duration_s)
         director.at(duration_ns, director.stop, Priority.OBSERVE)
@@ -356,6 +356,11 @@ class Simulation:
             with _kept(failures):
                 steps += sensor.unfinished()
         return steps
+
+    def _flush_logs(self) -> None:
+        """Let the operating system have both logs: of each step whose result is in the log too."""
+        self._latency_log.flush()
+        self._log.flush()
 
     def _close_logs(self, cause: str, sensed: Sequence[StepRecord]) -> None:
         """Write the last lines of the logs and close them."""

@@ -169,8 +169,7 @@ class WorldLoop:
         """Return how far the pair of the conflict is apart, horizontally and vertically."""
         if self.pair is None or not self.monitor.flying(self.pair):
             return None
-        motion, first, second = self.monitor.motion(self.pair)
-        return motion.distance_m, abs(first.altitude_m - second.altitude_m)
+        return self.monitor.motion(self.pair).distance_m, self.monitor.vertical_m(self.pair)
 
     def _tick(self) -> None:
         now_ns = self._director.now_ns

@@ -86,11 +86,7 @@ def relative(own: Kinematics, other: Kinematics) -> Relative:
     """
     middle = 0.5 * (own.latitude_rad + other.latitude_rad)
     turn = wrapped_turn(other.longitude_rad - own.longitude_rad)
-    north_m, east_m = offset_m(
-        (own.latitude_rad, own.longitude_rad),
-        (other.latitude_rad, other.longitude_rad),
-        0.5 * (own.altitude_m + other.altitude_m),
-    )
+    north_m, east_m = _offset_m(own, other)
     half_convergence = 0.5 * turn * math.sin(middle)
     # North at `other` lies clockwise of north midway by half the convergence, at `own` against it.
     sin_c, cos_c = math.sin(half_convergence), math.cos(half_convergence)
@@ -101,6 +97,19 @@ def relative(own: Kinematics, other: Kinematics) -> Relative:
         east_m,
         (oth_n * cos_c + oth_e * sin_c) - (own_n * cos_c - own_e * sin_c),
         (oth_e * cos_c - oth_n * sin_c) - (own_e * cos_c + own_n * sin_c),
+    )
+
+
+def horizontal_distance_m(own: Kinematics, other: Kinematics) -> float:
+    """Return the horizontal distance of two, in m: that of `relative` without their motion."""
+    return math.hypot(*_offset_m(own, other))
+
+
+def _offset_m(own: Kinematics, other: Kinematics) -> tuple[float, float]:
+    return offset_m(
+        (own.latitude_rad, own.longitude_rad),
+        (other.latitude_rad, other.longitude_rad),
+        0.5 * (own.altitude_m + other.altitude_m),
     )
 
 

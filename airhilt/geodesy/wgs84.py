@@ -28,6 +28,9 @@ MEAN_RADIUS_M = 6_371_008.8
 LEAST_CURVATURE_RADIUS_M = SEMI_MAJOR_AXIS_M * (1.0 - ECCENTRICITY_SQUARED)
 """Radius of curvature of the meridians at the equator, in m: no other on the ellipsoid is less."""
 
+GREATEST_CURVATURE_RADIUS_M = SEMI_MAJOR_AXIS_M / math.sqrt(1.0 - ECCENTRICITY_SQUARED)
+"""Radius of curvature at the poles, in m: no other on the ellipsoid is greater."""
+
 
 def curvature_radii_m(latitude_rad: float) -> tuple[float, float]:
     """Return the ellipsoid's radii of curvature, meridional and prime vertical, in m."""
@@ -97,6 +100,19 @@ def distance_and_azimuth(start: Place, end: Place) -> tuple[float, float]:
 def distance_m(start: Place, end: Place) -> float:
     """Return the length (m) of the geodesic between two places."""
     return distance_and_azimuth(start, end)[0]
+
+
+def are_within_m(limit_m: float, place: Place, other: Place) -> bool:
+    """Return whether the geodesic between two places is at most so long.
+
+    The way along a meridian and then along a parallel is longer. Where that is short enough
+    already, which takes no geodesic, nothing else is computed.
+    """
+    north_rad = abs(other[0] - place[0])
+    east_rad = abs(wrapped_turn(other[1] - place[1])) * math.cos(other[0])
+    if (north_rad + east_rad) * GREATEST_CURVATURE_RADIUS_M <= limit_m:
+        return True
+    return distance_m(place, other) <= limit_m
 
 
 def azimuth(start: Place, end: Place) -> float:

@@ -10,6 +10,7 @@ from typing import Any
 from airhilt.messages import (
     ADVISORY_CALL,
     CONTROLLER,
+    ActorTruth,
     Advisory,
     AdvisoryAudio,
     ConflictTruth,
@@ -117,6 +118,8 @@ class Collector:
 
     def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
         """Receive a published message."""
+        if isinstance(message, ActorTruth):
+            return  # The most frequent message: the monitors follow the actors themselves.
         match message:
             case ConflictTruth(phase="begun", t_ns=now_ns):
                 self.window.begun_ns = now_ns

@@ -113,7 +113,7 @@ class FirstWarning:
 
     def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
         """Return when TCAS II would speak if both went on as the script plans."""
-        motion, first, second = self._monitor.motion(pair)
+        motion, (first, second) = self._monitor.motion(pair), self._monitor.profiles(pair)
         first_m = self._plans.altitude_at(pair[0], now_ns, first)
         second_m = self._plans.altitude_at(pair[1], now_ns, second)
         return tcas.earliest(

@@ -11,10 +11,14 @@ from airhilt.sim import StepRecord
 
 
 class LatencyLog:
-    """Writes one line for each step; the operating system has it at once."""
+    """Writes one line for each step.
+
+    Whoever writes the log of the run as well flushes this one first: a step whose result is in the
+    log of a run that was killed is then here too.
+    """
 
     def __init__(self, path: Path) -> None:
-        self._stream = path.open("w", encoding="utf-8", buffering=1)
+        self._stream = path.open("w", encoding="utf-8")
 
     def step(self, record: StepRecord) -> None:
         """Write a step.
@@ -40,6 +44,13 @@ class LatencyLog:
     def _write(self, line: str) -> None:
         try:
             self._stream.write(line)
+        except OSError as error:
+            raise disk_failed(self._stream.name, error) from None
+
+    def flush(self) -> None:
+        """Hand all lines to the operating system, so that they outlive this process."""
+        try:
+            self._stream.flush()
         except OSError as error:
             raise disk_failed(self._stream.name, error) from None
 

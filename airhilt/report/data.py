@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError, RunFolderError
-from airhilt.geodesy.relative_motion import relative
+from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, RunFolder, RunInfo, read_log
 from airhilt.report.events import MOST_EVENTS, Events
@@ -367,7 +367,7 @@ def _separations(tracks: dict[str, Track], pair: Iterable[str] | None) -> Json |
     return {
         "t": [seconds(own.t_ns) for own, _ in both],
         "horizontal_nm": [
-            round(relative(own, other).distance_m / NAUTICAL_MILE, 4) for own, other in both
+            round(horizontal_distance_m(own, other) / NAUTICAL_MILE, 4) for own, other in both
         ],
         "vertical_ft": [
             round(abs(own.altitude_m - other.altitude_m) / FOOT, 1) for own, other in both

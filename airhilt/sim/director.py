@@ -95,7 +95,8 @@ class Director:
 
         def tick() -> None:
             action()
-            self.at(self.now_ns + period_ns, tick, priority)
+            heapq.heappush(self._heap, (self.now_ns + period_ns, priority, self._sequence, tick))
+            self._sequence += 1
 
         self.at(first_ns, tick, priority)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from airhilt.errors import WorkerError
 from airhilt.sim.director import Director, Priority
@@ -12,9 +12,11 @@ from airhilt.sim.latency import LatencySource
 from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
 
 
-@dataclass(frozen=True, slots=True)
-class StepRecord:
-    """One step for the latency log; ``finished`` is false if the run ended before the step."""
+class StepRecord(NamedTuple):
+    """One step for the latency log; ``finished`` is false if the run ended before the step.
+
+    A tuple, because every report and every step makes some.
+    """
 
     worker: str
     seq: int
@@ -145,7 +147,7 @@ class Server:
         if reply is None:
             return
         latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
-        self._in_hand = settled = replace(step, latency_ns=latency_ns)
+        self._in_hand = settled = step._replace(latency_ns=latency_ns)
         self._director.at(
             step.t_start_ns + latency_ns, lambda: self._finish(reply, settled), Priority.RESULT
         )
@@ -168,8 +170,7 @@ class Server:
         if self.is_lost:
             return
         now_ns = self._director.now_ns
-        done = replace(
-            step,
+        done = step._replace(
             compute_s=reply.compute_s,
             outputs=len(reply.outputs),
             wake_ns=reply.wake_ns,

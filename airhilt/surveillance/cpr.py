@@ -13,6 +13,8 @@ from typing import NamedTuple
 BITS = 2**17
 LATITUDE_ZONES = 15
 """Number of latitude zones between the equator and a pole, NZ in the standard."""
+_ZONE_TERM = 1.0 - math.cos(math.pi / (2 * LATITUDE_ZONES))
+"""Numerator of the standard's formula for NL."""
 
 
 class CprPosition(NamedTuple):
@@ -37,15 +39,18 @@ def longitude_zones(latitude_deg: float) -> int:
     """Return the number of longitude zones at a latitude, NL in the standard (A.1.7.2 d)."""
     if abs(latitude_deg) >= 87.0:
         return 1 if abs(latitude_deg) > 87.0 else 2
-    a = 1.0 - math.cos(math.pi / (2 * LATITUDE_ZONES))
     b = math.cos(math.radians(abs(latitude_deg))) ** 2
-    return math.floor(2.0 * math.pi / math.acos(1.0 - a / b))
+    return math.floor(2.0 * math.pi / math.acos(1.0 - _ZONE_TERM / b))
 
 
-def _zone_sizes(latitude_deg: float, odd: bool, span_deg: float) -> tuple[float, float]:
-    """Return the size in degrees of a latitude zone, and of a longitude zone at a latitude."""
-    zones = max(longitude_zones(latitude_deg) - int(odd), 1)
-    return span_deg / (4 * LATITUDE_ZONES - int(odd)), span_deg / zones
+def _latitude_zone_deg(odd: bool, span_deg: float) -> float:
+    """Return the size of a latitude zone in degrees."""
+    return span_deg / (4 * LATITUDE_ZONES - int(odd))
+
+
+def _longitude_zone_deg(latitude_deg: float, odd: bool, span_deg: float) -> float:
+    """Return the size of a longitude zone at a latitude in degrees."""
+    return span_deg / max(longitude_zones(latitude_deg) - int(odd), 1)
 
 
 def encode(
@@ -57,11 +62,11 @@ def encode(
     quarter the size.
     """
     span_deg = _span_deg(surface)
-    d_lat, _ = _zone_sizes(latitude_deg, odd, span_deg)
+    d_lat = _latitude_zone_deg(odd, span_deg)
     zone = math.floor(latitude_deg / d_lat)
     yz = math.floor(BITS * (latitude_deg / d_lat - zone) + 0.5)
     rounded_lat = d_lat * (yz / BITS + zone)
-    _, d_lon = _zone_sizes(rounded_lat, odd, span_deg)
+    d_lon = _longitude_zone_deg(rounded_lat, odd, span_deg)
     xz = math.floor(BITS * (longitude_deg % d_lon) / d_lon + 0.5)
     return CprPosition(yz % BITS, xz % BITS, odd, surface)
 
@@ -73,9 +78,9 @@ def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple
     (A.1.7).
     """
     span_deg, odd = position.span_deg, position.odd
-    d_lat, _ = _zone_sizes(0.0, odd, span_deg)
+    d_lat = _latitude_zone_deg(odd, span_deg)
     latitude = _near(position.latitude / BITS, d_lat, reference[0])
-    _, d_lon = _zone_sizes(latitude, odd, span_deg)
+    d_lon = _longitude_zone_deg(latitude, odd, span_deg)
     return latitude, _wrap(_near(position.longitude / BITS, d_lon, reference[1]))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from airhilt.geodesy.relative_motion import Kinematics, relative
+from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.messages import AdsbReport
 from airhilt.surveillance import cpr
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
@@ -107,7 +107,7 @@ class Receiver:
 
     def in_view(self, state: Kinematics) -> bool:
         """Return whether a sender is above the radio horizon and in range."""
-        distance = relative(self.site, state).distance_m
+        distance = horizontal_distance_m(self.site, state)
         return distance <= min(self.range_m, self._horizon_m(state.altitude_m))
 
     def _horizon_m(self, altitude_m: float) -> float:

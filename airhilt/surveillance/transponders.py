@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from airhilt.geodesy.relative_motion import Kinematics, relative
+from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import EmitterCategory
 from airhilt.surveillance import cpr
@@ -85,7 +85,7 @@ class SurfaceRate:
     def is_stationary(self, state: Kinematics, t_ns: int) -> bool:
         """Return whether the low rate applies; call it at least once a second."""
         anchor = self._anchor
-        if anchor is None or relative(anchor, state).distance_m > STATIONARY_WITHIN_M:
+        if anchor is None or horizontal_distance_m(anchor, state) > STATIONARY_WITHIN_M:
             self._anchor, self._since_ns = state, t_ns
         return t_ns - self._since_ns >= STATIONARY_AFTER_NS
 

@@ -23,8 +23,9 @@ needs_full = pytest.mark.skipif(not FULL.exists(), reason="needs /dev/full")
 @needs_full
 def test_a_full_disk_is_named_by_the_latency_log() -> None:
     log = LatencyLog(FULL)
+    log.step(StepRecord("w", 0, 0, 0, 0, 0.0, 0))
     with pytest.raises(RunFolderError, match=r"No space left.*make room"):
-        log.step(StepRecord("w", 0, 0, 0, 0, 0.0, 0))
+        log.flush()
     with pytest.raises(RunFolderError):
         log.close()
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from airhilt.geodesy.wgs84 import distance_m
+from airhilt.geodesy.wgs84 import Place, are_within_m
 from airhilt.messages import AdsbReport
 from airhilt.surveillance.squitters import NACP_95_PERCENT_M
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
@@ -76,7 +76,7 @@ def is_possible(one: AdsbReport, other: AdsbReport) -> bool:
     on_ground = one.on_ground and other.on_ground
     fastest_m_s = FASTEST_ON_GROUND_M_S if on_ground else FASTEST_M_S
     room_m = PLACE_ROOM_M + NACP_95_PERCENT_M[one.nacp] + NACP_95_PERCENT_M[other.nacp]
-    if _apart_m(one, other) > room_m + fastest_m_s * apart_s:
+    if not are_within_m(room_m + fastest_m_s * apart_s, _place(one), _place(other)):
         return False
     if one.altitude_ft is None or other.altitude_ft is None:
         return True
@@ -84,11 +84,8 @@ def is_possible(one: AdsbReport, other: AdsbReport) -> bool:
     return climbed_m <= ALTITUDE_ROOM_M + STEEPEST_M_S * apart_s
 
 
-def _apart_m(one: AdsbReport, other: AdsbReport) -> float:
-    return distance_m(
-        (one.latitude_deg * DEGREE, one.longitude_deg * DEGREE),
-        (other.latitude_deg * DEGREE, other.longitude_deg * DEGREE),
-    )
+def _place(report: AdsbReport) -> Place:
+    return report.latitude_deg * DEGREE, report.longitude_deg * DEGREE
 
 
 def _names(*reports: AdsbReport) -> tuple[str, ...]:

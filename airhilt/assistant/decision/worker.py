@@ -104,6 +104,8 @@ class DecisionWorker:
         self._models: dict[str, TypeAdapter[Message]] = {
             key: TypeAdapter(model) for key, model in (read | gating).items()
         }
+        self._patterns: dict[str, str] = {}
+        """Pattern in `_models` of each key that has been seen."""
         self.description = WorkerDescription(
             name=name,
             modality="decision",
@@ -150,7 +152,10 @@ class DecisionWorker:
 
     def _give(self, t_ns: int, item: Input) -> None:
         """Give one input to the gate and to the engine, as far as they read it."""
-        pattern = next(pattern for pattern in self._models if is_match(item.key, pattern))
+        pattern = self._patterns.get(item.key)
+        if pattern is None:
+            pattern = next(pattern for pattern in self._models if is_match(item.key, pattern))
+            self._patterns[item.key] = pattern
         message = _parse(item, self._models[pattern])
         if isinstance(message, CALLS) and message.id.startswith(ADVISORY_CALL):
             return  # It knows what it has said itself.

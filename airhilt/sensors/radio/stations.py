@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from airhilt.geodesy.relative_motion import Kinematics, relative
+from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.scenario.models import RadioLine
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
@@ -95,7 +95,7 @@ class Stations:
             return False
         if one is other:
             return True
-        return relative(one, other).distance_m <= radio_horizon_m(
+        return horizontal_distance_m(one, other) <= radio_horizon_m(
             self._height_m(one), self._height_m(other)
         )
 

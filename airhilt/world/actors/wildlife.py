@@ -8,7 +8,7 @@ from typing import Literal
 
 from airhilt.commands import Command
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.relative_motion import relative
+from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, Recommendation
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.world.actors.actor import Actor, Reaction, Unable
@@ -74,6 +74,6 @@ class Animal:
                 continue
             if abs(state.altitude_m - own.altitude_m) > within_m:
                 continue
-            if relative(own, state).distance_m < within_m:
+            if horizontal_distance_m(own, state) < within_m:
                 self.body.startle((state.latitude_rad, state.longitude_rad))
                 return

@@ -287,7 +287,8 @@ class Airframe:
 
     def on_ground(self) -> bool:
         """Return whether a main wheel carries weight."""
-        return any(weight() for weight in self._main_wheels_on_ground)
+        left, right = self._main_wheels_on_ground
+        return left() > 0.0 or right() > 0.0
 
     def nose_on_ground(self) -> bool:
         """Return whether the nose wheel carries weight."""

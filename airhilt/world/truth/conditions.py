@@ -71,7 +71,7 @@ class ConditionCompiler:
                 return self._passed(pair, for_s)
             case DistanceBelow(actors=pair, distance_m=distance_m):
                 return self._of_flying(
-                    pair, lambda: self._monitor.motion(pair)[0].distance_m < distance_m
+                    pair, lambda: self._monitor.motion(pair).distance_m < distance_m
                 )
             case Collided(actors=pair):
                 return lambda _: self._monitor.collided(pair)
@@ -134,9 +134,8 @@ class ConditionCompiler:
         vertical_m = condition.vertical_ft * FOOT
 
         def below() -> bool:
-            motion, first, second = self._monitor.motion(pair)
-            gap = abs(first.altitude_m - second.altitude_m)
-            return gap < vertical_m and motion.distance_m < horizontal_m
+            is_level = self._monitor.vertical_m(pair) < vertical_m
+            return is_level and self._monitor.motion(pair).distance_m < horizontal_m
 
         return self._of_flying(pair, below)
 
@@ -145,8 +144,7 @@ class ConditionCompiler:
 
         def passed(now_ns: int) -> bool:
             nonlocal diverging_since_ns
-            motion, _, _ = self._monitor.motion(pair)
-            if motion.time_to_closest_approach_s() >= 0.0:
+            if self._monitor.motion(pair).time_to_closest_approach_s() >= 0.0:
                 diverging_since_ns = None
                 return False
             if diverging_since_ns is None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import NamedTuple
 
 from airhilt.geodesy.relative_motion import (
@@ -13,6 +13,7 @@ from airhilt.geodesy.relative_motion import (
     Minima,
     Relative,
     VerticalProfile,
+    horizontal_distance_m,
     relative,
     time_to_loss_s,
 )
@@ -44,8 +45,6 @@ TCAS_HEIGHT_M = 3_000.0
 
 
 Pair = tuple[str, str]
-Motion = tuple[Relative, VerticalProfile, VerticalProfile]
-"""Motion of the second of a pair relative to the first, and the vertical profiles of both."""
 
 
 class Approach(NamedTuple):
@@ -139,7 +138,7 @@ class ConflictMonitor:
         self._transponders = transponders
         self._always = always
         self._became_true = became_true
-        self._motions: dict[Pair, tuple[Kinematics, Kinematics, Motion]] = {}
+        self._motions: dict[Pair, tuple[Kinematics, Kinematics, Relative]] = {}
         self._near: list[Pair] = []
         self._selected_ns = -SECOND_NS
 
@@ -151,16 +150,22 @@ class ConflictMonitor:
         for pair in self._near:
             self._watch(now_ns, pair, self._tick_s)
 
-    def motion(self, pair: Pair) -> Motion:
-        """Return the motion of the second of a pair relative to the first, and both profiles."""
-        first, second = self._bodies[pair[0]], self._bodies[pair[1]]
+    def motion(self, pair: Pair) -> Relative:
+        """Return the motion of the second of a pair relative to the first."""
+        first, second = self._bodies[pair[0]].state, self._bodies[pair[1]].state
         known = self._motions.get(pair)
-        if known is None or known[0] is not first.state or known[1] is not second.state:
-            motion = relative(first.state, second.state)
-            profiles = self._profile(pair[0]), self._profile(pair[1])
-            known = (first.state, second.state, (motion, *profiles))
-            self._motions[pair] = known
+        if known is None or known[0] is not first or known[1] is not second:
+            known = self._motions[pair] = (first, second, relative(first, second))
         return known[2]
+
+    def profiles(self, pair: Pair) -> tuple[VerticalProfile, VerticalProfile]:
+        """Return the vertical profiles of a pair."""
+        return self._profile(pair[0]), self._profile(pair[1])
+
+    def vertical_m(self, pair: Pair) -> float:
+        """Return the vertical distance of a pair, in m."""
+        first, second = self._bodies[pair[0]].state, self._bodies[pair[1]].state
+        return abs(first.altitude_m - second.altitude_m)
 
     def _profile(self, callsign: str) -> VerticalProfile:
         aircraft = self._aircraft.get(callsign)
@@ -174,7 +179,7 @@ class ConflictMonitor:
 
     def time_to_loss_s(self, pair: Pair) -> float | None:
         """Return the time in s until the pair loses separation, if both fly on as they do."""
-        return time_to_loss_s(*self.motion(pair), self._minima)
+        return time_to_loss_s(self.motion(pair), *self.profiles(pair), self._minima)
 
     def flying(self, pair: Pair) -> bool:
         """Return whether neither of a pair has ended."""
@@ -202,10 +207,13 @@ class ConflictMonitor:
         reach_m = self._minima.horizontal_m + 2_000.0
         height_m = self._minima.vertical_m + 300.0
         far_m, far_up_m = max(reach_m, TCAS_RANGE_M), max(height_m, TCAS_HEIGHT_M)
-        moving = [(name, body) for name, body in self._bodies.items() if body.ended is None]
+        moving = [
+            (name, body, body.state, self._in_flight(name))
+            for name, body in self._bodies.items()
+            if body.ended is None
+        ]
         self._near = []
-        for (name, own), (other, its) in itertools.combinations(moving, 2):
-            first, second = own.state, its.state
+        for (name, own, first, flies), (other, its, second, too) in combinations(moving, 2):
             height = abs(first.altitude_m - second.altitude_m)
             apart = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
             pair = (name, other)
@@ -213,7 +221,7 @@ class ConflictMonitor:
                 continue
             motion = relative(first, second)
             distance = motion.distance_m
-            if self._in_flight(name) and self._in_flight(other):
+            if flies and too:
                 near = distance < reach_m and height < height_m
                 if (
                     distance < TCAS_RANGE_M
@@ -250,7 +258,7 @@ class ConflictMonitor:
         if first.ended is not None or second.ended is not None:
             return
         truth = self.pairs.setdefault(pair, PairTruth())
-        motion = relative(first.state, second.state)
+        motion = self.motion(pair)
         back_s = min(max(motion.time_to_closest_approach_s(), -elapsed_s), 0.0)
         near = self._approach(now_ns, pair, motion, back_s)
         truth.closest = _nearer(truth.closest, near)
@@ -299,7 +307,7 @@ class ConflictMonitor:
             return False
         if body.state.altitude_m - self._ground_m > ZONE_HEIGHT_M:
             return False
-        return relative(self._zone, body.state).distance_m < ZONE_RADIUS_M
+        return horizontal_distance_m(self._zone, body.state) < ZONE_RADIUS_M
 
     def _record(
         self, phase: ConflictPhase, now_ns: int, pair: Pair, horizontal: float, vertical: float

@@ -183,8 +183,8 @@ def test_the_closest_approach_is_no_farther_than_the_pair_was_at_any_tick(
     )  # fmt: skip
     nearest = math.inf
     for _ in watch.ticks(20.0):
-        motion, first, second = watch.monitor.motion(("A", "B"))
-        nearest = min(nearest, math.hypot(motion.distance_m, second.altitude_m - first.altitude_m))
+        horizontal_m = watch.monitor.motion(("A", "B")).distance_m
+        nearest = min(nearest, math.hypot(horizontal_m, watch.monitor.vertical_m(("A", "B"))))
     closest = watch.truth.closest
     vertically_m = abs(rate_fpm) * FOOT_PER_MINUTE * watch.tick_s
     assert closest.slant_m <= nearest + vertically_m + 1e-6
