@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.assistant.vision.detector import Detector, Picture, PictureMissed, Shot
+from airhilt.assistant.vision.detector import Detector, Found, Picture, PictureMissed, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.errors import VisionError, first_problem
@@ -30,6 +31,13 @@ MOST_OF_OWN_AIRCRAFT = 0.6
 """Share of a box that the camera's own aircraft may cover; a box that it covers more is dropped."""
 
 
+class _LastLook(NamedTuple):
+    """The last picture of a camera that was looked at, by its SHA-256, and what is in it."""
+
+    sha256: str
+    found: Sequence[Found]
+
+
 class VisionWorker:
     """Gives each picture to a detector, follows what it finds, and publishes it.
 
@@ -44,6 +52,7 @@ class VisionWorker:
         self._infos: dict[str, CameraInfo] = {}
         self._masks: dict[str, Mask] = {}
         self._trackers: dict[str, Tracker] = {}
+        self._last: dict[str, _LastLook] = {}
         self.description = WorkerDescription(
             name=name,
             modality="vision",
@@ -104,9 +113,8 @@ class VisionWorker:
             return seen.model_copy(update={"missed": EXPOSURE_LEFT_OUT})
         picture = picture_of(header, item.payload, self._infos.get(header.camera))
         mask = self._masks.get(header.camera)
-        shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
         try:
-            found = self._gate.look(shot, picture)
+            found = self._found(header, picture, mask)
         except PictureMissed as missed:
             return seen.model_copy(update={"missed": str(missed)})
         if mask is not None:
@@ -123,6 +131,15 @@ class VisionWorker:
             for one in tracker.follow(header.t_frame_ns, header.view, found)
         )
         return seen.model_copy(update={"detections": detections})
+
+    def _found(self, header: CameraFrame, picture: Picture, mask: Mask | None) -> Sequence[Found]:
+        """Return what is in a picture; the same pixels again have the same in them."""
+        last = self._last.get(header.camera)
+        if last is None or last.sha256 != header.sha256:
+            shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
+            last = _LastLook(header.sha256, self._gate.look(shot, picture))
+            self._last[header.camera] = last
+        return last.found
 
 
 def header_of(item: Input) -> CameraFrame:

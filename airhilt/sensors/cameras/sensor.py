@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Literal, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -89,6 +89,13 @@ class Exposures:
         return (self.end_ns(seq) - self.phase_ns) // SECOND_NS
 
 
+class _Pixels(NamedTuple):
+    """The pixels of a camera's last picture, and their SHA-256."""
+
+    pixels: bytes
+    sha256: str
+
+
 class CameraSensor:
     """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
 
@@ -139,7 +146,7 @@ class CameraSensor:
         """Number of exposures that are over, by camera."""
         self._sparse = set(self._cameras) if is_adaptive else set()
         """Cameras that expose once a second."""
-        self._sha256: dict[str, str] = {}
+        self._last: dict[str, _Pixels] = {}
 
     def start(self) -> None:
         """Publish what never changes about each camera, and schedule the first exposures."""
@@ -216,9 +223,9 @@ class CameraSensor:
 
     def _publish_frame(self, frame: Frame) -> None:
         now_ns, name = self._director.now_ns, frame.camera
-        pixels = frame.colour.tobytes()
-        if not frame.unchanged or name not in self._sha256:
-            self._sha256[name] = hashlib.sha256(pixels).hexdigest()
+        if not frame.unchanged or name not in self._last:
+            pixels = frame.colour.tobytes()
+            self._last[name] = _Pixels(pixels, hashlib.sha256(pixels).hexdigest())
         truth = CameraTruth(
             t_ns=now_ns,
             camera=name,
@@ -227,7 +234,8 @@ class CameraSensor:
             sightings=tuple(SightingTruth(**asdict(each)) for each in frame.sightings),
         )
         self._publish(f"truth/camera/{name}", truth)
-        header = self._header(name, frame.view, "rgb8", self._sha256[name])
+        pixels, digest = self._last[name]
+        header = self._header(name, frame.view, "rgb8", digest)
         self._publish(f"camera/{name}/frame", header, raw=pixels)
 
     def _publish_left_out(self, name: str, view: View) -> None:
