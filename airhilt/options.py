@@ -229,6 +229,15 @@ class Options(BaseModel):
             needs=("cameras",),
         ),
     ] = "full"
+    share_pictures: Annotated[
+        bool,
+        Flag(
+            "--share-pictures",
+            "Take over from other runs, and keep for them, what is costly about the same pictures: "
+            "rays and detections. For sweeps, with latencies that are not measured.",
+            needs=("cameras",),
+        ),
+    ] = False
     detector: Annotated[
         str,
         Flag(

@@ -42,6 +42,8 @@ class Engines(NamedTuple):
     llm: LanguageModelSettings | None = None
     configuration: Mapping[str, Any] | None = None
     """Configuration of the decision engine; None: its own defaults."""
+    shares_detections: bool = False
+    """Detections of the same pictures are shared with other runs."""
 
 
 class RadioSetup(Protocol):
@@ -79,7 +81,7 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
-    asr, tts, detector, wording, llm, configuration = engines
+    asr, tts, detector, wording, llm, configuration, shares_detections = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
         workers.append(reference_worker("asr", asr))
     deciding: list[Worker] = []
@@ -101,7 +103,10 @@ def reference_workers(
         voice = reference_worker("tts", tts, style=radio.phraseology, speak_min_level=level)
         workers.append(voice)
     if detector is not None and "vision" not in taken and is_assisted:
-        workers.append(reference_worker("vision", detector, also=(NO_DETECTOR,)))
+        vision = reference_worker(
+            "vision", detector, also=(NO_DETECTOR,), shares_detections=shares_detections
+        )
+        workers.append(vision)
     return workers + deciding
 
 
@@ -231,6 +236,7 @@ def reference_worker(
     also: Sequence[str] = (),
     configuration: Mapping[str, Any] | None = None,
     speak_min_level: Severity = SPEAK_MIN_LEVEL,
+    shares_detections: bool = False,
 ) -> Worker:
     """Return one worker with its default settings.
 
@@ -248,6 +254,8 @@ def reference_worker(
         Values of the configuration of a decision engine; None: the defaults.
     speak_min_level
         Least severity that ``tts`` speaks.
+    shares_detections
+        True if ``vision`` shares the detections of the same pictures with other runs.
 
     Raises
     ------
@@ -273,11 +281,11 @@ def reference_worker(
             )
         case "vision":
             from airhilt.assistant.vision.detectors import vision_engine
+            from airhilt.assistant.vision.shared_detections import shared
             from airhilt.assistant.vision.worker import VisionWorker
 
-            return VisionWorker(
-                vision_engine(DETECTOR if engine is None else engine, also), name or kind
-            )
+            detector = vision_engine(DETECTOR if engine is None else engine, also)
+            return VisionWorker(shared(detector) if shares_detections else detector, name or kind)
         case "decision":
             return decision_worker(
                 ASSISTANT if engine is None else engine,

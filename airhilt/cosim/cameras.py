@@ -217,9 +217,7 @@ def open_vision(
     with ExitStack() as stack:
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
-                process = stack.enter_context(
-                    _open_renderer_process(setup.scenario, options.renderer, link)
-                )
+                process = stack.enter_context(_open_renderer_process(setup.scenario, options, link))
             except RendererError as error:
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
@@ -244,12 +242,14 @@ def _start_renderer() -> RendererLink:
 
 
 def _open_renderer_process(
-    scenario: Scenario, renderer: str, link: RendererLink | None
+    scenario: Scenario, options: Options, link: RendererLink | None
 ) -> RendererProcess:
     # Not at the top: a run without cameras starts without the libraries behind them.
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
-    return RendererProcess(scenario, renderer=renderer, link=link)
+    return RendererProcess(
+        scenario, renderer=options.renderer, link=link, shares_rays=options.share_pictures
+    )
 
 
 def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:

@@ -198,6 +198,7 @@ def _engines(options: Options, scenario: Scenario) -> Engines:
         wording=options.wording,
         llm=_language_model(options),
         configuration=options.assistant_config,
+        shares_detections=options.share_pictures,
     )
 
 

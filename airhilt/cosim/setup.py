@@ -123,6 +123,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     )
     scenario = with_requested_equipment(scenario, options.equipment)
     latency = recorded.latency or _latency(options.latency, given, options.seed)
+    _require_not_measured(options, latency)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{given.name}-{options.seed}"
     folder = RunFolder(options.out or _default_folder(name))
@@ -177,6 +178,14 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
         raise AirhiltError(
             f"--video: there are no cameras in this run of {scenario.name!r}; expected a "
             "scenario with cameras, and no --no-cameras"
+        )
+
+
+def _require_not_measured(options: Options, latency: LatencySpec) -> None:
+    if options.share_pictures and latency.of("vision").kind == "measured":
+        raise AirhiltError(
+            f"--share-pictures: with --latency {latency.text} a detection would be as late as a "
+            "cache is fast; expected a latency of vision that is not measured, such as fixed"
         )
 
 

@@ -43,6 +43,8 @@ class RendererProcess:
         all that the cameras see, sample by sample, is added.
     link
         A process that has been started before; it is closed with this one.
+    shares_rays
+        True if other runs may have the same views from moving cameras.
 
     Attributes
     ----------
@@ -70,6 +72,7 @@ class RendererProcess:
         supersampling: int = 1,
         patience_s: float = PATIENCE_S,
         link: RendererLink | None = None,
+        shares_rays: bool = False,
     ) -> None:
         self.renderer = renderer
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
@@ -87,6 +90,7 @@ class RendererProcess:
                     "cameras": wanted,
                     "renderer": renderer,
                     "supersampling": supersampling,
+                    "shares_rays": shares_rays,
                 },
                 STARTING_S + drawing_s,
             )

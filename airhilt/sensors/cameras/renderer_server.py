@@ -50,6 +50,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
             opening["renderer"],
             opening["supersampling"],
             keeps_backgrounds=True,
+            shares_rays=opening["shares_rays"],
         )
     except AirhiltError as error:
         answer(_failure(error))

@@ -111,6 +111,8 @@ class SceneRenderer:
         Samples along each side of a pixel, at least.
     keeps_backgrounds
         True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
+    shares_rays
+        True if other runs may have the same views from moving cameras.
 
     Attributes
     ----------
@@ -135,6 +137,7 @@ class SceneRenderer:
         rain_mm_h: float = 0.0,
         supersampling: int = 1,
         keeps_backgrounds: bool = False,
+        shares_rays: bool = False,
     ) -> None:
         self._light = light
         self._models = dict(models)
@@ -159,7 +162,9 @@ class SceneRenderer:
             for model in self._models.values()
             for name, mesh in model.far.items()
         }
-        self.renderer, self._renderer = open_renderer(renderer, landscape.mesh, shapes | far, light)
+        self.renderer, self._renderer = open_renderer(
+            renderer, landscape.mesh, shapes | far, light, shares_rays
+        )
         self._far = frozenset(far)
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)

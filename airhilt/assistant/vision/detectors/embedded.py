@@ -22,6 +22,7 @@ from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
+from airhilt.files import sha256
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 from airhilt.onnx import open_network
@@ -125,6 +126,9 @@ class EmbeddedDetector:
         self._threshold = DOUBTFUL * card.threshold if threshold is None else threshold
         if not 0.0 <= self._threshold <= 1.0:
             raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
+        self._files = [file, file.with_name(CARD)]
+        if card.refiner is not None:
+            self._files.append(file.with_name(card.refiner.file))
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject)
@@ -133,6 +137,12 @@ class EmbeddedDetector:
             if card.refiner is None
             else Refiner(card.refiner, file.parent, card.classes, threads)
         )
+
+    @property
+    def identity(self) -> Sequence[str]:
+        """SHA-256 of the files, the threshold, and the version of the library."""
+        library = f"onnxruntime {onnxruntime.__version__}"
+        return (*(sha256(file) for file in self._files), repr(self._threshold), library)
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import Pose, View, Window
 from airhilt.sensors.cameras.raycasting import RayScene, SceneBuilder
+from airhilt.sensors.cameras.raycasting.shared_rays import Pieces, SharedRays
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import (
     LEVELS,
@@ -29,8 +30,6 @@ from airhilt.shapes.mesh import Floats, Mesh
 
 Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
-Pieces = npt.NDArray[np.intp]
-"""Numbers of pieces."""
 RAISED_M = 0.5
 """Height above the ground, in m: what reaches higher may stand before the sky."""
 LEAST_RADIUS_M, SQUARES = 4.0, 8.0
@@ -70,6 +69,8 @@ class RayRenderer:
         self._build = build
         self._light = light
         self._landscape = build(landscape.corners)
+        self._corners = landscape.corners
+        self._shared_rays: SharedRays | None = None
         self._piece_of, self._normals, self._heights, colours = _pieces(landscape, light)
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
@@ -80,6 +81,16 @@ class RayRenderer:
         """Keep the shape of a body, to draw it by this name."""
         self._bodies[name] = _Body(self._build(mesh.corners), mesh.normals, mesh.colours, mesh.glow)
 
+    def share_rays(self, library: str) -> None:
+        """Share with other processes what rays of moving cameras meet.
+
+        Parameters
+        ----------
+        library
+            Library that casts the rays, with its version.
+        """
+        self._shared_rays = SharedRays(library, self._corners, self._piece_of)
+
     def close(self) -> None:
         """Release the shapes."""
         self._bodies.clear()
@@ -87,7 +98,9 @@ class RayRenderer:
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the landscape behind all bodies, with the sky and the air."""
         x, y = _on_focal_plane(view, *view.sample_places(window, samples))
-        if samples == 1:
+        if samples == 1 and self._shared_rays is not None:
+            pieces = self._shared_rays.get(view, window, lambda: self._adaptively(view, x, y))
+        elif samples == 1:
             pieces = self._adaptively(view, x, y)
         else:
             pieces = self._pieces_at(view, *np.broadcast_arrays(x, y))

@@ -1,0 +1,66 @@
+"""Rays that runs share: what moving cameras meet of the landscape, kept by view and landscape."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+import zlib
+from collections.abc import Callable
+from dataclasses import astuple
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+import airhilt.imaging
+import airhilt.sensors.cameras
+from airhilt.caches import CacheFolder
+from airhilt.files import source_sha256
+from airhilt.imaging.view import View, Window
+from airhilt.shapes.mesh import Floats
+
+Pieces = npt.NDArray[np.intp]
+"""Numbers of pieces of the landscape."""
+COMPRESSION = 1
+"""Level of zlib: a window of 640 by 360 pixels takes some 10 kB."""
+
+
+class SharedRays:
+    """What rays meet of one landscape.
+
+    Parameters
+    ----------
+    library
+        Library that casts the rays, with its version.
+    corners
+        Corners of the triangles, shape (n, 3, 3).
+    piece_of
+        Piece of each triangle.
+    """
+
+    def __init__(self, library: str, corners: Floats, piece_of: Pieces) -> None:
+        self._folder = CacheFolder("rays")
+        digest = hashlib.sha256(np.ascontiguousarray(corners).data)
+        digest.update(np.ascontiguousarray(piece_of).data)
+        self._scene = [
+            _code(), library, np.__version__, platform.machine(), digest.hexdigest(),
+        ]  # fmt: skip
+        self._type = np.min_scalar_type(int(piece_of.max(initial=0)))
+
+    def get(self, view: View, window: Window, cast: Callable[[], Pieces]) -> Pieces:
+        """Return the piece that each pixel of a window shows, found by rays if nobody has yet."""
+        lens, pose = view.intrinsics, view.pose
+        camera = [*astuple(lens), *pose.position_m, *pose.rotation.ravel().tolist()]
+        key = json.dumps([*self._scene, camera, astuple(window)])
+        packed = self._folder.get(key, lambda: self._packed(cast()))
+        pieces = np.frombuffer(zlib.decompress(packed), self._type)
+        return pieces.reshape(window.height, window.width).astype(np.intp)
+
+    def _packed(self, pieces: Pieces) -> bytes:
+        return zlib.compress(pieces.astype(self._type).tobytes(), COMPRESSION)
+
+
+def _code() -> str:
+    packages = (airhilt.imaging, airhilt.sensors.cameras)
+    return source_sha256(*(Path(place) for package in packages for place in package.__path__))
