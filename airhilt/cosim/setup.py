@@ -184,7 +184,7 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
 def _require_not_measured(options: Options, latency: LatencySpec) -> None:
     if options.share_pictures and latency.of("vision").kind == "measured":
         raise AirhiltError(
-            f"--share-pictures: with --latency {latency.text} a detection would be as late as a "
+            f"--share-pictures: with --latency {options.latency} a detection would be as late as a "
             "cache is fast; expected a latency of vision that is not measured, such as fixed"
         )
 

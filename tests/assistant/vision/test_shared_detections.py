@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from airhilt.assistant.vision import shared_detections
 from airhilt.assistant.vision.detector import Detector, Found, Picture, Shot
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.shared_detections import SharedDetector, shared
 from airhilt.assistant.vision.tiling import Tile
+from airhilt.caches import cache_folder
 from pictures import BlobDetector, background, with_blobs
 
 
@@ -72,8 +72,7 @@ def test_other_pixels_parts_and_detectors_have_answers_of_their_own(
 
 
 def entries() -> int:
-    folder = shared_detections.CacheFolder("detections")._folder
-    return len(list(folder.iterdir()))
+    return len(list((cache_folder() / "detections").iterdir()))
 
 
 def test_a_damaged_answer_is_asked_for_again(cache: Path) -> None:
