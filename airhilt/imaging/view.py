@@ -163,6 +163,18 @@ class View:
         offset = np.asarray(points, dtype=np.float64) - np.asarray(self.pose.position_m)
         return np.asarray(offset @ self.axes)
 
+    def may_show(self, centre_m: npt.ArrayLike, radius_m: float) -> bool:
+        """Return false if a sphere is behind the camera, or on one side of the picture."""
+        lens = self.intrinsics
+        x, y, z = self.in_camera(centre_m).tolist()
+        if z + radius_m < NEAR_M:
+            return False
+        for across, side_px in ((abs(x), lens.width_px), (abs(y), lens.height_px)):
+            slope = side_px / (2.0 * lens.focal_px)
+            if across - z * slope > radius_m * math.hypot(1.0, slope):
+                return False
+        return True
+
     def pixels(self, in_camera: Matrix) -> Matrix:
         """Return where points before the camera, in its axes, are in the picture."""
         lens = self.intrinsics

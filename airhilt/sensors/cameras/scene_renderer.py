@@ -358,7 +358,8 @@ class SceneRenderer:
     def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
         """Return a body if it is in the picture, hidden or not."""
         shape = self._shape(body)
-        whole = self._outlines[shape].box(pose, view)
+        outline = self._outlines[shape]
+        whole = outline.box(pose, view) if outline.may_be_in(view, pose) else None
         if whole is None:
             return None
         box = whole.within(view)
@@ -405,7 +406,10 @@ class SceneRenderer:
         ):
             return None
         shape = self._shape(body)
-        whole = self._outlines[shape].shadow_box(pose, view, light.sun)
+        outline = self._outlines[shape]
+        if not outline.shadow_may_be_in(view, pose, light.sun):
+            return None
+        whole = outline.shadow_box(pose, view, light.sun)
         if whole is None:
             return None
         box = whole.within(view)

@@ -12,6 +12,9 @@ import numpy.typing as npt
 from airhilt.imaging.view import NEAR_M, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
+ROUNDING_M = 0.01
+"""Margin of the sphere about a body, in m."""
+
 
 class Box(NamedTuple):
     """A rectangle in a picture, in pixels."""
@@ -50,10 +53,17 @@ class Box(NamedTuple):
 
 @dataclass(frozen=True)
 class Outline:
-    """The corners and edges of a mesh."""
+    """The corners and edges of a mesh.
+
+    Attributes
+    ----------
+    radius_m
+        Radius of a sphere about the origin that holds all of it.
+    """
 
     points: npt.NDArray[np.float64]
     edges: npt.NDArray[np.int64]
+    radius_m: float
 
     @classmethod
     def of(cls, mesh: Mesh) -> Outline:
@@ -61,7 +71,19 @@ class Outline:
         points, number = np.unique(mesh.corners.reshape(-1, 3), axis=0, return_inverse=True)
         faces = number.reshape(-1, 3)
         edges = np.sort(np.vstack((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
-        return cls(points.astype(np.float64), np.unique(edges, axis=0))
+        points = points.astype(np.float64)
+        radius = float(np.linalg.norm(points, axis=1).max(initial=0.0)) + ROUNDING_M
+        return cls(points, np.unique(edges, axis=0), radius)
+
+    def may_be_in(self, view: View, pose: Pose) -> bool:
+        """Return false if no part of the body can be in the picture."""
+        return view.may_show(pose.position_m, self.radius_m)
+
+    def shadow_may_be_in(self, view: View, pose: Pose, sun: npt.NDArray[np.float64]) -> bool:
+        """Return false if no part of the body's shadow on flat ground can be in the picture."""
+        centre = np.asarray(pose.position_m)
+        on_ground = centre - sun * (max(float(centre[2]), 0.0) / sun[2])
+        return view.may_show(on_ground, self.radius_m * (1.0 + 1.0 / float(sun[2])))
 
     def box(self, pose: Pose, view: View) -> Box | None:
         """Return the box about the body, also outside of the picture; None behind the camera."""

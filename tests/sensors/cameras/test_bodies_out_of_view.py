@@ -1,0 +1,40 @@
+"""Bodies that a sphere about them puts out of a picture: they are projected no further."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.imaging.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.scene.projected_box import Outline
+from airhilt.shapes.aircraft import aircraft_meshes
+from airhilt.world.flight.aircraft_type import load_aircraft_type
+
+OUTLINE = Outline.of(next(iter(aircraft_meshes(load_aircraft_type("c172p"), coarse=True).values())))
+SUN = np.array((0.3, -0.5, math.sqrt(0.66)))
+angles = st.floats(-3.2, 3.2)
+metres = st.floats(-60.0, 60.0)
+poses = st.builds(Pose.of, st.tuples(metres, metres, st.floats(-3.0, 60.0)), angles, angles, angles)
+views = st.builds(
+    View, st.builds(Intrinsics, st.just(64), st.integers(16, 90), st.floats(0.05, 2.5)), poses
+)
+
+
+@settings(deadline=None, max_examples=80)
+@given(view=views, pose=poses)
+def test_a_body_that_is_left_out_has_no_box_in_the_picture(view: View, pose: Pose) -> None:
+    whole, shadow = OUTLINE.box(pose, view), OUTLINE.shadow_box(pose, view, SUN)
+    if whole is not None and whole.within(view).area > 0.0:
+        assert OUTLINE.may_be_in(view, pose)
+    if shadow is not None and shadow.within(view).area > 0.0:
+        assert OUTLINE.shadow_may_be_in(view, pose, SUN)
+
+
+def test_a_body_beside_and_behind_the_camera_is_left_out() -> None:
+    view = View(Intrinsics(640, 360, 1.0), Pose.of((0.0, 0.0, 2.0), 0.0))
+    for place in ((0.0, -50.0, 2.0), (80.0, 60.0, 2.0), (-80.0, 60.0, 2.0), (0.0, 60.0, 70.0)):
+        assert not OUTLINE.may_be_in(view, Pose.of(place, 0.3))
+    assert OUTLINE.may_be_in(view, Pose.of((0.0, 60.0, 2.0), 0.3))
