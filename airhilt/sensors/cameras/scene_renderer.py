@@ -141,12 +141,7 @@ class SceneRenderer:
     ) -> None:
         self._light = light
         self._models = dict(models)
-        if len(self._models) > MOST_ACTORS:
-            raise CameraError(
-                f"there are {len(self._models)} actors, and cameras tell at most {MOST_ACTORS} "
-                "apart; take some out of the scenario, or run it with --no-cameras"
-            )
-        self._numbers = {actor: number for number, actor in enumerate(self._models, start=1)}
+        self._numbers = _numbered(self._models)
         self._cameras = {camera.name: camera for camera in cameras}
         for camera in self._cameras.values():
             if isinstance(camera.at, Pose):
@@ -497,6 +492,23 @@ class SceneRenderer:
 
     def _shape(self, body: BodyState) -> str:
         return f"{self._models[body.actor].kind}/{body.shape}"
+
+
+def _numbered(actors: Iterable[str]) -> dict[str, int]:
+    """Return the numbers of actors in ``Frame.instance``, from 1.
+
+    Raises
+    ------
+    CameraError
+        There are more than pictures tell apart.
+    """
+    numbers = {actor: number for number, actor in enumerate(actors, start=1)}
+    if len(numbers) > MOST_ACTORS:
+        raise CameraError(
+            f"there are {len(numbers)} actors, and cameras tell at most {MOST_ACTORS} apart; take "
+            "some out of the scenario, or run it with --no-cameras"
+        )
+    return numbers
 
 
 def _samples_of(window: Window) -> int:

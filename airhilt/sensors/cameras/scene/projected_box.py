@@ -71,9 +71,8 @@ class Outline:
         points, number = np.unique(mesh.corners.reshape(-1, 3), axis=0, return_inverse=True)
         faces = number.reshape(-1, 3)
         edges = np.sort(np.vstack((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
-        points = points.astype(np.float64)
-        radius = float(np.linalg.norm(points, axis=1).max(initial=0.0)) + ROUNDING_M
-        return cls(points, np.unique(edges, axis=0), radius)
+        radius_m = float(np.linalg.norm(points, axis=1).max(initial=0.0)) + ROUNDING_M
+        return cls(points.astype(np.float64), np.unique(edges, axis=0), radius_m)
 
     def may_be_in(self, view: View, pose: Pose) -> bool:
         """Return false if no part of the body can be in the picture."""
