@@ -122,7 +122,7 @@ class Engine(Generic[T_co]):
         takes its results from the record.
     configuration
         Model of its configuration, whose fields all have defaults; None: it has none. For decision
-        engines, ``--assistant-config`` gives the values.
+        engines, ``--assistant-config`` gives the values, for clusters ``--scheduler-config``.
     """
 
     name: str
@@ -230,6 +230,23 @@ class EngineFamily(Family, Generic[T]):
         is_own = any(point.name == name for point in self.own())
         if text not in also and not is_own and name not in self.names():
             self.choose(text, also)
+
+    def configuration_model(self, name: str) -> type[BaseModel]:
+        """Return the model of the configuration of an engine.
+
+        Raises
+        ------
+        AirhiltError
+            There is no engine of that name, or it has no configuration.
+        """
+        engine, _ = self.choose(name)
+        if engine.configuration is not None:
+            return engine.configuration
+        having = [each.name for each in _loadable(self.scan()) if each.configuration is not None]
+        raise self.error(
+            f"{self.word} {name!r} has no configuration; expected one that has: "
+            f"{', '.join(sorted(having))}"
+        )
 
     def make(self, engine: Engine[T], argument: str, configuration: BaseModel | None = None) -> T:
         """Return what an engine makes of an argument, checked against the family's protocol.

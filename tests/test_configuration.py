@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.engines import configuration_model, decision_engine
+from airhilt.assistant.decision.engines import FAMILY, decision_engine
 from airhilt.assistant.decision.engines.reference import ReferenceEngine
 from airhilt.configuration import read_configuration, settings
 from airhilt.errors import AirhiltError
@@ -57,7 +57,7 @@ def test_a_file_that_holds_no_object_is_refused_by_its_name(
 
 @pytest.mark.parametrize("name", ["reference", "paper"])
 def test_every_setting_says_what_it_is_and_time_its_unit_and_source(name: str) -> None:
-    for place, field in settings(configuration_model(name)):
+    for place, field in settings(FAMILY.configuration_model(name)):
         assert field.description, place
         if place[-1].endswith("_s"):
             assert re.search(r"\bin s\b", field.description), place

@@ -16,6 +16,7 @@ Examples:
   airhilt schema --services > services.schema.json
   airhilt schema --assistant reference
   airhilt schema --sweep > sweep.schema.json
+  airhilt schema --scheduler slurm
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
@@ -24,19 +25,30 @@ Examples:
     "--assistant", metavar="NAME", help="The schema of an assistant's configuration instead."
 )
 @click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
-def schema(scenario: bool, services: bool, assistant: str | None, sweep: bool) -> None:
+@click.option(
+    "--scheduler", metavar="NAME", help="The schema of a scheduler's configuration instead."
+)
+def schema(
+    scenario: bool, services: bool, assistant: str | None, sweep: bool, scheduler: str | None
+) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    if sum((scenario, services, assistant is not None, sweep)) > 1:
-        raise click.UsageError("--scenario, --services, --assistant, --sweep: expected one of them")
+    if sum((scenario, services, assistant is not None, sweep, scheduler is not None)) > 1:
+        raise click.UsageError(
+            "--scenario, --services, --assistant, --sweep, --scheduler: expected one of them"
+        )
     document: dict[str, Any]
     if services:
         from airhilt.assistant.decision.service_messages import service_schemas
 
         document = service_schemas()
     elif assistant is not None:
-        from airhilt.assistant.decision.engines import configuration_model
+        from airhilt.assistant.decision.engines import FAMILY as ASSISTANTS
 
-        document = configuration_model(assistant).model_json_schema()
+        document = ASSISTANTS.configuration_model(assistant).model_json_schema()
+    elif scheduler is not None:
+        from airhilt.sweep.clusters import FAMILY as SCHEDULERS
+
+        document = SCHEDULERS.configuration_model(scheduler).model_json_schema()
     elif sweep:
         from airhilt.sweep.specification import Specification
 

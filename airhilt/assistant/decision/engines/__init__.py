@@ -9,11 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pydantic import BaseModel
-
 from airhilt.assistant.decision.engine import DecisionEngine
 from airhilt.engines import EngineFamily
-from airhilt.errors import AirhiltError
 
 FAMILY = EngineFamily[DecisionEngine](
     "assistant",
@@ -42,22 +39,3 @@ def decision_engine(
         There is none of that name, or it cannot be loaded, or its configuration is wrong.
     """
     return FAMILY.create(name, also, configuration)
-
-
-def configuration_model(name: str) -> type[BaseModel]:
-    """Return the model of the configuration of an engine.
-
-    Raises
-    ------
-    AirhiltError
-        There is no engine of that name, or it has no configuration.
-    """
-    engine, _ = FAMILY.choose(name)
-    if engine.configuration is None:
-        having = [
-            each for each in FAMILY.names() if FAMILY.choose(each)[0].configuration is not None
-        ]
-        raise AirhiltError(
-            f"assistant {name!r} has no configuration; expected one that has: {', '.join(having)}"
-        )
-    return engine.configuration
