@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import logging
+import queue
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from typing import TYPE_CHECKING
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any
 
-from distributed import KilledWorker, as_completed
+import dask
+from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError, first_line
 from airhilt.sweep.clusters import ClusterError
@@ -21,39 +25,125 @@ IN_HAND_PER_THREAD = 2
 """Runs given to each thread of a worker at a time: the one that it does, and the next."""
 COUNT_PERIOD_S = 1.0
 """Period at which the threads of all workers are counted, in s."""
-FIRST_WORKER_S = 120.0
-"""Time that a scheduler has to get its first worker, in s."""
+QUIET_S = 5.0
+"""Time without a worker after which that is told, in s."""
+NOTICE_PERIOD_S = 60.0
+"""Period at which it is told again, in s."""
+SAME_VERSIONS = ("dask", "distributed")
+"""Packages whose versions decide whether processes of Dask understand each other."""
+LOGGERS = ("distributed", "distributed.client")
+"""What Dask logs by, each with a level of its own."""
+LOST = (OSError, RuntimeError, ValueError, CancelledError)
+"""What Dask raises if the scheduler is not there any more; TimeoutError is an OSError."""
 
 
-def prepare(client: Client, plugin: RunnerPlugin) -> None:
-    """Wait for the first worker, compare the versions of Dask, and send the runners' plugin.
+@contextmanager
+def quiet_dask() -> Iterator[None]:
+    """Print nothing that Dask logs, unless its own configuration says what is logged.
+
+    What matters of it comes as an error or a notice; the rest are tracebacks of lost connections.
+    """
+    if dask.config.get("logging", None):
+        yield
+        return
+    loggers = [logging.getLogger(name) for name in LOGGERS]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+class Workers:
+    """The workers of a scheduler, counted from time to time; it tells if there are none.
+
+    Parameters
+    ----------
+    notice
+        Is called with the text.
+    """
+
+    def __init__(self, client: Client, notice: Callable[[str], None]) -> None:
+        self._client = client
+        self._notice = notice
+        self._threads = 0
+        self._count_at = 0.0
+        self._tell_at = time.monotonic() + QUIET_S
+
+    def threads(self) -> int:
+        """Return the number of runs that the workers do at a time.
+
+        Raises
+        ------
+        ClusterError
+            The scheduler is lost.
+        """
+        now = time.monotonic()
+        if now < self._count_at:
+            return self._threads
+        self._threads = _threads(self._client)
+        self._count_at = now + COUNT_PERIOD_S
+        if self._threads:
+            self._tell_at = now + QUIET_S
+        elif now > self._tell_at:
+            self._tell_at = now + NOTICE_PERIOD_S
+            self._notice(f"{address(self._client)} has no workers; waiting for one, Ctrl-C stops")
+        return self._threads
+
+    def wait(self, stops: Callable[[], bool]) -> None:
+        """Wait for the first worker, or for the user to stop; errors as `threads`."""
+        while not (stops() or self.threads()):
+            time.sleep(COUNT_PERIOD_S / 10.0)
+
+
+@contextmanager
+def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
+    """Compare the versions of Dask, and have the runners' plugin in all workers meanwhile.
 
     Raises
     ------
     ClusterError
-        There is no worker, or versions differ.
+        Versions differ, or a worker refuses or cannot load it.
     """
-    try:
-        client.wait_for_workers(1, timeout=FIRST_WORKER_S)
-    except TimeoutError:
-        raise ClusterError(
-            f"{address(client)}: no worker has come within {FIRST_WORKER_S:.0f} s; expected at "
-            "least one, such as `dask worker` starts"
-        ) from None
-    try:
-        client.get_versions(check=True)
-    except ValueError as error:
-        raise ClusterError(
-            f"{address(client)}: versions differ between this process, scheduler and workers; "
-            f"expected the same everywhere:\n{error}"
-        ) from None
+    _require_same_dask(client)
     try:
         client.register_plugin(plugin)
+    except AirhiltError:
+        raise
+    except LOST:
+        raise _lost(client) from None
     except Exception as error:  # What a worker raised; most often it has no AIRHILT to import.
         raise ClusterError(
             f"{address(client)}: workers cannot be prepared ({first_line(error)}); expected "
             "AIRHILT to be installed there, as here"
         ) from None
+    try:
+        yield
+    finally:
+        if client.status == "running":
+            with suppress(*LOST):
+                client.unregister_worker_plugin(plugin.name)
+
+
+def _require_same_dask(client: Client) -> None:
+    try:
+        found: Any = client.get_versions()
+    except LOST:
+        raise _lost(client) from None
+    own = found["client"]["packages"]
+    others: dict[str, Any] = {address(client): found["scheduler"]}
+    others |= {f"worker {where}": versions for where, versions in found["workers"].items()}
+    for where, versions in others.items():
+        for name in SAME_VERSIONS:
+            theirs = versions["packages"].get(name)
+            if theirs != own[name]:
+                raise ClusterError(
+                    f"{where} has {name} {theirs}, and this process {own[name]}; expected the same "
+                    "version everywhere"
+                )
 
 
 def address(client: Client) -> str:
@@ -73,9 +163,18 @@ def described(client: Client, has_dashboard: bool) -> str:
 
 
 def outcomes(
-    client: Client, requests: Sequence[Request], stops: Callable[[], bool]
+    client: Client,
+    plugin: str,
+    requests: Sequence[Request],
+    workers: Workers,
+    stops: Callable[[], bool],
 ) -> Iterator[Outcome]:
     """Yield the outcomes as they come; no more runs are given out once ``stops`` is true.
+
+    Parameters
+    ----------
+    plugin
+        Name of the sweep's `RunnerPlugin`.
 
     Raises
     ------
@@ -84,30 +183,35 @@ def outcomes(
     """
     waiting = iter(requests)
     in_hand: dict[Future[str], Request] = {}
-    completed = as_completed()
-    limit, counted = 0, 0.0
+    completed: queue.SimpleQueue[Future[str]] = queue.SimpleQueue()
     while True:
-        if time.monotonic() - counted > COUNT_PERIOD_S:
-            limit, counted = max(_threads(client), 1) * IN_HAND_PER_THREAD, time.monotonic()
+        limit = max(workers.threads(), 1) * IN_HAND_PER_THREAD
         while not stops() and len(in_hand) < limit:
             request = next(waiting, None)
             if request is None:
                 break
             future = client.submit(
-                run_case, request.model_dump_json(), key=f"airhilt-{request.key}", pure=False
+                run_case,
+                request.model_dump_json(),
+                plugin,
+                key=f"{plugin}-{request.key}",
+                pure=False,
             )
             in_hand[future] = request
-            completed.add(future)
+            future.add_done_callback(completed.put)
         if not in_hand:
             return
-        future = next(completed)
-        yield _outcome(client, future, in_hand.pop(future))
+        with suppress(queue.Empty):
+            future = completed.get(timeout=COUNT_PERIOD_S)
+            yield _outcome(client, future, in_hand.pop(future))
 
 
 def _threads(client: Client) -> int:
+    if client.status != "running":
+        raise _lost(client)
     try:
         return sum(client.nthreads().values())
-    except (OSError, RuntimeError, ValueError):
+    except LOST:
         raise _lost(client) from None
 
 

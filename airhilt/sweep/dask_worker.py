@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-import queue
-import signal
 import threading
+import time
+import uuid
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
+from pathlib import Path
 
-from distributed import Worker, WorkerPlugin, get_worker
+from distributed import Reschedule, Worker, WorkerPlugin, get_worker
+from tornado.ioloop import PeriodicCallback
 
 from airhilt.sweep.environment import Environment, require_same
 from airhilt.sweep.outcome import Request
-from airhilt.sweep.runner_process import Limits, RunnerProcess
+from airhilt.sweep.runner_process import Limits, RunnerProcess, RunnerStopped
+from airhilt.sweep.shared_folder import require_seen
 
-PLUGIN = "airhilt"
+IDLE_S = 600.0
+"""Time after which a runner that nobody asks is ended, in s: its sweep may have been killed."""
+LOOK_MS = 60_000.0
+"""Period at which such runners are looked for, in ms."""
 
 
 class RunnerPlugin(WorkerPlugin):
     """Keeps the runners of one worker, as many as it has threads; they live until it ends.
+
+    Each sweep has a plugin with a name of its own, so that several sweeps can share a scheduler.
 
     Parameters
     ----------
@@ -26,58 +34,115 @@ class RunnerPlugin(WorkerPlugin):
         Renderer that the runs ask for; empty without cameras.
     expected
         Environment of the sweep; a worker with another one refuses to run anything.
+    probe
+        File in the sweep's folder that a worker must see; None: nothing is kept there.
     """
 
-    name = PLUGIN
-
-    def __init__(self, renderer: str, limits: Limits, expected: Environment) -> None:
+    def __init__(
+        self, renderer: str, limits: Limits, expected: Environment, probe: Path | None = None
+    ) -> None:
+        self.name = f"airhilt-{uuid.uuid4().hex}"
         self.renderer = renderer
         self._limits = limits
         self._expected = expected
+        self._probe = probe
 
     def setup(self, worker: Worker) -> None:
-        """Get ready; runners are started when they are needed."""
-        self._idle: queue.LifoQueue[RunnerProcess] = queue.LifoQueue()
-        self._where = worker.address
-        if threading.current_thread() is threading.main_thread():
-            # Ctrl-C is for the sweep, which lets runs in hand finish.
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    def teardown(self, worker: Worker) -> None:  # noqa: ARG002
-        """End the runners."""
-        with suppress(queue.Empty):
-            while True:
-                self._idle.get_nowait().close()
-
-    @contextmanager
-    def runner(self) -> Iterator[RunnerProcess]:
-        """Lend a runner whose environment is that of the sweep.
+        """Get ready; runners are started when they are needed.
 
         Raises
         ------
         AirhiltError
-            It cannot be started, or its software differs.
+            The worker does not see the folder in which runs are kept.
         """
-        try:
-            runner = self._idle.get_nowait()
-        except queue.Empty:
-            runner = RunnerProcess(self.renderer, self._limits)
+        self._lock = threading.Lock()
+        self._idle: list[tuple[RunnerProcess, float]] = []
+        self._busy: list[RunnerProcess] = []
+        self._is_over = False
+        self._where = worker.address
+        look = PeriodicCallback(self._end_idle, LOOK_MS)
+        worker.periodic_callbacks[self.name] = look
+        look.start()
+        self._require_seen()
+
+    def teardown(self, worker: Worker) -> None:
+        """End the runners; a run in hand is for another worker."""
+        worker.periodic_callbacks.pop(self.name).stop()
+        with self._lock:
+            self._is_over = True
+            idle = [runner for runner, _ in self._idle]
+            self._idle.clear()
+            for runner in self._busy:
+                runner.stop()
+        for runner in idle:
+            runner.close()
+
+    def run(self, request: Request) -> str:
+        """Return the `Outcome` of a run as JSON.
+
+        Raises
+        ------
+        AirhiltError
+            No runner can be started here, its software differs, or the folder is not seen.
+        Reschedule
+            The worker has been ended meanwhile.
+        """
+        self._require_seen()
+        with self._runner() as runner:
+            try:
+                return runner.run(request).model_dump_json()
+            except RunnerStopped:
+                raise Reschedule from None
+
+    @contextmanager
+    def _runner(self) -> Iterator[RunnerProcess]:
+        """Lend a runner whose environment is that of the sweep."""
+        with self._lock:
+            runner = self._idle.pop()[0] if self._idle else None
+        runner = runner or RunnerProcess(self.renderer, self._limits)
+        with self._lock:
+            self._busy.append(runner)
+            if self._is_over:
+                runner.stop()
         try:
             require_same(self._expected, runner.environment, self._where)
             yield runner
         finally:
-            self._idle.put(runner)
+            with self._lock:
+                self._busy.remove(runner)
+                if not self._is_over:
+                    self._idle.append((runner, time.monotonic()))
+            if self._is_over:
+                runner.close()
+
+    def _end_idle(self) -> None:
+        until = time.monotonic() - IDLE_S
+        with self._lock:
+            old = [runner for runner, since in self._idle if since < until]
+            self._idle = [each for each in self._idle if each[1] >= until]
+        for runner in old:
+            runner.close()
+
+    def _require_seen(self) -> None:
+        if self._probe is not None:
+            require_seen(self._probe, self._where)
 
 
-def run_case(request: str) -> str:
+def run_case(request: str, plugin: str) -> str:
     """Return the `Outcome` of a `Request`, both as JSON; a task of Dask.
+
+    Parameters
+    ----------
+    plugin
+        Name of the sweep's `RunnerPlugin`.
 
     Raises
     ------
     AirhiltError
-        No runner can be started here, or its software differs.
+        The worker cannot run anything.
+    Reschedule
+        The worker has been ended meanwhile.
     """
-    plugin = get_worker().plugins[PLUGIN]
-    assert isinstance(plugin, RunnerPlugin)
-    with plugin.runner() as runner:
-        return runner.run(Request.model_validate_json(request)).model_dump_json()
+    found = get_worker().plugins[plugin]
+    assert isinstance(found, RunnerPlugin)
+    return found.run(Request.model_validate_json(request))

@@ -7,18 +7,20 @@ than there are workers at a time. Each outcome is on the disk before the next on
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.clusters import FAMILY
-from airhilt.sweep.dask_client import described, outcomes, prepare
+from airhilt.sweep.clusters import FAMILY, Cluster
+from airhilt.sweep.dask_client import Workers, described, outcomes, prepared, quiet_dask
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment, environment
 from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
+from airhilt.sweep.shared_folder import probe_in
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import folder_name, part_of, tables_of
 from airhilt.sweep.work import Work, default_workers
@@ -65,6 +67,7 @@ def sweep(
         finished before is kept.
     """
     observer = observer or SweepObserver()
+    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
     grid = cases(specification)
     renderer = renderer_of(grid)
     own = _own_environment(renderer, work.limits)
@@ -76,9 +79,12 @@ def sweep(
         finished = _finished(folder, by_key, observer)
         missing = [key for key in by_key if _is_missing(finished.get(key), work.retry)]
         if missing:
-            plugin = RunnerPlugin(renderer, work.limits, own)
             requests = list(_requests(missing, by_key, work))
-            _run_missing(requests, len(by_key), folder, work, plugin, observer)
+            with ExitStack() as stack:
+                is_kept = any(request.keep != "none" for request in requests)
+                probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
+                plugin = RunnerPlugin(renderer, work.limits, own, probe)
+                _run_missing(requests, len(by_key), folder, work, cluster, plugin, observer)
             finished = _finished(folder, by_key, observer)
         table, machine = tables_of(by_key, finished)
         folder.write_tables(table, machine)
@@ -158,6 +164,7 @@ def _run_missing(
     total: int,
     folder: SweepFolder,
     work: Work,
+    cluster: Cluster,
     plugin: RunnerPlugin,
     observer: SweepObserver,
 ) -> None:
@@ -168,11 +175,14 @@ def _run_missing(
     AirhiltError
         The workers cannot be used, or the scheduler is lost.
     """
-    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
-    with cluster.connect(count, work.dashboard) as client:
-        prepare(client, plugin)
-        observer.begun(total, total - len(requests), described(client, work.dashboard is not None))
-        for outcome in outcomes(client, requests, lambda: observer.stops):
-            folder.keep(part_of([outcome]))
-            observer.ended(outcome)
+    with quiet_dask(), cluster.connect(count, work.dashboard) as client:
+        workers = Workers(client, observer.notice)
+        workers.wait(lambda: observer.stops)
+        with prepared(client, plugin):
+            observer.begun(
+                total, total - len(requests), described(client, work.dashboard is not None)
+            )
+            for outcome in outcomes(client, plugin.name, requests, workers, lambda: observer.stops):
+                folder.keep(part_of([outcome]))
+                observer.ended(outcome)

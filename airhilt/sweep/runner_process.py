@@ -35,6 +35,10 @@ class RunnerError(AirhiltError):
     """A runner cannot be started."""
 
 
+class RunnerStopped(Exception):
+    """A runner was ended with a run in hand."""
+
+
 class _OverMemory(Exception):
     """A run has taken more memory than it may."""
 
@@ -57,10 +61,17 @@ class RunnerProcess:
         self._renderer = renderer
         self._limits = limits
         self._peak_mb = 0.0
+        self._is_stopped = False
         self._child, self.environment = self._start()
 
     def run(self, request: Request) -> Outcome:
-        """Return what becomes of a run, whatever it does."""
+        """Return what becomes of a run, whatever it does.
+
+        Raises
+        ------
+        RunnerStopped
+            It was ended by `stop`.
+        """
         begun = time.perf_counter()
         self._peak_mb = 0.0
         try:
@@ -82,6 +93,8 @@ class RunnerProcess:
             return outcome.model_copy(update={"machine": machine})
         process_id = self._child.process_id
         self._restart()
+        if self._is_stopped:
+            raise RunnerStopped
         machine = Machine(
             wall_s=time.perf_counter() - begun,
             cpu_s=None,
@@ -90,6 +103,11 @@ class RunnerProcess:
             process=process_id,
         )
         return Outcome(key=request.key, status=status, cause=cause, machine=machine)
+
+    def stop(self) -> None:
+        """End the process, while another thread waits for it; `close` does the rest."""
+        self._is_stopped = True
+        _end_tree(self._child.process_id)
 
     def close(self) -> None:
         """End the process and what it has started."""
@@ -109,6 +127,8 @@ class RunnerProcess:
 
     def _restart(self) -> None:
         self.close()
+        if self._is_stopped:
+            return
         self._child, self.environment = self._start()
 
     def _watch(self) -> None:

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from distributed import Client
 
 from airhilt.engines import Engine
+from airhilt.errors import first_line
 from airhilt.sweep.clusters import Cluster, ClusterError
 
 SCHEMES = ("tcp", "tls", "ucx", "ws", "wss")
@@ -27,10 +28,10 @@ class ExistingScheduler:
         """Connect; the cluster decides how many workers there are."""
         try:
             client = Client(self._address, timeout=TIMEOUT_S)
-        except (OSError, ValueError, RuntimeError) as error:
+        except (OSError, ValueError, RuntimeError, TypeError) as error:  # TypeError: without TLS
             raise ClusterError(
-                f"scheduler {self._address}: not there ({error}); expected the address that "
-                "`dask scheduler` tells, such as tcp://host:8786"
+                f"scheduler {self._address}: not there ({first_line(error)}); expected the "
+                "address that `dask scheduler` tells, such as tcp://host:8786"
             ) from None
         with client:
             yield client

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import dask
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from airhilt.engines import Engine
 from airhilt.sweep.clusters import LOCAL, Cluster, ClusterError
 
 HOST = "127.0.0.1"
+
+
+class Uninterrupted(WorkerPlugin):
+    """Leaves Ctrl-C, which all processes of a terminal get, to the sweep."""
+
+    name = "uninterrupted"
+
+    def setup(self, worker: Worker) -> None:  # noqa: ARG002
+        """Ignore the signal; the main thread of a worker's process calls this."""
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class LocalWorkers:
@@ -22,18 +34,33 @@ class LocalWorkers:
         """Start everything, and end it with the context."""
         with dask.config.set({"distributed.worker.daemon": False}):
             try:
-                cluster = LocalCluster(
-                    n_workers=workers,
-                    threads_per_worker=1,
-                    processes=True,
-                    host=HOST,
-                    dashboard_address=dashboard or f"{HOST}:0",
-                    memory_limit=0,  # Of the runs, each runner's own process is watched.
-                )
+                with _uninterrupted():
+                    cluster = LocalCluster(
+                        n_workers=workers,
+                        threads_per_worker=1,
+                        processes=True,
+                        host=HOST,
+                        dashboard_address=dashboard or f"{HOST}:0",
+                        memory_limit=0,  # Of the runs, each runner's own process is watched.
+                    )
             except (OSError, RuntimeError) as error:
                 raise ClusterError(f"scheduler {LOCAL}: cannot be started: {error}") from None
             with cluster, Client(cluster) as client:
+                client.register_plugin(Uninterrupted())
                 yield client
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Ignore Ctrl-C, so that processes that are started meanwhile do so from their beginning."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    earlier = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, earlier)
 
 
 def _create(_argument: str) -> LocalWorkers:

@@ -1,0 +1,57 @@
+"""What becomes of runs that hang, eat memory or crash."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+import psutil
+import pytest
+
+from airhilt.sweep.runner_process import Limits, RunnerProcess, RunnerStopped
+from runners import request, use_as_runner
+
+LIMITS = Limits(wall_s=60.0, memory_mb=150.0)
+
+
+@pytest.fixture(autouse=True)
+def _program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    use_as_runner(tmp_path, monkeypatch)
+
+
+@pytest.fixture
+def runner() -> Iterator[RunnerProcess]:
+    with closing(RunnerProcess("", LIMITS)) as made:
+        yield made
+
+
+@pytest.mark.parametrize(
+    ("key", "limits", "status", "cause"),
+    [
+        ("hangs", Limits(0.2, 150.0), "over_time", "took longer than 0.2 s (--run-timeout)"),
+        ("eats", LIMITS, "over_memory", "took more than 150 MB (--run-memory)"),
+        ("dies", LIMITS, "crashed", "its process has ended (signal 9)"),
+    ],
+)
+def test_a_run_that_ends_badly_has_its_cause_and_the_next_one_runs(
+    key: str, limits: Limits, status: str, cause: str
+) -> None:
+    with closing(RunnerProcess("", limits)) as runner:
+        outcome = runner.run(request(key))
+        assert (outcome.status, outcome.cause) == (status, cause)
+        after = runner.run(request("good"))
+        assert after.status == "finished"
+        assert after.machine.process != outcome.machine.process
+        assert not psutil.pid_exists(outcome.machine.process)
+
+
+def test_the_memory_of_a_run_is_told(runner: RunnerProcess) -> None:
+    assert 1.0 < runner.run(request("good")).machine.peak_memory_mb < LIMITS.memory_mb
+
+
+def test_a_runner_that_is_stopped_gives_its_run_back(runner: RunnerProcess) -> None:
+    threading.Timer(0.1, runner.stop).start()
+    with pytest.raises(RunnerStopped):
+        runner.run(request("hangs"))
