@@ -134,9 +134,13 @@ def _info(specification: Specification, own: Environment, runs: int) -> dict[str
 def _finished(
     folder: SweepFolder, by_key: Mapping[str, Case], observer: SweepObserver
 ) -> dict[str, dict[str, Any]]:
-    """Return the rows of the store that belong to this sweep, by key; the last of a key counts."""
+    """Return the rows of the store that belong to this sweep, by key.
+
+    What a limit has ended counts only as long as the run has not been done.
+    """
     table = folder.finished(observer.notice)
     rows = [] if table is None else table.to_pylist()
+    rows.sort(key=lambda row: row["status"] not in OF_THE_MACHINE)
     return {row["key"]: row for row in rows if row["key"] in by_key}
 
 

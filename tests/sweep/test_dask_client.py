@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from airhilt.errors import AirhiltError
-from airhilt.sweep import dask_client
 from airhilt.sweep.clusters import FAMILY, ClusterError
 from airhilt.sweep.dask_client import Workers, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
@@ -54,8 +54,8 @@ class FakeClient:
 def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     """Count at once, and tell after the second look."""
     clock = iter(range(1000))
-    monkeypatch.setattr(dask_client.time, "monotonic", lambda: float(next(clock)) * 4.0)
-    monkeypatch.setattr(dask_client.time, "sleep", lambda _: None)
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)) * 4.0)
+    monkeypatch.setattr(time, "sleep", lambda _: None)
 
 
 def client(*threads: int, **versions: dict[str, str]) -> Any:
@@ -70,7 +70,6 @@ def test_a_scheduler_without_workers_is_told_once_a_minute(no_waiting: None) -> 
     notices: list[str] = []
     workers = Workers(client(*[0] * 30, 2), notices.append)
     workers.wait(lambda: False)
-    assert workers.threads
     text = "scheduler tcp://head:8786 has no workers; waiting for one, Ctrl-C stops"
     assert notices == [text] * 2
 
