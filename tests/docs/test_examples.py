@@ -16,6 +16,7 @@ import pytest
 from markdown_it import MarkdownIt
 
 from airhilt.bus import free_endpoint
+from airhilt.scenario import Scenario
 from airhilt_short import shorten
 from paths import DOCS, ROOT, SUPPORT
 
@@ -113,6 +114,9 @@ def as_run(command: str, endpoint: str) -> str:
     """Return a command as it is run here: its own run folders and port, and few pictures."""
     command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
     command = re.sub(r"--images \d+", "--images 2", command)
+    if command.startswith("airhilt sweep"):
+        command = command.replace("'s01a_*'", "s02a_headon").replace("0:20:5", "5")
+        command = re.sub(r"--seeds \d+", "--seeds 1 --no-cameras --no-speech", command)
     command = re.sub(r"runs/(\w+)-0-\.\.\.", r'"$(ls -dt runs/\1-0-* | head -1)"', command)
     command = re.sub(r"\bRUN\b", '"$(ls -dt runs/*/ | head -1)"', command)
     return f"{command} &" if "--attach" in command else command
@@ -134,11 +138,29 @@ def test_the_commands_of_a_page_can_be_run(page: Path, environment: dict[str, st
     run(script_of(page), environment)
 
 
+@pytest.fixture(scope="session")
+def sweep_folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A small sweep that the pages can read."""
+    out = tmp_path_factory.mktemp("sweeps") / "s01a"
+    scenario = out.with_name("encounter.json")
+    scenario.write_text(encounter.model_dump_json())
+    arguments = ["--scenario", str(scenario), "--snr", "5,10", "--out", str(out)]
+    arguments += ["--no-cameras", "--no-speech", "--assistant", "reference,none", "--workers", "1"]
+    command = [sys.executable, "-m", "airhilt", "sweep", *arguments]
+    subprocess.run(command, check=True, capture_output=True)
+    return out
+
+
 @pytest.mark.parametrize("example", PYTHON, ids=str)
 def test_the_python_of_a_page_can_be_run(
-    example: Example, environment: dict[str, str], short_scenarios: Path
+    example: Example,
+    environment: dict[str, str],
+    short_scenarios: Path,
+    request: pytest.FixtureRequest,
 ) -> None:
     work = Path(environment["PWD"])
+    if "sweeps/" in example.text:
+        shutil.copytree(request.getfixturevalue("sweep_folder"), work / "sweeps" / "s01a")
     (work / "example.py").write_text(example.text)
     (work / "launch.py").write_text(
         f"import runpy, sys\nsys.path.append({str(SUPPORT)!r})\n"
