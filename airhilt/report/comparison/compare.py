@@ -1,0 +1,105 @@
+"""What can be compared, and with what."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from airhilt.errors import AirhiltError
+from airhilt.library import nearest
+from airhilt.metrics.frames import frame_of
+from airhilt.record import RunFolder
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.report.comparison.runs import RunComparison, compare_runs
+from airhilt.report.comparison.sweeps import Side, SweepComparison, compare_sides
+from airhilt.report.sweeps.data import parameters_of
+
+
+def compare(
+    first: Path, second: Path | None = None, assistants: tuple[str, str] | None = None
+) -> RunComparison | SweepComparison:
+    """Return what differs between two runs, two sweeps, or two assistants of one sweep.
+
+    Parameters
+    ----------
+    first, second
+        Two run folders or two sweep folders; second is None for two assistants of one sweep.
+    assistants
+        The two assistants, None for two folders.
+
+    Raises
+    ------
+    AirhiltError
+        There is nothing that could be compared; the message says why.
+    """
+    if second is None:
+        if assistants is None:
+            raise AirhiltError(
+                f"{first}: expected a second folder to compare it with, or two of its assistants: "
+                "--assistants NAME,NAME"
+            )
+        return _of_assistants(first, assistants)
+    if assistants is not None:
+        raise AirhiltError(
+            "--assistants compares two assistants of one sweep; expected one folder with it"
+        )
+    is_sweep = [_is_sweep(folder) for folder in (first, second)]
+    names = _name(first, second), _name(second, first)
+    if all(is_sweep):
+        return compare_sides(_side(first, names[0]), _side(second, names[1]))
+    if any(is_sweep):
+        raise AirhiltError(
+            f"{first}, {second}: one is a sweep and the other a run; expected two of one kind"
+        )
+    return compare_runs(RunFolder.open(first), RunFolder.open(second), names)
+
+
+def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:
+    """Return the comparison of two assistants.
+
+    Raises
+    ------
+    AirhiltError
+        It is no sweep, or the sweep does not have one of them.
+    """
+    whole = _side(folder, str(folder))
+    known = sorted(whole.runs["assistant"].dropna().unique())
+    for name in names:
+        if name not in known:
+            raise AirhiltError(f"{folder}: no runs of assistant {name!r}{nearest(name, known)}")
+    if names[0] == names[1]:
+        raise AirhiltError(f"--assistants {names[0]},{names[1]}: expected two different ones")
+    one, other = (
+        Side(name, whole.runs[whole.runs["assistant"] == name], whole.parameters) for name in names
+    )
+    return compare_sides(one, other)
+
+
+def _is_sweep(folder: Path) -> bool:
+    """Return true for a sweep folder, false for a run folder.
+
+    Raises
+    ------
+    AirhiltError
+        It is neither.
+    """
+    if SweepFolder(folder).info_path.is_file():
+        return True
+    if RunFolder(folder).info_path.is_file():
+        return False
+    raise AirhiltError(
+        f"{folder}: neither a run nor a sweep; expected a folder with a run.json or a sweep.json"
+    )
+
+
+def _side(folder: Path, name: str) -> Side:
+    sweep = SweepFolder.open(folder)
+    table = sweep.table()
+    parameters = parameters_of(table, str(sweep.table_path))
+    runs = frame_of(table)
+    return Side(name, runs[runs["status"] == "finished"], parameters)
+
+
+def _name(folder: Path, other: Path) -> str:
+    """Return the name of a folder, with its whole path if another has the same name."""
+    name = folder.absolute().name
+    return str(folder) if name == other.absolute().name else name

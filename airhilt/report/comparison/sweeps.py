@@ -1,0 +1,243 @@
+"""Two sides of many runs, paired by everything but what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from airhilt.errors import AirhiltError
+from airhilt.metrics.estimates import Estimate
+from airhilt.metrics.measures import HOUR_S, MEASURES, Measure
+from airhilt.metrics.paired import McNemar, mcnemar, mean_difference
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+Json = dict[str, Any]
+
+ALWAYS = ("scenario", "seed")
+"""Columns that the two runs of a pair always share."""
+FIRST, SECOND = "_first", "_second"
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side of a comparison: finished runs of a sweep.
+
+    Attributes
+    ----------
+    parameters
+        Names of the columns that are parameters.
+    """
+
+    name: str
+    runs: DataFrame
+    parameters: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class MeasureDifference:
+    """One measure on both sides.
+
+    Attributes
+    ----------
+    first, second
+        The measure over the pairs in which both have a value.
+    difference
+        Mean of second less first over these pairs.
+    test
+        McNemar's test, None for what is no share.
+    one_sided
+        Pairs in which only one of the two has a value; they are left out.
+    """
+
+    measure: Measure
+    first: Estimate
+    second: Estimate
+    difference: Estimate
+    test: McNemar | None
+    one_sided: int
+
+    def as_json(self) -> Json:
+        """Return the numbers by name."""
+        return {
+            "measure": self.measure.name,
+            "title": self.measure.title,
+            "unit": self.measure.unit,
+            "first": asdict(self.first),
+            "second": asdict(self.second),
+            "difference": asdict(self.difference),
+            "mcnemar": None if self.test is None else asdict(self.test),
+            "one_sided": self.one_sided,
+        }
+
+
+@dataclass(frozen=True)
+class SweepComparison:
+    """Two sides, what was paired, and what differs.
+
+    Attributes
+    ----------
+    first, second
+        Names of the sides.
+    paired_by
+        Columns that the two runs of a pair share.
+    differing
+        Columns in which the sides differ as a whole, with the value of each.
+    pairs
+        Number of pairs.
+    alone_first, alone_second
+        Number of runs without a partner.
+    families
+        The differences by family; first of all families if there are more.
+    """
+
+    first: str
+    second: str
+    paired_by: tuple[str, ...]
+    differing: dict[str, tuple[str, str]]
+    pairs: int
+    alone_first: int
+    alone_second: int
+    families: dict[str, list[MeasureDifference]]
+    kind: str = "sweeps"
+
+    def as_json(self) -> Json:
+        """Return the comparison for scripts."""
+        return {
+            "kind": self.kind,
+            "first": self.first,
+            "second": self.second,
+            "paired_by": list(self.paired_by),
+            "differing": {name: list(values) for name, values in self.differing.items()},
+            "pairs": self.pairs,
+            "without_partner": [self.alone_first, self.alone_second],
+            "families": {
+                name: [each.as_json() for each in found] for name, found in self.families.items()
+            },
+        }
+
+
+def compare_sides(first: Side, second: Side) -> SweepComparison:
+    """Return the differences of two sides.
+
+    Raises
+    ------
+    AirhiltError
+        They have no runs in common, or a run of one has several partners.
+    """
+    differing = dict(_differing(first, second))
+    shared = [name for name in _settings(first) if name in _settings(second)]
+    by = [*ALWAYS, *(name for name in shared if name not in differing)]
+    for side, other in ((first, second), (second, first)):
+        _require_unique(side, by, other)
+    pairs = first.runs.merge(second.runs, on=by, suffixes=(FIRST, SECOND))
+    if pairs.empty:
+        raise AirhiltError(
+            f"{first.name}, {second.name}: no run of the one has a partner in the other; expected "
+            f"runs with the same {', '.join(by)}"
+        )
+    return SweepComparison(
+        first=first.name,
+        second=second.name,
+        paired_by=tuple(by),
+        differing=differing,
+        pairs=len(pairs),
+        alone_first=len(first.runs) - len(pairs),
+        alone_second=len(second.runs) - len(pairs),
+        families=_by_family(pairs),
+    )
+
+
+def _settings(side: Side) -> tuple[str, ...]:
+    return ("assistant", *side.parameters)
+
+
+def _differing(first: Side, second: Side) -> Iterator[tuple[str, tuple[str, str]]]:
+    """Yield the columns with one value on each side that is not that of the other."""
+    for name in dict.fromkeys((*_settings(first), *_settings(second))):
+        values = [_only(side, name) for side in (first, second)]
+        if None not in values and values[0] != values[1]:
+            yield name, (str(values[0]), str(values[1]))
+
+
+def _only(side: Side, name: str) -> str | None:
+    """Return the one value that a column has on a side, None if it has several."""
+    if name not in _settings(side):
+        return "not given"
+    values = side.runs[name].astype(object).where(side.runs[name].notna(), "not given").unique()
+    return str(values[0]) if len(values) == 1 else None
+
+
+def _require_unique(side: Side, by: list[str], other: Side) -> None:
+    """Complain about runs of a side that are the same but for what the other side does not have.
+
+    Raises
+    ------
+    AirhiltError
+        There are some.
+    """
+    if not side.runs.duplicated(by).any():
+        return
+    several = [name for name in _settings(side) if name not in by and side.runs[name].nunique() > 1]
+    raise AirhiltError(
+        f"{side.name}: several runs would have the same partner in {other.name}: they differ in "
+        f"{', '.join(several) or 'nothing that is known'}, which {other.name} does not have"
+    )
+
+
+def _by_family(pairs: DataFrame) -> dict[str, list[MeasureDifference]]:
+    names = pairs[f"family{FIRST}"].fillna("").replace("", "other")
+    groups = {str(name): group for name, group in pairs.groupby(names, sort=True)}
+    whole = {"all": pairs, **groups} if len(groups) > 1 else groups
+    return {
+        name: [found for each in MEASURES if (found := _difference(each, group)) is not None]
+        for name, group in whole.items()
+    }
+
+
+def _difference(measure: Measure, pairs: DataFrame) -> MeasureDifference | None:
+    """Return one measure over some pairs, None if no run has a value of it."""
+    if measure.only_nominal:
+        pairs = pairs[_column(pairs, "nominal", FIRST).fillna(False).astype(bool)]
+    first, second = (_values(measure, pairs, side) for side in (FIRST, SECOND))
+    both = (first.notna() & second.notna()).to_numpy(dtype=np.bool_)
+    either = int((first.notna() | second.notna()).sum())
+    if not either:
+        return None
+    ones, others = (_numbers(values[both]) for values in (first, second))
+    is_share = measure.kind == "share"
+    factor = 100.0 if measure.unit == "%" else 1.0
+    paired = pairs[both]
+    return MeasureDifference(
+        measure=measure,
+        first=measure.estimate(_one_side(measure, paired, FIRST)),
+        second=measure.estimate(_one_side(measure, paired, SECOND)),
+        difference=mean_difference(ones, others).times(factor),
+        test=mcnemar(ones > 0, others > 0) if is_share else None,
+        one_sided=either - int(both.sum()),
+    )
+
+
+def _column(pairs: DataFrame, name: str, side: str) -> Series:
+    return pairs[f"{name}{side}"] if f"{name}{side}" in pairs else pairs[[]].assign(x=None)["x"]
+
+
+def _values(measure: Measure, pairs: DataFrame, side: str) -> Series:
+    """Return what each run of a side adds to a measure; a count by simulated hour."""
+    values = _column(pairs, measure.column, side)
+    if measure.kind != "per_hour":
+        return values
+    return values.astype("Float64") / (_column(pairs, "duration_s", side) / HOUR_S)
+
+
+def _numbers(values: Series) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.asarray(values.astype("Float64"), dtype=np.float64)
+
+
+def _one_side(measure: Measure, pairs: DataFrame, side: str) -> DataFrame:
+    names = [name for name in measure.columns if f"{name}{side}" in pairs]
+    return pairs[[f"{name}{side}" for name in names]].set_axis(names, axis="columns")
