@@ -234,8 +234,9 @@ class Options(BaseModel):
         Flag(
             "--share-pictures",
             "Take over from other runs, and keep for them, what is costly about the same pictures: "
-            "rays and detections. For sweeps, with latencies that are not measured.",
+            "rays and detections. Sweeps do it by themselves. For latencies that are not measured.",
             needs=("cameras",),
+            in_sweeps=False,
         ),
     ] = False
     detector: Annotated[

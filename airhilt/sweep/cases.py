@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt import library
+from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.engines import ASSISTANT
 from airhilt.errors import AirhiltError, ScenarioError, first_problem, shown
@@ -21,6 +22,7 @@ from airhilt.files import content_sha256
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.problems import error_for, problems_of
+from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
@@ -69,6 +71,17 @@ class Case:
     def assistant(self) -> str:
         """Name of who decides."""
         return str(self.options[ASSISTANT_OPTION])
+
+    @property
+    def has_cameras(self) -> bool:
+        """True if pictures are taken."""
+        return bool(self.options.get("cameras", True) and self.document["cameras"])
+
+    @property
+    def may_share_pictures(self) -> bool:
+        """True if the run is the same whoever draws its pictures and looks at them."""
+        latency = self.options.get("latency", Options.model_fields["latency"].default)
+        return self.has_cameras and parse_latency(latency, PRESETS).of("vision").kind != "measured"
 
     def key(self, environment: Environment) -> str:
         """Return what tells this run from all others: a SHA-256 in hexadecimal."""

@@ -101,11 +101,7 @@ def renderer_of(grid: Sequence[Case]) -> str:
     AirhiltError
         They ask for more than one.
     """
-    asked = {
-        str(case.options.get("renderer", "auto"))
-        for case in grid
-        if case.options.get("cameras", True) and case.document["cameras"]
-    }
+    asked = {str(case.options.get("renderer", "auto")) for case in grid if case.has_cameras}
     if len(asked) > 1:
         raise AirhiltError(
             f"renderers {', '.join(sorted(asked))}: expected one for all runs of a sweep"
@@ -157,10 +153,15 @@ def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) ->
         yield Request(
             key=key,
             scenario=case.document,
-            options=case.options | {"seed": case.seed},
+            options=case.options | _unseen_options(case),
             keep="all" if key in sampled else work.keep,
             folder=str(runs / folder_name(key)),
         )
+
+
+def _unseen_options(case: Case) -> dict[str, Any]:
+    """Return the options that are no parameters: the seed, and one that changes no run."""
+    return {"seed": case.seed, **({"share_pictures": True} if case.may_share_pictures else {})}
 
 
 def _run_missing(
