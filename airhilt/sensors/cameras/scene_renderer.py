@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from airhilt.errors import CameraError
 from airhilt.imaging.masks import Mask, grown
-from airhilt.imaging.view import Pose, View, Window
+from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
@@ -29,25 +29,15 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
-from airhilt.sensors.cameras.scene.projected_box import Box, Outline
+from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene.rain import Streaks
 from airhilt.sensors.cameras.scene.shadows import darken
+from airhilt.sensors.cameras.scene.visible_bodies import VisibleBodies, VisibleBody
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
 
-SAMPLES_OF_AREA = ((900, 4), (2500, 3), (16_000, 2))
-"""Area of a window in pixels, at most, and samples along each side of its pixels; larger windows
-have one sample a pixel."""
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """Number of actors that ``Frame.instance`` tells apart."""
-FAINTEST = 1.0 / 512.0
-"""Least area in pixels, times the contrast that the air leaves, that changes a level of a pixel."""
-LEAST_BODY_PX = 2.0
-"""Least area of the box about a body, in pixels, before which a camera exposes at its rate."""
-SHADOW_BELOW_M = 150.0
-SMALLEST_SHADOW_PX = 4.0
-SMALL_PX = 4000
-"""Area of a window, in pixels, below which a body is drawn coarsely."""
 OWN_SAMPLES = 2
 OWN_MARGIN_PX = 2
 """Margin of the mask of the own aircraft, in pixels."""
@@ -56,28 +46,11 @@ TURN_STEPS = 24
 """Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""
 
 
-class _Seen(NamedTuple):
-    """A body that reaches into a picture: which mesh of it fits, where, and about it a box."""
-
-    body: BodyState
-    pose: Pose
-    shape: str
-    window: Window
-    box: Box
-    whole: Box
-    range_m: float
-    transmission: float
-
-    @property
-    def leaves_a_trace(self) -> bool:
-        return self.box.area * self.transmission > FAINTEST
-
-
 class _Content(NamedTuple):
     """Everything that reaches into a picture, besides the landscape and rain."""
 
-    drawn: list[_Seen]
-    faint: list[_Seen]
+    drawn: list[VisibleBody]
+    faint: list[VisibleBody]
     """Bodies that change no pixel."""
     shadows: list[Part]
     own: Layer | None
@@ -146,21 +119,10 @@ class SceneRenderer:
         for camera in self._cameras.values():
             if isinstance(camera.at, Pose):
                 landscape.require_free(camera.name, camera.at.position_m)
-        shapes = {
-            f"{model.kind}/{name}": mesh
-            for model in self._models.values()
-            for name, mesh in model.shapes.items()
-        }
-        self._outlines = {name: Outline.of(mesh) for name, mesh in shapes.items()}
-        far = {
-            f"{model.kind}/{name}/far": mesh
-            for model in self._models.values()
-            for name, mesh in model.far.items()
-        }
+        self._bodies = VisibleBodies(self._models, light, supersampling)
         self.renderer, self._renderer = open_renderer(
-            renderer, landscape.mesh, shapes | far, light, shares_rays
+            renderer, landscape.mesh, self._bodies.shapes, light, shares_rays
         )
-        self._far = frozenset(far)
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)
         self._backgrounds = self._open_backgrounds(landscape if keeps_backgrounds else None)
@@ -194,7 +156,7 @@ class SceneRenderer:
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
-        lights = self._lights(there, t_ns)
+        lights = self._bodies.lights(there, t_ns)
         return [self._picture(self._cameras[name], there, poses, lights, t_ns) for name in names]
 
     def has_body(
@@ -212,15 +174,15 @@ class SceneRenderer:
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
-        lights = self._lights(there, t_ns)
+        lights = self._bodies.lights(there, t_ns)
         found = {}
         for name in names:
             camera = self._cameras[name]
             view = camera.view(there)
             others = [body for actor, body in there.items() if actor != camera.carrier]
-            found[name] = bool(
-                self._carried_spots(view, lights, poses, camera.carrier)
-                or any(self._is_large(body, poses[body.actor], view) for body in others)
+            found[name] = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
+                (seen := self._bodies.seen(body, poses[body.actor], view)) and seen.is_large
+                for body in others
             )
             self._taken[name] += not found[name]
         return found
@@ -245,7 +207,7 @@ class SceneRenderer:
         view = View(lens, camera.at.pose)
         for name in model.shapes:
             shape = f"{model.kind}/{name}"
-            whole = self._outlines[shape].box(AT_ORIGIN, view)
+            whole = self._bodies.outline(shape).box(AT_ORIGIN, view)
             if whole is None or whole.within(view).area <= 0.0:
                 continue
             window = whole.within(view).window(view)
@@ -291,8 +253,10 @@ class SceneRenderer:
         """Return what reaches into a picture."""
         mount = camera.at if isinstance(camera.at, Mount) else None
         others = [body for actor, body in bodies.items() if actor != camera.carrier]
-        seen = [one for body in others if (one := self._seen(body, poses[body.actor], view))]
-        shadows = [part for body in others if (part := self._shadow(body, poses[body.actor], view))]
+        seen = [one for body in others if (one := self._bodies.seen(body, poses[body.actor], view))]
+        shadows = [
+            part for body in others if (part := self._bodies.shadow(body, poses[body.actor], view))
+        ]
         own = None
         if mount is not None and mount.sees_own_aircraft:
             own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
@@ -311,7 +275,7 @@ class SceneRenderer:
         colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
         drawn, shadows = content.drawn, content.shadows
-        parts = [Part(one.shape, one.pose, one.window, self._samples(one.window)) for one in drawn]
+        parts = [self._bodies.part(one) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
             darken(colour, part, picture, view, background, self._light)
@@ -350,26 +314,7 @@ class SceneRenderer:
         if self._light.needs_lights:
             shine(colour, distance_m, self._fixed_lights.seen(view, self._light))
 
-    def _seen(self, body: BodyState, pose: Pose, view: View) -> _Seen | None:
-        """Return a body if it is in the picture, hidden or not."""
-        shape = self._shape(body)
-        outline = self._outlines[shape]
-        whole = outline.box(pose, view) if outline.may_be_in(view, pose) else None
-        if whole is None:
-            return None
-        box = whole.within(view)
-        if box.area <= 0.0:
-            return None
-        away = math.dist(pose.position_m, view.pose.position_m)
-        window = box.window(view)
-        left = math.exp(-self._light.extinction_per_m * away)
-        return _Seen(body, pose, self._fitting(shape, window), window, box, whole, away, left)
-
-    def _is_large(self, body: BodyState, pose: Pose, view: View) -> bool:
-        seen = self._seen(body, pose, view)
-        return seen is not None and seen.leaves_a_trace and seen.box.area >= LEAST_BODY_PX
-
-    def _layer(self, seen: _Seen, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
+    def _layer(self, seen: VisibleBody, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
         number = self._numbers[seen.body.actor]
         return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
                         part.samples, behind_m)  # fmt: skip
@@ -380,10 +325,10 @@ class SceneRenderer:
         key = (body.shape, *light.tolist())
         kept = self._own.get(name)
         if kept is None or kept[0] != key:
-            seen = self._seen(body, pose, view)
+            seen = self._bodies.seen(body, pose, view)
             if seen is None:
                 return None
-            part = Part(seen.shape, pose, seen.window, self._samples(seen.window))
+            part = self._bodies.part(seen)
             drawn = self._renderer.parts(view, [part])[0]
             nothing = np.full((seen.window.height, seen.window.width), np.inf, dtype=np.float32)
             layer = self._layer(seen, part, drawn, nothing)
@@ -391,42 +336,7 @@ class SceneRenderer:
             kept = self._own[name] = (key, layer)
         return kept[1]
 
-    def _shadow(self, body: BodyState, pose: Pose, view: View) -> Part | None:
-        """Return the shadow of a body on flat ground if it is in the picture."""
-        light = self._light
-        if (
-            body.up_m > SHADOW_BELOW_M
-            or light.sun[2] < math.sin(math.radians(4.0))
-            or light.overcast > 0.8
-        ):
-            return None
-        shape = self._shape(body)
-        outline = self._outlines[shape]
-        if not outline.shadow_may_be_in(view, pose, light.sun):
-            return None
-        whole = outline.shadow_box(pose, view, light.sun)
-        if whole is None:
-            return None
-        box = whole.within(view)
-        left = math.exp(-light.extinction_per_m * math.dist(pose.position_m, view.pose.position_m))
-        if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
-            return None
-        window = box.window(view)
-        samples = max(min(_samples_of(window), 2), self._supersampling)
-        return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
-
-    def _samples(self, window: Window) -> int:
-        return max(_samples_of(window), self._supersampling)
-
     # --- lights and truth -----------------------------------------------------------------
-
-    def _lights(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Light]]:
-        """Return the lights that are on, in the axes of the actors that carry them."""
-        # Nobody's lights flash together with another's.
-        return {
-            actor: list(self._models[actor].lights(t_ns / 1e9 + 0.37 * number, body.lit))
-            for number, (actor, body) in enumerate(bodies.items())
-        }
 
     def _spots(
         self,
@@ -436,24 +346,13 @@ class SceneRenderer:
         poses: Mapping[str, Pose],
         carrier: str | None,
     ) -> list[Spot]:
-        found = self._carried_spots(view, lights, poses, carrier)
+        found = self._bodies.spots(view, lights, poses, carrier)
         if not camera.is_fixed and self._light.needs_lights:
             found.extend(self._fixed_lights.seen(view, self._light))
         return found
 
-    def _carried_spots(
-        self,
-        view: View,
-        lights: Mapping[str, Sequence[Light]],
-        poses: Mapping[str, Pose],
-        carrier: str | None,
-    ) -> list[Spot]:
-        """Return the lights of others than the carrier of the camera."""
-        carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
-        return Lights.carried(carried).seen(view, self._light)
-
     def _sightings(
-        self, layers: Sequence[Layer], faint: Sequence[_Seen], own: Layer | None = None
+        self, layers: Sequence[Layer], faint: Sequence[VisibleBody], own: Layer | None = None
     ) -> tuple[Sighting, ...]:
         """Return what is true of each body; layers are in order, the nearest last."""
         found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
@@ -485,14 +384,6 @@ class SceneRenderer:
         label = self._models[actor].label
         return Sighting(actor, label, box, pixels, visible_fraction, 1.0 - inside, range_m, left)
 
-    def _fitting(self, shape: str, window: Window) -> str:
-        """Return the mesh of a shape that fits the size in which it is seen."""
-        far = f"{shape}/far"
-        return far if window.area < SMALL_PX and far in self._far else shape
-
-    def _shape(self, body: BodyState) -> str:
-        return f"{self._models[body.actor].kind}/{body.shape}"
-
 
 def _numbered(actors: Iterable[str]) -> dict[str, int]:
     """Return the numbers of actors in ``Frame.instance``, from 1.
@@ -509,7 +400,3 @@ def _numbered(actors: Iterable[str]) -> dict[str, int]:
             "some out of the scenario, or run it with --no-cameras"
         )
     return numbers
-
-
-def _samples_of(window: Window) -> int:
-    return next((samples for area, samples in SAMPLES_OF_AREA if window.area <= area), 1)

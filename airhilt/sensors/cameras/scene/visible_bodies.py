@@ -1,0 +1,167 @@
+"""Where bodies, their shadows and their lights are in a picture, before anything is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from airhilt.imaging.view import Pose, View, Window
+from airhilt.sensors.cameras.renderers import Part
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.lights import Lights, Spot
+from airhilt.sensors.cameras.scene.projected_box import Box, Outline
+from airhilt.shapes.lights import Light
+from airhilt.shapes.mesh import Mesh
+
+SAMPLES_OF_AREA = ((900, 4), (2500, 3), (16_000, 2))
+"""Area of a window in pixels, at most, and samples along each side of its pixels; larger windows
+have one sample a pixel."""
+FAINTEST = 1.0 / 512.0
+"""Least area in pixels, times the contrast that the air leaves, that changes a level of a pixel."""
+LEAST_BODY_PX = 2.0
+"""Least area of the box about a body, in pixels, before which a camera exposes at its rate."""
+SHADOW_BELOW_M = 150.0
+SMALLEST_SHADOW_PX = 4.0
+SMALL_PX = 4000
+"""Area of a window, in pixels, below which a body is drawn coarsely."""
+
+
+class VisibleBody(NamedTuple):
+    """A body that reaches into a picture: which mesh of it fits, where, and about it a box."""
+
+    body: BodyState
+    pose: Pose
+    shape: str
+    window: Window
+    box: Box
+    whole: Box
+    range_m: float
+    transmission: float
+
+    @property
+    def leaves_a_trace(self) -> bool:
+        """True if it changes any pixel through the air that there is."""
+        return self.box.area * self.transmission > FAINTEST
+
+    @property
+    def is_large(self) -> bool:
+        """True if it also covers `LEAST_BODY_PX`, hidden or not."""
+        return self.leaves_a_trace and self.box.area >= LEAST_BODY_PX
+
+
+class VisibleBodies:
+    """The bodies of a scene as cameras have them before them.
+
+    Parameters
+    ----------
+    models
+        Appearance of each actor, by callsign.
+    supersampling
+        Samples along each side of a pixel, at least.
+
+    Attributes
+    ----------
+    shapes
+        All meshes of the bodies, the coarse ones too, by name.
+    """
+
+    def __init__(
+        self, models: Mapping[str, Model], light: Illumination, supersampling: int
+    ) -> None:
+        self._models = models
+        self._light = light
+        self._supersampling = supersampling
+        near = {
+            f"{model.kind}/{name}": mesh
+            for model in models.values()
+            for name, mesh in model.shapes.items()
+        }
+        far = {
+            f"{model.kind}/{name}/far": mesh
+            for model in models.values()
+            for name, mesh in model.far.items()
+        }
+        self._outlines = {name: Outline.of(mesh) for name, mesh in near.items()}
+        self._far = frozenset(far)
+        self.shapes: Mapping[str, Mesh] = near | far
+
+    def outline(self, shape: str) -> Outline:
+        """Return the outline of a shape that is not a coarse one."""
+        return self._outlines[shape]
+
+    def seen(self, body: BodyState, pose: Pose, view: View) -> VisibleBody | None:
+        """Return a body if it is in the picture, hidden or not."""
+        shape = self._shape(body)
+        outline = self._outlines[shape]
+        whole = outline.box(pose, view) if outline.may_be_in(view, pose) else None
+        if whole is None:
+            return None
+        box = whole.within(view)
+        if box.area <= 0.0:
+            return None
+        away = math.dist(pose.position_m, view.pose.position_m)
+        window = box.window(view)
+        left = math.exp(-self._light.extinction_per_m * away)
+        return VisibleBody(body, pose, self._fitting(shape, window), window, box, whole, away, left)
+
+    def shadow(self, body: BodyState, pose: Pose, view: View) -> Part | None:
+        """Return the shadow of a body on flat ground if it is in the picture."""
+        light = self._light
+        if (
+            body.up_m > SHADOW_BELOW_M
+            or light.sun[2] < math.sin(math.radians(4.0))
+            or light.overcast > 0.8
+        ):
+            return None
+        shape = self._shape(body)
+        outline = self._outlines[shape]
+        if not outline.shadow_may_be_in(view, pose, light.sun):
+            return None
+        whole = outline.shadow_box(pose, view, light.sun)
+        if whole is None:
+            return None
+        box = whole.within(view)
+        left = math.exp(-light.extinction_per_m * math.dist(pose.position_m, view.pose.position_m))
+        if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
+            return None
+        window = box.window(view)
+        samples = max(min(_samples_of(window), 2), self._supersampling)
+        return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
+
+    def part(self, seen: VisibleBody) -> Part:
+        """Return a body as a renderer is to draw it."""
+        samples = max(_samples_of(seen.window), self._supersampling)
+        return Part(seen.shape, seen.pose, seen.window, samples)
+
+    def lights(self, bodies: Mapping[str, BodyState], t_ns: int) -> dict[str, list[Light]]:
+        """Return the lights that are on, in the axes of the actors that carry them."""
+        # Nobody's lights flash together with another's.
+        return {
+            actor: list(self._models[actor].lights(t_ns / 1e9 + 0.37 * number, body.lit))
+            for number, (actor, body) in enumerate(bodies.items())
+        }
+
+    def spots(
+        self,
+        view: View,
+        lights: Mapping[str, Sequence[Light]],
+        poses: Mapping[str, Pose],
+        carrier: str | None,
+    ) -> list[Spot]:
+        """Return the lights in a picture of others than the carrier of the camera."""
+        carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
+        return Lights.carried(carried).seen(view, self._light)
+
+    def _fitting(self, shape: str, window: Window) -> str:
+        """Return the mesh of a shape that fits the size in which it is seen."""
+        far = f"{shape}/far"
+        return far if window.area < SMALL_PX and far in self._far else shape
+
+    def _shape(self, body: BodyState) -> str:
+        return f"{self._models[body.actor].kind}/{body.shape}"
+
+
+def _samples_of(window: Window) -> int:
+    return next((samples for area, samples in SAMPLES_OF_AREA if window.area <= area), 1)
