@@ -134,8 +134,9 @@ def _engine(family: EngineFamily[Any], installed: Members, name: str, needed: bo
 def _families() -> list[Finding]:
     """Load the members of the families that are no engines; every run needs AIRHILT's sensors."""
     from airhilt.cli.main import COMMANDS
+    from airhilt.report.page_section import load_member
     from airhilt.report.sections import FAMILY as SECTIONS
-    from airhilt.report.sections import load_section
+    from airhilt.report.sweeps.sections import FAMILY as SWEEP_SECTIONS
     from airhilt.sensors.base import FAMILY as SENSORS
     from airhilt.sensors.base import load_sensor_type
     from airhilt.world.surface.kinds import FAMILY as KINDS
@@ -144,7 +145,8 @@ def _families() -> list[Finding]:
     return [
         *_members(SENSORS, load_sensor_type, needed=sensors),
         *_members(KINDS, Members.load),
-        *_members(SECTIONS, load_section),
+        *_members(SECTIONS, load_member),
+        *_members(SWEEP_SECTIONS, load_member),
         *_members(COMMANDS, Members.load),
     ]
 

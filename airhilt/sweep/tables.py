@@ -76,7 +76,9 @@ def tables_of(
         if finished[key]["status"] not in OF_THE_MACHINE
     ]
     parameters = _parameter_columns(list(cases.values()))
-    columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
+    taken = {column.name for column in parameters}
+    metrics = (column for column in metric_columns() if column.name not in taken)
+    columns = (*IDENTITY, *parameters, *ENDING, *metrics)
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
 
 

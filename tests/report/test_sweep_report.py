@@ -166,7 +166,7 @@ def test_a_parameter_that_a_run_leaves_to_its_scenario_is_at_no_level() -> None:
     assert axis._at(Level("0", 0.0)).tolist() == [True, False, False]
 
 
-@pytest.mark.parametrize(("number", "text"), [(0.0, "0"), (10000.0, "10\u202f000"), (0.25, "0.25")])
+@pytest.mark.parametrize(("number", "text"), [(0.0, "0"), (10000.0, "10000"), (0.25, "0.25")])
 def test_a_level_is_written_without_a_power_of_ten(number: float, text: str) -> None:
     assert number_text(number) == text
 

@@ -27,9 +27,9 @@ from pydantic import ValidationError
 from pydantic.dataclasses import dataclass
 
 from airhilt.errors import AirhiltError
-from airhilt.plugins import Family, Members
+from airhilt.plugins import Family
 from airhilt.record import Logged, RunFolder
-from airhilt.report.page_section import PageSection, cannot_be_shown, load_member, load_members
+from airhilt.report.page_section import PageSection, cannot_be_shown, load_members
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData
@@ -142,18 +142,6 @@ class GuardedContent:
 FAMILY = Family(
     "report section", "airhilt.report_sections", __name__, "SECTION", Section, AirhiltError
 )
-
-
-def load_section(installed: Members, name: str) -> Section:
-    """Return a section whose template and script can be read.
-
-    Raises
-    ------
-    AirhiltError
-        It cannot be loaded, or its template or script cannot be read.
-    """
-    section: Section = load_member(installed, name)
-    return section
 
 
 def load_sections() -> tuple[list[Section], list[str]]:

@@ -111,10 +111,8 @@ def axis_of(name: str, values: Series, unit: str) -> Axis:
 
 
 def number_text(number: float) -> str:
-    """Return a number with at most four significant digits, without a power of ten."""
-    if number == int(number) and abs(number) < 1e6:
-        return f"{int(number):,}".replace(",", "\u202f")
-    return f"{number:.4g}"
+    """Return a number with at most four significant digits, whole ones without a power of ten."""
+    return str(int(number)) if number == int(number) and abs(number) < 1e6 else f"{number:.4g}"
 
 
 def heat_map_axes(axes: Sequence[Axis]) -> tuple[Axis, Axis] | None:
