@@ -7,12 +7,13 @@ early, by its wall time or with its machine, is replaced by a new one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any
 
 import dask
 from distributed import Client, Security
+from distributed.deploy.spec import ProcessInterface
 from pydantic import Field
 
 from airhilt.configuration import Configuration, Seconds
@@ -104,16 +105,27 @@ class JobQueue:
                 f"scheduler: the package {JOBQUEUE.name} is missing or does not load "
                 f"({first_line(error)}); install it with `{JOBQUEUE.remedy()}`"
             ) from None
-        self._cluster: Callable[..., JobQueueCluster] = getattr(dask_jobqueue, name)
+        self._cluster: Any = getattr(dask_jobqueue, name)
         self._configuration = configuration
         self._further = further
+        self._refusals: list[str] = []
 
     @contextmanager
     def connect(self, workers: int, dashboard: str | None) -> Iterator[Client]:
-        """Start the scheduler, and give the queue as many jobs as it takes for the workers."""
+        """Start the scheduler, and give the queue as many jobs as it takes for the workers.
+
+        Raises
+        ------
+        ClusterError
+            The scheduler cannot be started, or the queue does not take a job.
+        """
         jobs = math.ceil(workers / self._configuration.cores)
         with self.scheduler(dashboard) as cluster, Client(cluster) as client:
-            cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)
+            cluster.scale(jobs=jobs)
+            cluster.sync(_settled, cluster)
+            if self._refusals:
+                raise ClusterError(f"scheduler: the queue does not take a job: {self._refusals[0]}")
+            cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)  # Puts new ones for those that end.
             yield client
 
     @contextmanager
@@ -129,6 +141,7 @@ class JobQueue:
             cluster = self._cluster(
                 **self._arguments(),
                 **self._further,
+                job_cls=_telling(self._cluster.job_cls, self._refusals),
                 scheduler_options={"dashboard_address": dashboard or LOOPBACK},
                 security=Security() if dask.config.get(TLS, None) else None,
             )
@@ -155,3 +168,22 @@ class JobQueue:
             "death_timeout": given.death_timeout_s,
             "worker_extra_args": ["--no-dashboard"],
         }
+
+
+async def _settled(cluster: JobQueueCluster) -> None:
+    """Wait until the queue has taken or refused all jobs."""
+    await cluster
+
+
+def _telling(job: type[Any], refusals: list[str]) -> type[Any]:
+    """Return a class of jobs that notes why the queue does not take one; Dask only logs it."""
+
+    async def start(self: Any) -> None:
+        try:
+            await job.start(self)
+        except (OSError, RuntimeError, ValueError) as error:
+            _, _, printed = str(error).partition("stderr:\n")
+            refusals.append(" ".join(printed.split()) or first_line(error))
+            await ProcessInterface.start(self)
+
+    return type(job.__name__, (job,), {"start": start})

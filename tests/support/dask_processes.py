@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import psutil
@@ -53,10 +53,8 @@ def kill(process: psutil.Popen) -> None:
     """Kill a process and all that it has started, as a machine does that loses its power."""
     processes = [process, *process.children(recursive=True)] if process.is_running() else [process]
     for each in processes:
-        try:
+        with suppress(psutil.Error):
             each.send_signal(signal.SIGKILL)
-        except psutil.Error:
-            continue
     process.wait()
 
 
@@ -158,9 +156,14 @@ class Cluster:
             environment=environment,
         )
 
-    def log(self, name: str) -> str:
-        """Return what one of the processes has printed."""
-        return (self._folder / f"{name}.log").read_text()
+    def runners(self, name: str) -> list[int]:
+        """Return the process numbers of the runners of a worker."""
+        found = []
+        for process in self.processes[name].children(recursive=True):
+            with suppress(psutil.Error):
+                if "airhilt.sweep.runner" in process.cmdline():
+                    found.append(process.pid)
+        return sorted(found)
 
     def kill(self, name: str) -> None:
         """Kill one of the processes, with what it has started."""

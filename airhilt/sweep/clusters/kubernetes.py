@@ -70,12 +70,14 @@ class KubernetesPods:
                 '--scheduler-config FILE, such as {"image": "registry/airhilt:1"}'
             )
         try:
+            import kr8s
             from dask_kubernetes.operator import KubeCluster
         except ImportError as error:
             raise ClusterError(
                 f"scheduler kubernetes: the package {PACKAGE.name} is missing or does not load "
                 f"({first_line(error)}); install it with `{PACKAGE.remedy()}`"
             ) from None
+        self._api: Any = kr8s.api
         self._cluster: Any = KubeCluster
         self._configuration = configuration
 
@@ -84,6 +86,7 @@ class KubernetesPods:
         """Create the resource, and connect by a forwarded port; it is deleted with the context."""
         name = f"airhilt-{uuid.uuid4().hex[:8]}"
         try:
+            self._api(namespace=self._configuration.namespace).version()  # It answers us.
             cluster = self._cluster(
                 custom_cluster_spec=manifest(self._configuration, name, workers),
                 namespace=self._configuration.namespace,

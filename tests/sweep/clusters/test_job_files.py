@@ -113,6 +113,28 @@ def test_a_configuration_that_is_wrong_says_what(given: dict[str, Any], problem:
     assert problem in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    ("program", "reason"),
+    [
+        ("echo 'sbatch: error: no such partition' >&2; exit 1", "sbatch: error: no such partition"),
+        ("", "FileNotFoundError: .*'sbatch'"),
+    ],
+)
+def test_a_queue_that_does_not_take_a_job_says_why(
+    program: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("dask_jobqueue")
+    if program:
+        (tmp_path / "sbatch").write_text(f"#!/bin/sh\n{program}\n")
+        (tmp_path / "sbatch").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with (
+        pytest.raises(ClusterError, match=f"the queue does not take a job: {reason}"),
+        FAMILY.create("slurm").connect(2, None),
+    ):
+        pass
+
+
 @pytest.mark.parametrize("name", ["slurm", "pbs", "lsf"])
 def test_a_missing_package_is_named_with_its_remedy(
     name: str, monkeypatch: pytest.MonkeyPatch

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +11,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from dask_processes import Cluster, Machine, machines, wait_until
+from dask_processes import Cluster, Machine, kill, machines, wait_until
+from paths import ROOT
 
 from .conftest import RUNS, SweepCommand
 
@@ -170,3 +173,53 @@ def test_connections_are_encrypted_as_dask_is_configured(
     told = (tmp_path / "sweep.log").read_text()
     assert f"scheduler {cluster.address}: not there" in told
     assert "Traceback" not in told
+
+
+def test_a_worker_with_other_code_is_refused_by_name(
+    places: list[Machine], sweep_command: SweepCommand, tmp_path: Path
+) -> None:
+    other = tmp_path / "other"
+    shutil.copytree(ROOT / "airhilt", other / "airhilt")
+    for kind in ("aircraft", "airports", "scenarios", "bridges"):
+        (other / kind).symlink_to(ROOT / kind)
+    with (other / "airhilt" / "units.py").open("a") as module:
+        module.write("# changed\n")
+    with Cluster(places, tmp_path) as cluster:
+        cluster.start_scheduler()
+        cluster.start_worker(1, {"PYTHONPATH": str(other)})
+        command = sweep_command(tmp_path / "sweep", "--scheduler", cluster.address)
+        assert started(places[0], command, tmp_path).wait(120.0) == 2
+    told = (tmp_path / "sweep.log").read_text()
+    assert f"worker tcp://{places[1].address}:" in told
+    assert "other code, models, aircraft or airports of AIRHILT" in told
+    assert "Traceback" not in told
+
+
+def test_a_sweep_that_stops_takes_its_runners_from_the_workers(
+    places: list[Machine],
+    sweep_command: SweepCommand,
+    table_bytes: bytes,
+    tmp_path: Path,
+) -> None:
+    out = tmp_path / "sweep"
+    with Cluster(places, tmp_path) as cluster:
+        cluster.start_scheduler()
+        cluster.start_worker(1)
+        command = sweep_command(out, "--scheduler", cluster.address)
+        killed = started(places[0], command, tmp_path)
+        wait_until(lambda: parts(out) >= 2)
+        kill(killed)
+        left = cluster.runners("worker1")
+        assert len(left) == 1, "until it has been idle for some minutes"
+
+        stopped = started(places[0], command, tmp_path)
+        wait_until(lambda: parts(out) >= 6)
+        stopped.send_signal(signal.SIGINT)
+        wait_until(lambda: "once more stops at once" in (tmp_path / "sweep.log").read_text())
+        stopped.send_signal(signal.SIGINT)
+        assert stopped.wait(60.0) == 130
+        wait_until(lambda: cluster.runners("worker1") == left)
+
+        assert started(places[0], command, tmp_path).wait(300.0) == 0
+    assert "Traceback" not in (tmp_path / "sweep.log").read_text()
+    assert (out / "sweep.parquet").read_bytes() == table_bytes
