@@ -19,6 +19,11 @@ from airhilt.sweep.shared_folder import require_seen
 
 IDLE_S = 600.0
 """Time after which a runner that nobody asks is ended, in s: its sweep may have been killed."""
+GRACE_S = 5.0
+"""Time after the crash of a run in which its worker may be ended, in s.
+
+A queue that ends a job kills all of its processes, and the runner may be the first of them.
+"""
 LOOK_MS = 60_000.0
 """Period at which such runners are looked for, in ms."""
 
@@ -58,7 +63,7 @@ class RunnerPlugin(WorkerPlugin):
         self._lock = threading.Lock()
         self._idle: list[tuple[RunnerProcess, float]] = []
         self._busy: list[RunnerProcess] = []
-        self._is_over = False
+        self._over = threading.Event()
         self._where = worker.address
         look = PeriodicCallback(self._end_idle, LOOK_MS)
         worker.periodic_callbacks[self.name] = look
@@ -69,7 +74,7 @@ class RunnerPlugin(WorkerPlugin):
         """End the runners; a run in hand is for another worker."""
         worker.periodic_callbacks.pop(self.name).stop()
         with self._lock:
-            self._is_over = True
+            self._over.set()
             idle = [runner for runner, _ in self._idle]
             self._idle.clear()
             for runner in self._busy:
@@ -90,9 +95,12 @@ class RunnerPlugin(WorkerPlugin):
         self._require_seen()
         with self._runner() as runner:
             try:
-                return runner.run(request).model_dump_json()
+                outcome = runner.run(request)
             except RunnerStopped:
                 raise Reschedule from None
+        if outcome.status == "crashed" and self._over.wait(GRACE_S):
+            raise Reschedule
+        return outcome.model_dump_json()
 
     @contextmanager
     def _runner(self) -> Iterator[RunnerProcess]:
@@ -102,7 +110,7 @@ class RunnerPlugin(WorkerPlugin):
         runner = runner or RunnerProcess(self.renderer, self._limits)
         with self._lock:
             self._busy.append(runner)
-            if self._is_over:
+            if self._over.is_set():
                 runner.stop()
         try:
             require_same(self._expected, runner.environment, self._where)
@@ -110,9 +118,9 @@ class RunnerPlugin(WorkerPlugin):
         finally:
             with self._lock:
                 self._busy.remove(runner)
-                if not self._is_over:
+                if not self._over.is_set():
                     self._idle.append((runner, time.monotonic()))
-            if self._is_over:
+            if self._over.is_set():
                 runner.close()
 
     def _end_idle(self) -> None:

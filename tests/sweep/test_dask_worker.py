@@ -88,6 +88,21 @@ def test_a_run_in_hand_is_for_another_worker_if_this_one_ends(
         plugin.run(request("hangs"))
 
 
+def test_a_crash_with_the_worker_itself_is_not_the_runs_own(
+    plugin: RunnerPlugin, worker: Any
+) -> None:
+    threading.Timer(0.5, plugin.teardown, [worker]).start()
+    with pytest.raises(Reschedule):
+        plugin.run(request("dies"))
+
+
+def test_a_crash_alone_is_the_runs_own(
+    plugin: RunnerPlugin, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dask_worker, "GRACE_S", 0.0)
+    assert Outcome.model_validate_json(plugin.run(request("dies"))).status == "crashed"
+
+
 def test_runners_of_a_sweep_that_was_killed_end_after_a_while(
     plugin: RunnerPlugin, worker: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

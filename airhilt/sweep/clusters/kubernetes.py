@@ -104,7 +104,7 @@ class KubernetesPods:
 
 def manifest(configuration: KubernetesConfiguration, name: str, workers: int) -> dict[str, Any]:
     """Return the ``DaskCluster`` for a number of workers, each with one thread."""
-    worker = ["dask", "worker", "--name", "$(DASK_WORKER_NAME)", "--no-dashboard"]
+    worker = ["worker", "--name", "$(DASK_WORKER_NAME)", "--no-dashboard"]
     worker += ["--nthreads", str(configuration.cores)]
     memory_gb = configuration.memory_per_core_gb * configuration.cores
     return {
@@ -137,9 +137,9 @@ def manifest(configuration: KubernetesConfiguration, name: str, workers: int) ->
 
 def _scheduler_container(configuration: KubernetesConfiguration) -> dict[str, Any]:
     probe = {"httpGet": {"port": "http-dashboard", "path": "/health"}}
-    command = ["dask", "scheduler", "--host", "0.0.0.0"]  # noqa: S104 - of the pod alone
+    arguments = ["scheduler", "--host", "0.0.0.0"]  # noqa: S104 - of the pod alone
     return {
-        **_container(configuration, "scheduler", command, 1, configuration.scheduler_memory_gb),
+        **_container(configuration, "scheduler", arguments, 1, configuration.scheduler_memory_gb),
         "ports": [
             {"name": port, "containerPort": number, "protocol": "TCP"}
             for port, number in _ports().items()
@@ -157,7 +157,7 @@ def _ports() -> dict[str, int]:
 def _container(
     configuration: KubernetesConfiguration,
     name: str,
-    command: list[str],
+    arguments: list[str],
     cores: int,
     memory_gb: float,
 ) -> dict[str, Any]:
@@ -166,7 +166,8 @@ def _container(
     return {
         "name": name,
         "image": configuration.image,
-        "args": command,
+        "command": ["dask"],  # Whatever the image starts by itself.
+        "args": arguments,
         "env": [{"name": key, "value": value} for key, value in environment.items()],
         "resources": {"requests": resources, "limits": resources},
     }

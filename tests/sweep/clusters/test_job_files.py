@@ -165,8 +165,9 @@ def test_the_resource_for_kubernetes_has_what_is_configured() -> None:
         {
             "name": "worker",
             "image": "registry/airhilt:1",
+            "command": ["dask"],
             "args": [
-                *("dask", "worker", "--name", "$(DASK_WORKER_NAME)", "--no-dashboard"),
+                *("worker", "--name", "$(DASK_WORKER_NAME)", "--no-dashboard"),
                 *("--nthreads", "4"),
             ],
             "env": [{"name": "TZ", "value": "UTC"}],
