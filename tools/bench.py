@@ -11,6 +11,7 @@
     python tools/bench.py detection         CPU time of a look at a picture
     python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
     python tools/bench.py sight             whole runs with cameras against real time
+    python tools/bench.py many              runs one after the other in a process: CPU, memory
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
     python tools/bench.py headon --json
@@ -37,6 +38,7 @@ BENCHMARKS = {
     "detection": "pictures",
     "frames": "pictures",
     "sight": "pictures",
+    "many": "many_runs",
     "startup": "startup",
 }
 """Module of `benchmarks` that has the function of a name."""
