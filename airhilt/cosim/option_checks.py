@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from airhilt.assistant.decision.engines import FAMILY, decision_engine
@@ -18,12 +18,8 @@ from airhilt.assistant.wording.engines.template import Template
 from airhilt.cosim.given_modalities import inputs_given
 from airhilt.engines import ASSISTANT
 from airhilt.errors import AirhiltError, shown
-from airhilt.messages import Modality
 from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
-
-READ_BY: Mapping[str, Modality] = {"asr": "asr", "detector": "vision"}
-"""Modality that an engine of workers gives the assistant, by the engine's option."""
 
 
 def check_options(options: Options, scenario: Scenario) -> None:
@@ -60,8 +56,6 @@ def check_options(options: Options, scenario: Scenario) -> None:
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
     """Yield in words what leaves out, or does not bring, what an option needs."""
-    if name in READ_BY and READ_BY[name] not in options.given_modalities:
-        yield f"with --modalities {options.modalities}; expected only one of the two"
     for need in needs:
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name

@@ -117,8 +117,6 @@ def test_equipment_of_the_world_keeps_its_inputs() -> None:
         ({"assistant": "adsb_only", "modalities": "asr"}, "reads adsb, so nothing is left"),
         ({"assistant": "well_clear", "modalities": "vision"}, "reads adsb, so nothing is left"),
         ({"assistant": "none", "modalities": "asr"}, "--modalities 'asr' would do nothing"),
-        ({"detector": "none", "modalities": "adsb"}, "--detector 'none' would do nothing"),
-        ({"asr": "whisper:x", "modalities": "adsb"}, "--asr 'whisper:x' would do nothing"),
         ({"modalities": "adsb+sonar"}, "expected some of adsb, asr and vision"),
         ({"modalities": ""}, "expected some of adsb, asr and vision"),
     ],
