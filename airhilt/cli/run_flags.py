@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal, get_args, get_origin
 
 import click
@@ -13,12 +16,21 @@ from pydantic.fields import FieldInfo
 from airhilt.options import Flag, Options, flag_of
 
 
-def run_flags() -> list[click.Parameter]:
-    """Return the flags of all options that the command line spells."""
+def run_flags(
+    names: Collection[str] = Options.model_fields.keys(),
+    defaults: Mapping[str, str] = MappingProxyType({}),
+) -> list[click.Parameter]:
+    """Return the flags of those of the options that the command line spells.
+
+    Parameters
+    ----------
+    defaults
+        Defaults that the help tells in the place of the options' own.
+    """
     return [
-        _click_option(name, field, flag)
+        _click_option(name, field, replace(flag, default=defaults.get(name, flag.default)))
         for name, field in Options.model_fields.items()
-        if (flag := flag_of(field)) is not None
+        if name in names and (flag := flag_of(field)) is not None
     ]
 
 

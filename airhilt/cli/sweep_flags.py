@@ -12,7 +12,7 @@ from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of
 from airhilt.sweep.axes import Interval, Range, read_values
-from airhilt.sweep.specification import Specification, specification_of
+from airhilt.sweep.specification import Specification, first_seeds, specification_of
 
 WHOLE = ("latency", "llm")
 """Options whose one value may have commas and colons in it."""
@@ -138,9 +138,7 @@ def _given(context: click.Context, options: Json, set_: tuple[str, ...]) -> list
 def _seeds(text: str) -> Any:
     """Return the seeds of a text: a number of them, or values."""
     if text.isdecimal():
-        if int(text) == 0:
-            raise AirhiltError("--seeds 0: expected at least 1, for the seed 0")
-        return {"from": 0, "to": int(text) - 1, "step": 1}
+        return first_seeds(int(text))
     values = read_values(text)
     return (
         values.model_dump(by_alias=True, exclude_none=True)

@@ -27,8 +27,8 @@ MEGABYTE = 1e6
 class Limits:
     """What one run may take."""
 
-    wall_s: float
-    memory_mb: float
+    wall_s: float = 3600.0
+    memory_mb: float = 4000.0
 
 
 class RunnerError(AirhiltError):

@@ -54,6 +54,19 @@ class Specification(BaseModel):
     )
 
 
+def first_seeds(count: int) -> dict[str, int]:
+    """Return the seeds 0, 1 ... of a number of them, as a sweep file has them.
+
+    Raises
+    ------
+    AirhiltError
+        The number is not positive.
+    """
+    if count < 1:
+        raise AirhiltError(f"seeds {count}: expected at least 1, for the seed 0")
+    return {"from": 0, "to": count - 1, "step": 1}
+
+
 def read_specification(path: Path) -> Specification:
     """Return the specification in a file.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
@@ -46,7 +46,7 @@ class Work:
     """
 
     out: Path
-    limits: Limits
+    limits: Limits = field(default_factory=Limits)
     workers: int | None = None
     scheduler: str = LOCAL
     scheduler_config: Mapping[str, Any] | None = None

@@ -9,6 +9,8 @@ from typing import Any
 
 import click
 
+from airhilt.cli.work_flags import work_flags, work_given
+
 INTERRUPTED = 130
 """Exit code after a signal."""
 
@@ -78,58 +80,7 @@ Examples:
     help="Folder of the sweep; what it has already is not run again.  [default: a new one under "
     "sweeps/]",
 )
-@click.option(
-    "--scheduler",
-    default="local",
-    show_default=True,
-    metavar="NAME_OR_ADDRESS",
-    help="Who does the runs: local, slurm, pbs, lsf, kubernetes, or the address of a Dask "
-    "scheduler.",
-)
-@click.option(
-    "--scheduler-config",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Settings of the scheduler, such as queue and account, a JSON file.",
-)
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Number of workers.  [default: by cores and memory]",
-)
-@click.option(
-    "--keep",
-    default="none",
-    show_default=True,
-    metavar="WHICH",
-    help="Run folders that stay: none, failed, all, or sample:N.",
-)
-@click.option(
-    "--run-timeout",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=3600.0,
-    show_default=True,
-    metavar="SECONDS",
-    help="Wall time after which a run is ended.",
-)
-@click.option(
-    "--run-memory",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=4000.0,
-    show_default=True,
-    metavar="MB",
-    help="Memory at which a run is ended.",
-)
-@click.option("--retry", is_flag=True, help="Run again what a limit or a crash has ended.")
-@click.option(
-    "--dashboard",
-    metavar="ADDRESS",
-    help="Serve Dask's dashboard, such as on 127.0.0.1:8787; it needs the extra cluster.",
-)
-@click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long.")
-@click.option("--quiet", is_flag=True, help="Print nothing but errors.")
-@click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON.")
+@work_flags
 @click.pass_context
 def sweep(context: click.Context, /, **given: Any) -> int:
     """Run a grid of scenarios, parameters, seeds and assistants, and make one table of it.
@@ -143,26 +94,12 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     from airhilt.cli.sweep_progress import SweepProgress
     from airhilt.sweep.engine import sweep as run_sweep
     from airhilt.sweep.estimate import estimate
-    from airhilt.sweep.runner_process import Limits
-    from airhilt.sweep.work import Work, keep_of, read_settings, require_dashboard
 
     document = {} if given["file"] is None else _document(given["file"])
     specification = specification_given(
         context, document, given["scenarios"], given["seeds"], given["set_"], given["sample"]
     )
-    keep, sample = keep_of(given["keep"])
-    require_dashboard(given["dashboard"])
-    work = Work(
-        out=given["out"] or _default_folder(),
-        limits=Limits(given["run_timeout"], given["run_memory"]),
-        workers=given["workers"],
-        scheduler=given["scheduler"],
-        scheduler_config=read_settings(given["scheduler_config"]),
-        keep=keep,
-        sample=sample,
-        dashboard=given["dashboard"],
-        retry=given["retry"],
-    )
+    work = work_given(given, given["out"] or _default_folder())
     if given["dry_run"]:
         print_estimate(estimate(specification, work), given["as_json"])
         return 0

@@ -1,0 +1,100 @@
+"""The flags of how a sweep is run: where, by whom, within which limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from airhilt.sweep.work import Work
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+FLAGS: tuple[Callable[[Any], Any], ...] = (
+    click.option(
+        "--scheduler",
+        default="local",
+        show_default=True,
+        metavar="NAME_OR_ADDRESS",
+        help="Who does the runs: local, slurm, pbs, lsf, kubernetes, or the address of a Dask "
+        "scheduler.",
+    ),
+    click.option(
+        "--scheduler-config",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="Settings of the scheduler, such as queue and account, a JSON file.",
+    ),
+    click.option(
+        "--workers",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Number of workers.  [default: by cores and memory]",
+    ),
+    click.option(
+        "--keep",
+        default="none",
+        show_default=True,
+        metavar="WHICH",
+        help="Run folders that stay: none, failed, all, or sample:N.",
+    ),
+    click.option(
+        "--run-timeout",
+        "wall_s",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="SECONDS",
+        help="Wall time after which a run is ended.  [default: 3600]",
+    ),
+    click.option(
+        "--run-memory",
+        "memory_mb",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="MB",
+        help="Memory at which a run is ended.  [default: 4000]",
+    ),
+    click.option("--retry", is_flag=True, help="Run again what a limit or a crash has ended."),
+    click.option(
+        "--dashboard",
+        metavar="ADDRESS",
+        help="Serve Dask's dashboard, such as on 127.0.0.1:8787; it needs the extra cluster.",
+    ),
+    click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long."),
+    click.option("--quiet", is_flag=True, help="Print nothing but errors."),
+    click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON."),
+)
+
+
+def work_flags(command: Command) -> Command:
+    """Give a command these flags, after its own."""
+    for flag in reversed(FLAGS):
+        command = flag(command)
+    return command
+
+
+def work_given(given: Mapping[str, Any], out: Path) -> Work:
+    """Return how a sweep is run, by the flags that were given.
+
+    Raises
+    ------
+    AirhiltError
+        One of them is wrong.
+    """
+    from airhilt.sweep.runner_process import Limits
+    from airhilt.sweep.work import Work, keep_of, read_settings, require_dashboard
+
+    require_dashboard(given["dashboard"])
+    keep, sample = keep_of(given["keep"])
+    limits = {name: given[name] for name in ("wall_s", "memory_mb") if given[name] is not None}
+    return Work(
+        out=out,
+        limits=Limits(**limits),
+        workers=given["workers"],
+        scheduler=given["scheduler"],
+        scheduler_config=read_settings(given["scheduler_config"]),
+        keep=keep,
+        sample=sample,
+        dashboard=given["dashboard"],
+        retry=given["retry"],
+    )
