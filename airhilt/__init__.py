@@ -9,7 +9,7 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -43,6 +43,7 @@ __all__ = [
     "messages",
     "read_sweep",
     "run",
+    "run_sweep",
 ]
 _HOMES = {
     "Input": "airhilt.sim.worker",
@@ -149,6 +150,56 @@ def run(
         scenario = load(scenario)
     given = options_of({"out": out, **options})
     return run_scenario(scenario, given, observer, workers=workers)
+
+
+def run_sweep(
+    scenarios: str | Path | Sequence[str | Path],
+    *,
+    out: str | Path,
+    seeds: int | Sequence[int] = 1,
+    axes: Mapping[str, Any] | None = None,
+    workers: int | None = None,
+    **options: Any,
+) -> DataFrame:
+    """Run scenarios over seeds and parameters, and return a pandas data frame, a row a run.
+
+    It is `read_sweep` of ``out``. What that folder has already is not run again. A script that
+    calls this needs ``if __name__ == "__main__":``, because the workers are other processes.
+
+    Parameters
+    ----------
+    scenarios
+        Names, patterns such as ``s01a_*``, or files.
+    out
+        The sweep folder.
+    seeds
+        Number of seeds, from 0 on, or the seeds themselves.
+    axes
+        Values of each parameter of the grid, by its path: ``{"snr_db": [0, 10]}``, or a range
+        ``{"snr_db": {"from": 0, "to": 20, "step": 5}}`` (docs/sweeps.md).
+    workers
+        Number of worker processes; None: as many as this machine has cores and memory for.
+    options
+        Options that all runs have, as `run` takes them.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong; nothing was run.
+    """
+    from airhilt.sweep.engine import sweep as sweep_all
+    from airhilt.sweep.specification import first_seeds, specification_of
+    from airhilt.sweep.work import Work
+
+    names = [scenarios] if isinstance(scenarios, str | Path) else scenarios
+    document = {
+        "scenarios": [str(name) for name in names],
+        "seeds": first_seeds(seeds) if isinstance(seeds, int) else list(seeds),
+        "axes": dict(axes or {}),
+        "options": options,
+    }
+    sweep_all(specification_of(document, "run_sweep"), Work(Path(out), workers=workers))
+    return read_sweep(out)
 
 
 def _require_types(scenario: object, observer: object, workers: object) -> None:

@@ -1,0 +1,46 @@
+"""The notebooks under examples run from the first cell to the last."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+from airhilt.scenario import Scenario
+from paths import ROOT
+
+MOST_LINES = 15
+"""Lines of code, blank ones not counted."""
+
+
+def test_the_notebook_runs_a_sweep_and_plots_it(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    short = encounter.model_copy(update={"name": "short", "duration_s": 4.0})
+    (tmp_path / "short.json").write_text(short.model_dump_json())
+    notebook = nbformat.read(ROOT / "examples" / "sweep.ipynb", as_version=4)  # type: ignore[no-untyped-call]
+    for cell in notebook.cells:
+        cell.source = cell.source.replace('"s02a_vertical"', '"short.json"')
+        cell.source = cell.source.replace("seeds=5", "seeds=2").replace("[-6, 0, 6, 12]", "[0, 10]")
+    client = NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}})
+    client.execute()
+    assert (tmp_path / "sweeps" / "notebook" / "sweep.parquet").exists()
+    table, plot = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"][1:]
+    assert "adsb_only" in table[0].data["text/html"]
+    assert any("image/png" in output.get("data", {}) for output in plot)
+
+
+def test_the_notebook_has_at_most_15_lines_of_code() -> None:
+    notebook = nbformat.read(ROOT / "examples" / "sweep.ipynb", as_version=4)  # type: ignore[no-untyped-call]
+    lines = [
+        line
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+        for line in cell.source.splitlines()
+        if line
+    ]
+    assert len(lines) <= MOST_LINES
+    assert not any(cell.get("outputs") for cell in notebook.cells)
