@@ -82,6 +82,30 @@ def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Esti
     return Estimate(mean, low, high, sample.size)
 
 
+def median_of(values: Sequence[float] | Array) -> Estimate:
+    """Return the median, with the interval of a percentile bootstrap over the runs.
+
+    The interval is None for a single value.
+    """
+    from scipy.stats import bootstrap
+
+    sample = np.asarray(values, dtype=np.float64)
+    if sample.size == 0:
+        return UNKNOWN
+    median = float(np.median(sample))
+    if sample.size == 1:
+        return Estimate(median, None, None, 1)
+    found = bootstrap(
+        (sample,),
+        np.median,
+        n_resamples=RESAMPLES,
+        confidence_level=CONFIDENCE,
+        method="percentile",
+        random_state=np.random.default_rng(SEED),
+    ).confidence_interval
+    return Estimate(median, float(found.low), float(found.high), sample.size)
+
+
 def rate_of(
     counts: Sequence[float] | Array,
     exposures: Sequence[float] | Array,

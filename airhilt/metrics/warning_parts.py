@@ -1,15 +1,12 @@
-"""Parts of the time to first warning, and their means over many runs."""
+"""Parts of the time to first warning."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-
-import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from collections.abc import Callable
 
 from airhilt.messages import Advisory, Transcript
 from airhilt.metrics.calls import CallRecord
-from airhilt.metrics.summary import Summary, WarningParts
+from airhilt.metrics.summary import WarningParts
 from airhilt.units import SECOND_NS
 
 RADIO = "radio"
@@ -72,67 +69,3 @@ def parts_of(
 
 def _overlap_ns(one: tuple[int, int], other: tuple[int, int]) -> int:
     return max(min(one[1], other[1]) - max(one[0], other[0]), 0)
-
-
-class WarningStatistics(BaseModel):
-    """The time to first warning over some runs, in s; null if nobody was warned in any."""
-
-    model_config = ConfigDict(frozen=True)
-    runs: int
-    warned: int = Field(description="runs with a warning of the conflict")
-    mean_s: float | None
-    median_s: float | None
-    share_before: float | None = Field(
-        description="share of the warnings that came before the conflict began: those below 0, "
-        "and those of a conflict that then never began"
-    )
-    mean_after_call_s: float | None = Field(
-        description="mean from the end of the call that begins the conflict, where one does"
-    )
-    parts: WarningParts | None = Field(description="mean of each part")
-
-    @classmethod
-    def of(cls, summaries: Sequence[Summary]) -> WarningStatistics:
-        """Return the statistics of runs; a run that nobody was warned in counts in `runs` only.
-
-        A warning of a conflict that then never began has no time: it counts in `warned` and in
-        `share_before`.
-        """
-        warned = [summary for summary in summaries if summary.t_first_warning_s is not None]
-        times = _known(summary.time_to_first_warning_s for summary in summaries)
-        parts = [one for summary in summaries if (one := summary.first_warning_parts) is not None]
-        return cls(
-            runs=len(summaries),
-            warned=len(warned),
-            mean_s=_mean(times),
-            median_s=float(np.median(times)) if times else None,
-            share_before=_mean(
-                [
-                    summary.time_to_first_warning_s is None or summary.time_to_first_warning_s < 0.0
-                    for summary in warned
-                ]
-            ),
-            mean_after_call_s=_mean(
-                _known(summary.time_to_first_warning_after_call_s for summary in summaries)
-            ),
-            parts=_mean_parts(parts),
-        )
-
-
-def _known(values: Iterable[float | None]) -> list[float]:
-    return [value for value in values if value is not None]
-
-
-def _mean(values: Sequence[float]) -> float | None:
-    return float(np.mean(values)) if values else None
-
-
-def _mean_parts(parts: Sequence[WarningParts]) -> WarningParts | None:
-    if not parts:
-        return None
-    return WarningParts(
-        **{
-            name: float(np.mean([getattr(one, name) for one in parts]))
-            for name in WarningParts.model_fields
-        }
-    )

@@ -111,12 +111,17 @@ def run(script: str, environment: dict[str, str]) -> str:
 
 
 def as_run(command: str, endpoint: str) -> str:
-    """Return a command as it is run here: its own run folders and port, and few pictures."""
+    """Return a command as it is run here: its own run folders and port, and few pictures.
+
+    An evaluation tries one run.
+    """
     command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
     command = re.sub(r"--images \d+", "--images 2", command)
     if command.startswith("airhilt sweep"):
         command = command.replace("'s01a_*'", "s02a_headon").replace("0:20:5", "5")
         command = re.sub(r"--seeds \d+", "--seeds 1 --no-cameras --no-speech", command)
+    if command.startswith("airhilt evaluate"):
+        command += " --dry-run"
     command = re.sub(r"runs/(\w+)-0-\.\.\.", r'"$(ls -dt runs/\1-0-* | head -1)"', command)
     command = re.sub(r"\bRUN\b", '"$(ls -dt runs/*/ | head -1)"', command)
     return f"{command} &" if "--attach" in command else command

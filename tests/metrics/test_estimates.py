@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.metrics.estimates import UNKNOWN, Estimate, mean_of, rate_of, share_of
+from airhilt.metrics.estimates import UNKNOWN, Estimate, mean_of, median_of, rate_of, share_of
 
 
 def test_nothing_is_known_of_no_runs() -> None:
@@ -59,3 +59,16 @@ def test_what_did_not_happen_may_still_happen() -> None:
 
 def test_the_same_runs_give_the_same_interval() -> None:
     assert mean_of([1.0, 2.0, 5.0]) == mean_of([1.0, 2.0, 5.0])
+
+
+def test_the_interval_of_a_median_holds_the_true_median_as_often_as_it_says() -> None:
+    random = np.random.default_rng(2)
+    samples = [median_of(random.exponential(2.0, 40)) for _ in range(100)]
+    held = sum(found.low <= 2.0 * np.log(2.0) <= found.high for found in samples)
+    assert 87 <= held <= 99
+
+
+def test_a_median_is_known_of_one_run_and_not_of_none() -> None:
+    assert median_of([]) == UNKNOWN
+    assert median_of([3.0]) == Estimate(3.0, None, None, 1)
+    assert median_of([1.0, 2.0, 9.0]).value == 2.0

@@ -1,4 +1,4 @@
-"""What the time to first warning consists of, and what it comes to over many runs."""
+"""What the time to first warning consists of."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import pytest
 
 from airhilt.messages import Advisory, Evidence, Severity, Transcript
 from airhilt.metrics.calls import CallRecord
-from airhilt.metrics.summary import Summary, WarningParts
-from airhilt.metrics.warning_parts import WarningStatistics, parts_of, supporting_transcript
+from airhilt.metrics.summary import WarningParts
+from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.units import SECOND_NS
 
 KHZ = 119_100
@@ -101,47 +101,3 @@ def test_without_names_it_rests_on_the_call_that_begins_the_conflict_if_on_the_r
 
 def test_what_was_recognised_after_the_evidence_was_complete_is_no_part_of_it() -> None:
     assert found(advisory(15.0, 17.0, "readback", "clearance")) == "clearance"
-
-
-# --- many runs ------------------------------------------------------------------------------
-
-
-def summary(time_s: float | None, warning_s: float | None = None) -> Summary:
-    parts = None
-    if time_s is not None:
-        parts = WarningParts(
-            speech_s=1.0, recognition_s=1.0, evidence_s=time_s - 3.0, decision_s=0.5, voice_s=0.5
-        )
-    fields: dict[str, Any] = {
-        "t_first_warning_s": warning_s if time_s is None else 20.0 + time_s,
-        "time_to_first_warning_s": time_s,
-        "time_to_first_warning_after_call_s": None if time_s is None else time_s - 1.0,
-        "first_warning_parts": parts,
-    }
-    return Summary.model_construct(**fields)
-
-
-def test_warnings_before_the_begin_count_as_such_in_mean_median_and_share() -> None:
-    numbers = WarningStatistics.of([summary(time_s) for time_s in (-2.0, 4.0, 7.0, None)])
-    assert (numbers.runs, numbers.warned) == (4, 3)
-    assert numbers.mean_s == pytest.approx(3.0)
-    assert numbers.median_s == pytest.approx(4.0)
-    assert numbers.share_before == pytest.approx(1 / 3)
-    assert numbers.mean_after_call_s == pytest.approx(2.0)
-    assert numbers.parts is not None
-    assert sum(rounded(numbers.parts)) == pytest.approx(3.0)
-
-
-def test_a_warning_of_a_conflict_that_then_never_began_came_before_its_begin() -> None:
-    numbers = WarningStatistics.of([summary(4.0), summary(None, warning_s=9.0), summary(None)])
-    assert (numbers.runs, numbers.warned) == (3, 2)
-    assert numbers.share_before == pytest.approx(1 / 2)
-    assert numbers.mean_s == pytest.approx(4.0)
-
-
-def test_where_nobody_was_warned_there_are_no_numbers() -> None:
-    numbers = WarningStatistics.of([summary(None)])
-    assert numbers.model_dump() == {
-        "runs": 1, "warned": 0, "mean_s": None, "median_s": None, "share_before": None,
-        "mean_after_call_s": None, "parts": None,
-    }  # fmt: skip

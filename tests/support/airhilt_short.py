@@ -44,6 +44,6 @@ def use(scenarios: Path) -> None:
 
 if __name__ == "__main__":
     chosen = Path(sys.argv.pop(1))
-    if sys.argv[1:2] == ["cosim"]:
+    if sys.argv[1:2] in (["cosim"], ["sweep"], ["evaluate"]):
         use(chosen / ("seen" if "--video" in sys.argv else "unseen"))
     main()

@@ -1,0 +1,135 @@
+"""The command that evaluates assistants by a preset."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from airhilt.cli.work_flags import work_flags, work_given
+
+if TYPE_CHECKING:
+    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.sweep.evaluation.engine import Evaluation
+    from airhilt.sweep.evaluation.preset import Choice, Preset
+    from airhilt.sweep.work import Work
+
+CHOSEN = ("latency", "cameras", "renderer", "detector", "speech", "asr", "tts")
+"""Options of runs that may be given; a preset settles or varies the others."""
+INTERRUPTED = 130
+"""Exit code after a signal."""
+
+
+class EvaluateCommand(click.Command):
+    """A command with some flags of a run, made when somebody asks."""
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return the parameters: those of the command itself, and those of its runs."""
+        from airhilt.cli.run_flags import run_flags
+
+        if not any(parameter.name == "latency" for parameter in self.params):
+            self.params[3:3] = run_flags(CHOSEN, {"latency": "the preset's"})
+        return super().get_params(ctx)
+
+
+@click.command(
+    cls=EvaluateCommand,
+    epilog="""\b
+Examples:
+  airhilt evaluate --preset paper --no-cameras --out evaluations/paper
+  airhilt evaluate --preset full --seeds 3 --out evaluations/full
+""",
+)
+@click.option(
+    "--preset",
+    required=True,
+    metavar="NAME",
+    help="paper: runway overlaps, with the numbers of the AIRHILT paper beside ours; full: all "
+    "families and assistants, modalities and topologies.",
+)
+@click.option(
+    "--seeds",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Number of seeds, from 0 on.  [default: the preset's]",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Folder of the evaluation; what it has already is not run again.  [default: "
+    "evaluations/PRESET]",
+)
+@work_flags
+@click.pass_context
+def evaluate(context: click.Context, /, **given: Any) -> int:
+    """Run the sweeps of a preset, and make tables with 95 % intervals of them.
+
+    The tables are printed, and written to DIR/evaluation.md and DIR/evaluation.json; each sweep has
+    a folder in DIR (`airhilt report DIR/NAME` shows it). The same command again does what is
+    missing. Exit code 0 if every run has a row, 1 if some have not.
+    """
+    from airhilt.cli.run_flags import options_given
+    from airhilt.sweep.evaluation.engine import evaluate as run_evaluation
+    from airhilt.sweep.evaluation.preset import Choice
+    from airhilt.sweep.evaluation.presets import FAMILY
+
+    preset: Preset = FAMILY.load(given["preset"])
+    options = options_given(context).model_dump(mode="json", exclude_unset=True)
+    chosen = {name: value for name, value in options.items() if name in CHOSEN}
+    choice = Choice(given["seeds"] or preset.seeds, chosen)
+    work = work_given(given, given["out"] or Path("evaluations") / preset.name)
+    if given["dry_run"]:
+        _print_estimates(preset, choice, work, given["as_json"])
+        return 0
+    quiet = given["quiet"]
+    evaluation = run_evaluation(preset, choice, work, lambda name: _progress(name, quiet))
+    if evaluation is None:
+        return INTERRUPTED
+    _print(evaluation, given["as_json"], quiet)
+    return 0 if evaluation.rows == evaluation.runs else 1
+
+
+@contextmanager
+def _progress(name: str, quiet: bool) -> Iterator[SweepProgress]:
+    """Show how one sweep is doing; it stops after the runs in hand if the user asks."""
+    from airhilt.cli.sweep_progress import SweepProgress
+
+    if not quiet:
+        click.echo(f"{name}:", err=True)
+    with SweepProgress(quiet) as progress, progress.interruptible():
+        yield progress
+
+
+def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
+    if as_json:
+        click.echo(json.dumps(evaluation.document(), indent=2))
+    elif not quiet:
+        click.echo(evaluation.markdown())
+        click.echo(f"{evaluation.rows} rows of {evaluation.runs} runs in {evaluation.folder}")
+
+
+def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) -> None:
+    """Print the size of each sweep; one run of each is tried."""
+    from dataclasses import asdict
+
+    from airhilt.cli.sweep_output import print_estimate
+    from airhilt.sweep.estimate import estimate
+
+    found = {
+        name: estimate(specification, work)
+        for name, specification in preset.specifications(choice).items()
+    }
+    if as_json:
+        click.echo(json.dumps({name: asdict(each) for name, each in found.items()}, indent=2))
+        return
+    for name, each in found.items():
+        click.echo(f"{name}: ", nl=False)
+        print_estimate(each, as_json)
+
+
+COMMAND = evaluate

@@ -1,0 +1,136 @@
+"""An evaluation, from its preset to its tables. The main path begins at `evaluate`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from airhilt.errors import AirhiltError
+from airhilt.files import replace_file, sha256
+from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.evaluation.preset import Choice, Preset, Results
+from airhilt.sweep.evaluation.tables import Table
+from airhilt.sweep.work import Work
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What an evaluation has come to.
+
+    Attributes
+    ----------
+    folder
+        Folder with ``evaluation.json``, ``evaluation.md``, and a sweep folder for each sweep.
+    sweeps
+        Results of its sweeps by their names.
+    tables
+        Tables of their rows.
+    """
+
+    folder: Path
+    preset: str
+    choice: Choice
+    sweeps: dict[str, SweepResult]
+    tables: tuple[Table, ...]
+
+    @property
+    def runs(self) -> int:
+        """Number of runs of all sweeps."""
+        return sum(each.runs for each in self.sweeps.values())
+
+    @property
+    def rows(self) -> int:
+        """Number of runs that have a row."""
+        return sum(each.rows for each in self.sweeps.values())
+
+    def document(self) -> dict[str, Any]:
+        """Return ``evaluation.json``."""
+        return {
+            "format": FORMAT,
+            "preset": self.preset,
+            "seeds": self.choice.seeds,
+            "options": dict(self.choice.options),
+            "sweeps": {
+                name: {
+                    "runs": each.runs,
+                    "rows": each.rows,
+                    "failed": each.failed,
+                    "missing": each.missing,
+                    "table_sha256": sha256(each.folder.table_path),
+                }
+                for name, each in self.sweeps.items()
+            },
+            "tables": [table.model_dump(mode="json") for table in self.tables],
+        }
+
+    def markdown(self) -> str:
+        """Return the tables as Markdown."""
+        return "\n".join(table.markdown() for table in self.tables)
+
+
+def evaluate(
+    preset: Preset,
+    choice: Choice,
+    work: Work,
+    watched: Callable[[str], AbstractContextManager[SweepObserver]],
+) -> Evaluation | None:
+    """Run what the sweeps of a preset do not have yet, and make its tables.
+
+    Parameters
+    ----------
+    work
+        How the sweeps are run; its folder is that of the evaluation.
+    watched
+        Returns who is told how a sweep is doing, by the sweep's name.
+
+    Returns
+    -------
+    Evaluation or None
+        None if an observer stopped it; what was finished is kept.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong, or the folder cannot be written.
+    """
+    sweeps: dict[str, SweepResult] = {}
+    for name, specification in preset.specifications(choice).items():
+        with watched(name) as observer:
+            own = replace(work, out=work.out / name)
+            sweeps[name] = sweep(specification, own, observer)
+            if observer.stops:
+                return None
+    rows = {name: _finished(each) for name, each in sweeps.items()}
+    tables = tuple(preset.tables(Results(choice, rows)))
+    evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)
+    _write(evaluation)
+    return evaluation
+
+
+def _finished(result: SweepResult) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = result.folder.table().to_pylist()
+    return [row for row in rows if row["status"] == "finished"]
+
+
+def _write(evaluation: Evaluation) -> None:
+    """Write ``evaluation.json`` and ``evaluation.md``, each all or nothing.
+
+    Raises
+    ------
+    AirhiltError
+        The disk takes no more.
+    """
+    document = f"{json.dumps(evaluation.document(), indent=2)}\n"
+    try:
+        replace_file(evaluation.folder / "evaluation.json", document.encode())
+        replace_file(evaluation.folder / "evaluation.md", evaluation.markdown().encode())
+    except OSError as error:
+        raise AirhiltError(
+            f"{evaluation.folder}: cannot be written: {error.strerror}; the runs are kept"
+        ) from None

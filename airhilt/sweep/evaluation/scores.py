@@ -1,0 +1,127 @@
+"""Scores of groups of runs: shares with Wilson's interval, means with that of a bootstrap.
+
+A run is compared with another of the same scenario and seed: one without an assistant, or one with
+another assistant. docs/evaluation.md has the definitions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from airhilt.metrics.estimates import Estimate, mean_of, rate_of, share_of
+from airhilt.metrics.measures import HOUR_S
+from airhilt.sweep.evaluation.preset import Row
+
+Pair = tuple[str, int]
+"""Scenario and seed, which runs with different assistants share."""
+SEVERITIES: Mapping[str, Callable[[Row], int]] = {
+    "INFO, ADVISORY": lambda row: int(row["advisories"] - row["cautions"] - row["warnings"]),
+    "CAUTION": lambda row: int(row["cautions"]),
+    "WARNING": lambda row: int(row["warnings"]),
+}
+"""Number of a run's advisories by their highest severity."""
+
+
+@dataclass(frozen=True)
+class Baselines:
+    """Runs that others are compared with, by scenario and seed.
+
+    Attributes
+    ----------
+    lost
+        Runs without an assistant that ended with harm to the pair.
+    nobody
+        All runs without an assistant.
+    well_clear_s
+        Time of the first warning of `well_clear`, where it gave one.
+    """
+
+    lost: frozenset[Pair]
+    nobody: frozenset[Pair]
+    well_clear_s: Mapping[Pair, float]
+
+    @classmethod
+    def of(cls, nobody: Sequence[Row], well_clear: Sequence[Row]) -> Baselines:
+        """Return the baselines in runs without an assistant, and with `well_clear`."""
+        return cls(
+            frozenset(pair_of(row) for row in nobody if row["avoided"] is False),
+            frozenset(pair_of(row) for row in nobody),
+            {
+                pair_of(row): row["t_first_warning_s"]
+                for row in well_clear
+                if row["t_first_warning_s"] is not None
+            },
+        )
+
+
+def pair_of(row: Row) -> Pair:
+    """Return scenario and seed of a run."""
+    return row["scenario"], row["seed"]
+
+
+def with_conflict(rows: Sequence[Row]) -> list[Row]:
+    """Return the runs of scenarios that declare a conflict."""
+    return [row for row in rows if row["nominal"] is False]
+
+
+def known(rows: Sequence[Row], column: str) -> list[Any]:
+    """Return the values of a column that are not null."""
+    return [row[column] for row in rows if row.get(column) is not None]
+
+
+def share(rows: Sequence[Row], column: str) -> Estimate:
+    """Return the share of runs in which a column is true, of those in which it is not null."""
+    return share_of(known(rows, column))
+
+
+def mean(rows: Sequence[Row], column: str) -> Estimate:
+    """Return the mean of a column over the runs in which it is not null."""
+    return mean_of(known(rows, column))
+
+
+def avoided(rows: Sequence[Row], baselines: Baselines) -> Estimate:
+    """Return the share of avoided conflicts, of those that are lost without an assistant."""
+    return share_of([row["avoided"] is True for row in rows if pair_of(row) in baselines.lost])
+
+
+def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimate:
+    """Return the mean time by which a warning came before that of `well_clear`, in s."""
+    return mean_of(
+        [
+            baselines.well_clear_s[pair_of(row)] - row["t_first_warning_s"]
+            for row in rows
+            if row["t_first_warning_s"] is not None and pair_of(row) in baselines.well_clear_s
+        ]
+    )
+
+
+def nuisance_per_hour(rows: Sequence[Row]) -> Estimate:
+    """Return the nuisance alerts in an hour of nominal traffic."""
+    nominal = [row for row in rows if row["nominal"] is True]
+    return rate_of(
+        [row["nuisance_alerts"] for row in nominal], [row["duration_s"] / HOUR_S for row in nominal]
+    )
+
+
+def followed_by_loss(
+    rows: Sequence[Row], severity: str, is_lost: Callable[[Row], bool]
+) -> Estimate:
+    """Return the share of the advisories of a severity that are in runs with a loss.
+
+    Its number of runs is that of those with such an advisory. Advisories of one run share their
+    fate, so the interval is that of a bootstrap over runs; of runs that all end alike, Wilson's.
+
+    Parameters
+    ----------
+    is_lost
+        Returns whether a run counts as one with a loss.
+    """
+    count = SEVERITIES[severity]
+    having = [(count(row), is_lost(row)) for row in rows if count(row)]
+    endings = [is_loss for _, is_loss in having]
+    if len(set(endings)) < 2:
+        return share_of(endings)
+    numbers = [number for number, _ in having]
+    return rate_of([number * is_loss for number, is_loss in having], numbers)

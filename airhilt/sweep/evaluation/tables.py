@@ -1,0 +1,92 @@
+"""Tables of an evaluation: cells with estimates, as JSON and as Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from airhilt.metrics.estimates import Estimate
+
+NOTHING = "-"
+"""Text of a cell without a number."""
+
+
+class Quantity(BaseModel):
+    """A number over many runs, with its 95 % interval."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    value: float | None = Field(description="the number; null: there are no runs for it")
+    low: float | None = Field(description="lower end of the interval; null: too few runs")
+    high: float | None = Field(description="upper end of the interval")
+    n: int = Field(description="number of runs that it rests on")
+    text: str = Field(description="how tables write it")
+
+    @classmethod
+    def of(cls, found: Estimate, text: str) -> Quantity:
+        """Return an estimate with its text."""
+        return cls(value=found.value, low=found.low, high=found.high, n=found.n, text=text)
+
+
+Cell = Quantity | int | str
+
+
+class Table(BaseModel):
+    """One table of an evaluation."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: str = Field(description="short name, for programs")
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    notes: tuple[str, ...] = Field(default=(), description="sentences that belong to the table")
+
+    def markdown(self) -> str:
+        """Return the table as Markdown, with its title in front and its notes after it."""
+        texts = [[_text(cell) for cell in row] for row in self.rows]
+        widths = [
+            max(len(text) for text in column) for column in zip(self.columns, *texts, strict=True)
+        ]
+        rule = "|".join("-" * (width + 2) for width in widths)
+        lines = [_line(self.columns, widths), f"|{rule}|", *(_line(row, widths) for row in texts)]
+        parts = [f"**{self.title}**", "\n".join(lines), *self.notes]
+        return "\n\n".join(parts) + "\n"
+
+
+def share(found: Estimate) -> Quantity:
+    """Return a share of runs as a cell: ``13 of 18 (49 to 88 %)``."""
+    if found.value is None:
+        return Quantity.of(found, NOTHING)
+    text = f"{round(found.value * found.n)} of {found.n}"
+    if found.low is not None and found.high is not None:
+        text += f" ({100.0 * found.low:.0f} to {100.0 * found.high:.0f} %)"
+    return Quantity.of(found, text)
+
+
+def number(found: Estimate, digits: int = 1) -> Quantity:
+    """Return a number as a cell: ``7.4 (7.3 to 7.6)``."""
+    if found.value is None:
+        return Quantity.of(found, NOTHING)
+    text = f"{found.value:.{digits}f}"
+    if found.low is not None and found.high is not None:
+        text += f" ({found.low:.{digits}f} to {found.high:.{digits}f})"
+    return Quantity.of(found, text)
+
+
+def percent(found: Estimate) -> Quantity:
+    """Return a share that is not one of runs as a cell: ``72 % (49 to 88 %)``."""
+    if found.value is None:
+        return Quantity.of(found, NOTHING)
+    text = f"{100.0 * found.value:.0f} %"
+    if found.low is not None and found.high is not None:
+        text += f" ({100.0 * found.low:.0f} to {100.0 * found.high:.0f} %)"
+    return Quantity.of(found, text)
+
+
+def _text(cell: Cell) -> str:
+    return cell.text if isinstance(cell, Quantity) else str(cell)
+
+
+def _line(texts: Sequence[str], widths: Sequence[int]) -> str:
+    cells = " | ".join(text.ljust(width) for text, width in zip(texts, widths, strict=True))
+    return f"| {cells} |"

@@ -1,0 +1,291 @@
+"""Evaluations: what their presets run, and the tables that come of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.cli.commands.evaluate import COMMAND
+from airhilt.errors import AirhiltError
+from airhilt.scenario import Scenario
+from airhilt.sweep.axes import listed
+from airhilt.sweep.engine import SweepObserver
+from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
+from airhilt.sweep.evaluation.engine import Evaluation, evaluate
+from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
+from airhilt.sweep.evaluation.presets import FAMILY, full, paper
+from airhilt.sweep.evaluation.scores import (
+    Baselines,
+    avoided,
+    followed_by_loss,
+    margin_over_well_clear,
+    nuisance_per_hour,
+)
+from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
+from airhilt.sweep.runner_process import Limits
+from airhilt.sweep.work import Work
+
+NO_CAMERAS = Choice(1, {"cameras": False})
+EVERYTHING = Choice(1, {})
+PARTS = ("speech", "recognition", "evidence", "decision", "voice")
+
+
+def row(scenario: str = "s01a_one", seed: int = 0, **fields: Any) -> dict[str, Any]:
+    """Return a row of a run in which somebody was warned 8 s after the begin, and all went well."""
+    return {
+        "scenario": scenario, "seed": seed, "family": scenario[:4].upper(), "status": "finished",
+        "nominal": False, "warned": True, "warned_in_time": True, "missed": False, "lost": False,
+        "avoided": True, "t_first_warning_s": 28.0, "time_to_first_warning_s": 8.0,
+        "lead_before_closest_approach_s": 30.0, "margin_over_tcas_ta_s": 5.0,
+        "margin_over_tcas_ra_s": 15.0, "nuisance_alerts": 0, "duration_s": 1800.0,
+        "advisories": 2, "cautions": 1, "warnings": 1, "latencies_asr_p50_s": 5.9,
+        "latencies_vision_p50_s": None, "first_detection_range_m": None,
+        **{f"first_warning_parts_{part}_s": 1.0 for part in PARTS}, **fields,
+    }  # fmt: skip
+
+
+def cells(table: Table, *key: str) -> dict[str, Any]:
+    """Return the cells of the row that begins with a key, by their columns."""
+    (found,) = [row for row in table.rows if row[: len(key)] == key]
+    return dict(zip(table.columns, found, strict=True))
+
+
+def text(cell: Any) -> str:
+    return cell.text if isinstance(cell, Quantity) else str(cell)
+
+
+# --- scores ---------------------------------------------------------------------------------
+
+
+def test_only_what_is_lost_without_an_assistant_can_be_avoided() -> None:
+    nobody = [row(seed=0, avoided=False), row(seed=1, avoided=False), row(seed=2, avoided=None)]
+    baselines = Baselines.of(nobody, [])
+    found = avoided([row(seed=0), row(seed=1, avoided=None), row(seed=2)], baselines)
+    assert (found.value, found.n) == (0.5, 2)
+
+
+def test_a_margin_over_well_clear_is_that_of_the_same_run() -> None:
+    other = [row(seed=0, t_first_warning_s=48.0), row(seed=1, t_first_warning_s=None)]
+    baselines = Baselines.of([], other)
+    found = margin_over_well_clear([row(seed=0), row(seed=1), row(seed=2)], baselines)
+    assert (found.value, found.n) == (20.0, 1)
+
+
+def test_nuisance_is_counted_in_hours_of_nominal_traffic() -> None:
+    rows = [row(nuisance_alerts=9), row(nominal=True), row(nominal=True, nuisance_alerts=3)]
+    assert nuisance_per_hour(rows).value == 3.0
+
+
+def test_severity_is_judged_by_the_advisories_that_a_loss_followed() -> None:
+    rows = [row(cautions=3, lost=True), row(cautions=1), row(cautions=0, lost=True)]
+    assert followed_by_loss(rows, "CAUTION", lambda one: one["lost"]).value == 0.75
+    found = followed_by_loss(rows, "WARNING", lambda one: one["lost"])
+    assert (found.value, found.n) == (pytest.approx(2 / 3), 3)
+
+
+# --- the paper ------------------------------------------------------------------------------
+
+
+def paper_tables(rows: Sequence[Row], choice: Choice = NO_CAMERAS) -> dict[str, Table]:
+    return {table.name: table for table in paper.tables(Results(choice, {"s01a": rows}))}
+
+
+def test_all_variants_with_a_conflict_are_run_as_in_the_paper() -> None:
+    assert "s01a_misaddressed_takeoff" in paper.variants()
+    assert "s01a_nominal" not in paper.variants()
+    (only,) = paper.specifications(Choice(10, {"cameras": False})).values()
+    assert listed(only.seeds) == tuple(range(10))
+    assert only.options == {"assistant": "paper", "latency": "paper", "cameras": False}
+
+
+def test_the_paper_has_its_numbers_beside_ours() -> None:
+    late = row(seed=1, time_to_first_warning_s=10.0, first_warning_parts_evidence_s=0.0)
+    table = paper_tables([row(), late])["comparison"]
+    warning = cells(table, "time to first warning, s")
+    assert (warning["the paper"], warning["mean"].value, warning["runs"]) == ("7.66", 9.0, 2)
+    by_call = cells(table, str(table.rows[1][0]))
+    assert (by_call["mean"].value, by_call["runs"]) == (10.0, 1)
+    assert cells(table, "ASR latency, s")["origin"] == "given by --latency"
+    assert cells(table, "vision latency, s")["origin"] == "not measured"
+    assert any("Without cameras" in note for note in table.notes)
+
+
+def test_warnings_before_the_begin_count_as_such() -> None:
+    never_began = row(seed=1, time_to_first_warning_s=None)
+    nobody: dict[str, Any] = {"t_first_warning_s": None, "time_to_first_warning_s": None}
+    rows = [row(time_to_first_warning_s=-3.0), never_began, row(seed=2), row(seed=3, **nobody)]
+    found = cells(paper_tables(rows)["variants"], "all")
+    assert (found["warned"], found["before"]) == ("3 of 4", "67 %")
+    assert found["mean"].value == 2.5
+
+
+# --- all families ---------------------------------------------------------------------------
+
+
+def test_an_assistant_runs_where_it_has_something_to_read() -> None:
+    scenarios = shipped_scenarios()
+    own = {
+        each.name: {name for name, one in scenarios.items() if each.applies_to(one)}
+        for each in ASSISTANTS
+    }
+    assert own["reference"] == set(scenarios)
+    assert "s01c_deer_undetected" in own["paper"]
+    assert "s02a_headon" not in own["paper"] | own["surf_a"]
+    assert "s01c_deer_undetected" not in own["adsb_only"] | own["surf_a"]
+    assert {"s01b_noncompliance", "s02a_headon", "s01c_nominal"} <= own["adsb_only"]
+    assert "s01b_dropped_hold" not in own["surf_a"]
+    assert own["tcas"] == own["well_clear"]
+    assert "s02c_intruder_headon" not in own["tcas"]
+    assert "s01a_nominal" not in own["tcas"]
+
+
+def test_without_cameras_and_sound_the_sweeps_that_need_them_are_left_out() -> None:
+    every = full.specifications(EVERYTHING)
+    assert {"none", "reference", "modalities", "vision_alone", "topologies"} <= every.keys()
+    assert len(listed(every["modalities"].axes["modalities"])) == 5
+    fewer = full.specifications(Choice(1, {"cameras": False, "speech": False}))
+    assert every.keys() - fewer.keys() == {"vision_alone", "topologies"}
+    assert listed(fewer["modalities"].axes["modalities"]) == ("asr", "adsb")
+
+
+def test_engines_that_nobody_would_ask_are_left_out_without_an_assistant() -> None:
+    given = {"asr": "whisper:model", "tts": "flite"}
+    found = full.specifications(Choice(1, given))
+    assert found["none"].options == {"latency": "fixed", "assistant": "none", "tts": "flite"}
+    assert found["reference"].options["asr"] == "whisper:model"
+
+
+def full_tables(choice: Choice = NO_CAMERAS) -> dict[str, Table]:
+    """Return the tables of made-up runs: without an assistant everything is lost."""
+    scenarios = shipped_scenarios()
+
+    def rows(own: Sequence[str], **fields: Any) -> list[dict[str, Any]]:
+        return [row(name, nominal=scenarios[name].conflict is None, **fields) for name in own]
+
+    found: dict[str, list[Row]] = {}
+    for name, one in full.specifications(choice).items():
+        lost = {"avoided": False, "lost": True} if name == "none" else {}
+        found[name] = []
+        for path, values in one.axes.items() or {"scenario": ("",)}.items():
+            for value in listed(values):
+                extra = {} if path == "scenario" else {path: value}
+                found[name] += rows(one.scenarios, **lost, **extra)
+    return {table.name: table for table in full.tables(Results(choice, found))}
+
+
+def test_a_family_in_which_an_assistant_has_nothing_to_read_is_not_held_against_it() -> None:
+    table = full_tables()["families"]
+    listed_pairs = {(line[0], line[1]) for line in table.rows}
+    assert ("S01A", "surf_a") in listed_pairs
+    assert ("S02A", "surf_a") not in listed_pairs
+    assert text(cells(table, "S01B", "adsb_only")["warned"]).startswith("3 of 3")
+    assert any("`adsb_only` does not apply to" in note for note in table.notes)
+    assert text(cells(table, "all", "reference")["avoided"]).startswith("24 of 24")
+
+
+def test_severity_modalities_and_topologies_have_tables() -> None:
+    found = full_tables(EVERYTHING)
+    severe = cells(found["severities"], "reference", "WARNING")
+    assert (text(severe["loss"]), severe["advisories"]) == ("0 % (0 to 11 %)", 30)
+    assert severe["loss without it"].value == 1.0
+    given = {line[1] for line in found["modalities"].rows}
+    assert given == {"all", *full.WITH_VISION.values()}
+    assert {line[1] for line in found["topologies"].rows} == {"parallel", *full.FUSION}
+
+
+# --- tables ---------------------------------------------------------------------------------
+
+
+def test_cells_have_their_numbers_and_a_text() -> None:
+    from airhilt.metrics.estimates import UNKNOWN, Estimate
+
+    assert share(Estimate(0.75, 0.3, 0.95, 4)).text == "3 of 4 (30 to 95 %)"
+    assert number(Estimate(7.66, 7.0, 8.0, 5), 2).text == "7.66 (7.00 to 8.00)"
+    assert number(Estimate(7.66, None, None, 1), 0).text == "8"
+    assert share(UNKNOWN).text == number(UNKNOWN).text == "-"
+
+
+def test_a_table_is_markdown() -> None:
+    table = Table(name="x", title="T", columns=("a", "long"), rows=(("one", 2),), notes=("Note.",))
+    assert table.markdown() == (
+        "**T**\n\n| a   | long |\n|-----|------|\n| one | 2    |\n\nNote.\n"
+    )
+
+
+# --- with real runs -------------------------------------------------------------------------
+
+
+class Stopping(SweepObserver):
+    """Wants to stop at once."""
+
+    stops = True
+
+
+@contextmanager
+def unwatched(_name: str) -> Iterator[SweepObserver]:
+    yield SweepObserver()
+
+
+@contextmanager
+def stopping(_name: str) -> Iterator[SweepObserver]:
+    yield Stopping()
+
+
+@pytest.fixture
+def small(encounter: Scenario, tmp_path: Path) -> Preset:
+    """A preset of two short runs."""
+    path = tmp_path / "short.json"
+    short = encounter.model_copy(update={"name": "short", "duration_s": 4.0})
+    path.write_text(short.model_dump_json())
+
+    def tables(results: Results) -> Sequence[Table]:
+        rows: Sequence[Mapping[str, Any]] = results.rows["only"]
+        lines = tuple((one["assistant"], one["seed"]) for one in rows)
+        return (Table(name="runs", title="Runs", columns=("assistant", "seed"), rows=lines),)
+
+    return Preset(
+        name="small",
+        summary="two short runs",
+        seeds=2,
+        specifications=lambda choice: {
+            "only": choice.specification([str(path)], {"assistant": "none", "latency": "fixed"})
+        },
+        tables=tables,
+    )
+
+
+def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
+    small: Preset, tmp_path: Path
+) -> None:
+    choice, work = Choice(2, {"speech": False}), Work(tmp_path / "out", workers=1)
+    assert evaluate(small, choice, work, stopping) is None
+    assert not (tmp_path / "out" / "evaluation.json").exists()
+    found = evaluate(small, choice, work, unwatched)
+    assert isinstance(found, Evaluation)
+    assert (found.runs, found.rows) == (2, 2)
+    written = json.loads((tmp_path / "out" / "evaluation.json").read_text())
+    assert sorted(written["tables"][0]["rows"]) == [["none", 0], ["none", 1]]
+    assert len(written["sweeps"]["only"]["table_sha256"]) == 64
+    assert (tmp_path / "out" / "evaluation.md").read_text() == found.markdown()
+    before = (tmp_path / "out" / "evaluation.json").read_bytes()
+    evaluate(small, choice, work, unwatched)
+    assert (tmp_path / "out" / "evaluation.json").read_bytes() == before
+
+
+def test_presets_are_found_by_their_names() -> None:
+    assert FAMILY.names() == ["full", "paper"]
+    with pytest.raises(AirhiltError, match="no preset named 'papre'; did you mean 'paper'"):
+        FAMILY.load("papre")
+
+
+def test_the_help_tells_the_limits_of_a_run() -> None:
+    import click
+
+    helps = {one.name: one.help for one in COMMAND.params if isinstance(one, click.Option)}
+    assert f"[default: {Limits().wall_s:g}]" in str(helps["wall_s"])
+    assert f"[default: {Limits().memory_mb:g}]" in str(helps["memory_mb"])
