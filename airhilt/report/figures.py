@@ -60,6 +60,8 @@ STYLE: Any = {
     "lines.linewidth": 1.8,
     "hatch.color": DIM,
 }
+LONGEST_NAME = 100
+"""Greatest number of characters of a name, which is that of files."""
 PROLOGUE = re.compile(r"^.*?(?=<svg )", re.DOTALL)
 METADATA = re.compile(r"\s*<metadata>.*?</metadata>", re.DOTALL)
 IDENTITY = re.compile(r'(\bid="|url\(#|href="#)')
@@ -84,6 +86,13 @@ class Figures:
         self.markup: dict[str, str] = {}
         self._files: dict[str, bytes] = {}
         self._drawn = drawn
+
+    def name_for(self, *words: str) -> str:
+        """Return a name that no figure has yet: of letters, digits and underscores."""
+        text = "_".join(words).lower()[:LONGEST_NAME]
+        name = "".join(each if each.isascii() and each.isalnum() else "_" for each in text)
+        count = sum(each == name or each.startswith(f"{name}__") for each in self.markup)
+        return f"{name}__{count + 1}" if count else name
 
     @contextmanager
     def drawing(self, name: str, width_in: float, height_in: float) -> Iterator[Figure]:

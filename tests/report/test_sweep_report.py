@@ -18,7 +18,6 @@ from airhilt.report.figures import Figures, embedded
 from airhilt.report.sweeps import write_sweep_report
 from airhilt.report.sweeps.axes import Level, axis_of, heat_map_axes, number_text
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
-from airhilt.report.sweeps.figure_section import slug
 from airhilt.report.sweeps.sections import ablation, failures, heat_maps, overview, runs
 from sweep_tables import Row, grid, sweep_row, write_sweep
 
@@ -154,10 +153,21 @@ def _series(values: list[Any]) -> Any:
 
 def test_many_values_are_put_into_bins_that_hold_each_of_them_once() -> None:
     axis = axis_of("visibility_m", _series([400.0 * 1.2**n for n in range(18)]), "m")
-    assert len(axis.levels) <= 6
-    assert axis.is_logarithmic
-    held = sum(axis._at(level).astype(int) for level in axis.levels)
-    assert held.tolist() == [1] * 18
+    held = [int(axis._at(level).sum()) for level in axis.levels]
+    assert held == [3] * 6
+    assert sum(axis._at(level).astype(int) for level in axis.levels).tolist() == [1] * 18
+
+
+@pytest.mark.parametrize(
+    ("values", "unit", "is_logarithmic"),
+    [([400.0, 800.0, 1600.0, 5000.0], "m", True), ([100.0, 200.0, 300.0], "m", False),
+     ([0.0, 10.0, 100.0], "m", False), ([1.0, 10.0, 100.0], "dB", False),
+     ([1.0, 100.0], "m", False)],
+)  # fmt: skip
+def test_an_axis_is_logarithmic_where_its_levels_are(
+    values: list[float], unit: str, is_logarithmic: bool
+) -> None:
+    assert axis_of("x", _series(values), unit).is_logarithmic is is_logarithmic
 
 
 def test_a_parameter_that_a_run_leaves_to_its_scenario_is_at_no_level() -> None:
@@ -216,8 +226,13 @@ def test_a_run_that_is_kept_is_linked_and_nothing_outside_the_folder(tmp_path: P
     assert links == {0: "runs/kept/", 1: "", 2: ""}
 
 
-def test_names_of_files_are_plain() -> None:
-    assert slug("heat_map", "assistant.tau_asr", "../x ü") == "heat_map_assistant_tau_asr____x__"
+def test_names_of_files_are_plain_and_each_is_given_once() -> None:
+    figures = Figures()
+    names = []
+    for words in (("../a", "x ü"), (".. a", "x.ü")):
+        names.append(figures.name_for(*words))
+        figures.markup[names[-1]] = ""
+    assert names == ["___a_x__", "___a_x____2"]
 
 
 def test_a_page_elsewhere_links_to_the_figures_of_the_folder(written: Path, tmp_path: Path) -> None:

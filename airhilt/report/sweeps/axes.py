@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +18,8 @@ Mask = NDArray[np.bool_]
 MOST_LEVELS = 12
 """Greatest number of values that are shown one by one; more of them are put into bins."""
 BINS = 6
-LOGARITHMIC_FROM = 20.0
-"""Ratio of the greatest to the least value from which an axis is logarithmic."""
+DECIBEL = "dB"
+"""Unit that is logarithmic itself."""
 TITLES = {
     "snr_db": "Signal-to-noise ratio",
     "visibility_m": "Visibility",
@@ -77,11 +78,11 @@ class Axis:
 
     @property
     def is_logarithmic(self) -> bool:
-        """True if the levels are so far apart that a logarithmic scale shows them better."""
-        first, last = self.levels[0], self.levels[-1]
-        low = first.position if first.low is None else first.low
-        high = last.position if last.high is None else last.high
-        return self.is_numeric and _is_wide(low, high)
+        """True if the levels are spaced more evenly by their ratios than by their differences."""
+        places = np.array([level.position for level in self.levels])
+        if not self.is_numeric or len(places) < 3 or places[0] <= 0.0 or self.unit == DECIBEL:
+            return False
+        return _unevenness(np.log(places)) < _unevenness(places)
 
     def among(self, runs: DataFrame, level: Level) -> Mask:
         """Return which of some runs are at a level."""
@@ -131,8 +132,10 @@ def _is_numeric(values: Series) -> bool:
     return len(values) > 0 and values.dtype.kind in "iuf"
 
 
-def _is_wide(low: float, high: float) -> bool:
-    return low > 0 and high / low >= LOGARITHMIC_FROM
+def _unevenness(places: NDArray[np.float64]) -> float:
+    """Return the spread of the steps between places, by their mean."""
+    steps = np.diff(places)
+    return float(steps.std() / steps.mean())
 
 
 def _label(value: Any) -> str:
@@ -141,16 +144,13 @@ def _label(value: Any) -> str:
     return str(value)
 
 
-def _bins(numbers: np.ndarray[Any, np.dtype[np.float64]]) -> tuple[Level, ...]:
-    """Return bins of equal width, or of equal ratio where the numbers are far apart."""
-    low, high = float(numbers.min()), float(numbers.max())
-    limits = (np.geomspace if _is_wide(low, high) else np.linspace)(low, high, BINS + 1)
-    limits[0], limits[-1] = low, high
+def _bins(numbers: NDArray[np.float64]) -> tuple[Level, ...]:
+    """Return bins with nearly as many runs in each."""
+    limits = np.unique(np.quantile(numbers, np.linspace(0.0, 1.0, BINS + 1)))
     levels = []
-    for index in range(BINS):
-        begin, end = float(limits[index]), float(limits[index + 1])
-        inside = numbers[(numbers >= begin) & ((numbers < end) | (index == BINS - 1))]
-        if inside.size:
-            label = "–".join(number_text(float(f"{limit:.3g}")) for limit in (begin, end))
-            levels.append(Level(label, float(inside.mean()), begin, end))
+    for begin, end in pairwise(float(limit) for limit in limits):
+        below = numbers <= end if end == limits[-1] else numbers < end
+        inside = numbers[(numbers >= begin) & below]
+        label = "–".join(number_text(float(f"{limit:.3g}")) for limit in (begin, end))
+        levels.append(Level(label, float(inside.mean()), begin, end))
     return tuple(levels)

@@ -65,9 +65,3 @@ def section_json(name: str, heading: str, text: str, figures: list[Json]) -> Jso
             for label in labels
         ],
     }
-
-
-def slug(*words: str) -> str:
-    """Return words as the name of a file: letters, digits and underscores."""
-    text = "_".join(words).lower()
-    return "".join(each if each.isascii() and each.isalnum() else "_" for each in text)

@@ -9,7 +9,7 @@ from airhilt.metrics.measures import AVOIDED, IN_TIME, NOMINAL_NUISANCE, NUISANC
 from airhilt.report.figures import COLOURS, INK, Figures
 from airhilt.report.sweeps.axes import Axis, axis_of
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json, slug
+from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
 from airhilt.report.sweeps.words import number, short
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
             measures = [each for each in _measures(runs) if each.estimate(runs, False).n]
             if not measures:
                 continue
-            name = slug("bars", axis.name, family)
+            name = figures.name_for("bars", axis.name, family)
             width_in = _draw(figures, name, measures, axis, series)
             choice = {"By": axis.title, "Family": family}
             found.append(figure_json(sweep, name, f"By {axis.title.lower()}", width_in, choice))

@@ -21,7 +21,7 @@ from airhilt.metrics.measures import (
 from airhilt.report.figures import COLOURS, MARKERS, Figures
 from airhilt.report.sweeps.axes import Axis, Level
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json, slug
+from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,6 +31,8 @@ MEASURES = (
     TIME_TO_FIRST_WARNING, IN_TIME, MISSED, AVOIDED, LOST, NUISANCE, WORD_ERRORS, FIRST_DETECTION,
 )  # fmt: skip
 WIDTH_IN, HEIGHT_IN = 6.4, 3.4
+MOST_CHARACTERS = 40
+"""Characters of all labels of an axis for which there is room beside each other."""
 Curve = list[tuple[Level, Estimate]]
 
 
@@ -43,7 +45,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
                 curves = _curves(measure, axis, runs, sweep.assistants)
                 if not curves:
                     continue
-                name = slug("curve", measure.name, axis.name, family)
+                name = figures.name_for("curve", measure.name, axis.name, family)
                 _draw(figures, name, measure, axis, curves)
                 choice = {"Over": axis.title, "Measure": measure.title, "Family": family}
                 caption = f"{measure.label} over {axis.title[0].lower()}{axis.title[1:]}"
@@ -84,7 +86,7 @@ def _draw(
         axes.set_xticks([level.position for level in axis.levels],
                         [level.label for level in axis.levels])  # fmt: skip
         axes.minorticks_off()
-        if len(axis.levels) > 6:
+        if sum(len(level.label) for level in axis.levels) > MOST_CHARACTERS:
             axes.tick_params(axis="x", labelrotation=45)
         axes.grid(axis="y")
         axes.set(xlabel=axis.label, ylabel=measure.label)

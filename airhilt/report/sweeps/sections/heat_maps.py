@@ -18,7 +18,7 @@ from airhilt.metrics.measures import (
 from airhilt.report.figures import DIM, PANEL, Figures
 from airhilt.report.sweeps.axes import Axis, heat_map_axes
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json, slug
+from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
 from airhilt.report.sweeps.words import short
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
             }
             panels = {name: cells for name, cells in panels.items() if not cells.is_empty}
             if panels:
-                name = slug("heat_map", measure.name, family)
+                name = figures.name_for("heat_map", measure.name, family)
                 width_in = _draw(figures, name, measure, axes, panels)
                 choice = {"Measure": measure.title, "Family": family}
                 found.append(figure_json(sweep, name, measure.label, width_in, choice))
