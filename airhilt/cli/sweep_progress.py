@@ -33,14 +33,23 @@ class SweepProgress(SweepObserver):
         self._quiet = quiet
         self._progress: Progress | None = None
         self._task: int | None = None
-        self._stops = False
+        self._signals = 0
         self._total = self._done = self._before = self._failed = 0
         self._begun = self._printed = time.monotonic()
 
     @property
     def stops(self) -> bool:
-        """True once the user has asked to stop."""
-        return self._stops
+        """True once the user has asked to stop.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            The user has asked twice. It is raised here and not where the signal came, because
+            Python drops what is raised while an object is deleted.
+        """
+        if self._signals > 1:
+            raise KeyboardInterrupt
+        return self._signals > 0
 
     def begun(self, total: int, finished: int, workers: str) -> None:
         """Show how many runs there are, and who does them."""
@@ -86,9 +95,11 @@ class SweepProgress(SweepObserver):
         """Let the first signal stop after the runs in hand, and the second one at once."""
 
         def handle(*_: object) -> None:
-            if self._stops:
+            self._signals += 1
+            if self._signals > 2:  # Nobody asks `stops`, such as while a scheduler is looked for.
                 raise KeyboardInterrupt
-            self._stops = True
+            if self._signals > 1:
+                return
             self.notice("stopping: the runs in hand finish first; once more stops at once")
 
         earlier = {n: signal.signal(n, handle) for n in (signal.SIGINT, signal.SIGTERM)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import signal
 import threading
 from collections.abc import Iterator
@@ -32,6 +33,7 @@ class LocalWorkers:
     @contextmanager
     def connect(self, workers: int, dashboard: str | None) -> Iterator[Client]:
         """Start everything, and end it with the context."""
+        is_logged = dask.config.get("logging", None)
         with dask.config.set({"distributed.worker.daemon": False}):
             try:
                 with _uninterrupted():
@@ -41,6 +43,7 @@ class LocalWorkers:
                         processes=True,
                         host=HOST,
                         dashboard_address=dashboard or f"{HOST}:0",
+                        silence_logs=False if is_logged else logging.CRITICAL,
                         memory_limit=0,  # Of the runs, each runner's own process is watched.
                     )
             except (OSError, RuntimeError) as error:
