@@ -207,6 +207,7 @@ def test_cells_have_their_numbers_and_a_text() -> None:
     assert share(Estimate(0.75, 0.3, 0.95, 4)).text == "3 of 4 (30 to 95 %)"
     assert number(Estimate(7.66, 7.0, 8.0, 5), 2).text == "7.66 (7.00 to 8.00)"
     assert number(Estimate(7.66, None, None, 1), 0).text == "8"
+    assert number(Estimate(-0.2, -1.3, 0.1, 3), 0).text == "0 (-1 to 0)"
     assert share(UNKNOWN).text == number(UNKNOWN).text == "-"
 
 
@@ -272,6 +273,9 @@ def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
     assert sorted(written["tables"][0]["rows"]) == [["none", 0], ["none", 1]]
     assert len(written["sweeps"]["only"]["table_sha256"]) == 64
     assert (tmp_path / "out" / "evaluation.md").read_text() == found.markdown()
+    page = (tmp_path / "out" / "evaluation.html").read_text()
+    assert written["sweeps"]["only"]["table_sha256"] in page
+    assert "<td>none</td><td>1</td>" in page
     before = (tmp_path / "out" / "evaluation.json").read_bytes()
     evaluate(small, choice, work, unwatched)
     assert (tmp_path / "out" / "evaluation.json").read_bytes() == before

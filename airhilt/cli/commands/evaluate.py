@@ -69,8 +69,8 @@ Examples:
 def evaluate(context: click.Context, /, **given: Any) -> int:
     """Run the sweeps of a preset, and make tables with 95 % intervals of them.
 
-    The tables are printed, and written to DIR/evaluation.md and DIR/evaluation.json; each sweep has
-    a folder in DIR (`airhilt report DIR/NAME` shows it). The same command again does what is
+    The tables are printed, and written to DIR/evaluation.md, .json and .html; each sweep has a
+    folder in DIR (`airhilt report DIR/NAME` shows it). The same command again does what is
     missing. Exit code 0 if every run has a row, 1 if some have not.
     """
     from airhilt.cli.run_flags import options_given

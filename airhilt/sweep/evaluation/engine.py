@@ -11,6 +11,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.files import replace_file, sha256
+from airhilt.report.evaluation.page import render
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.tables import Table
@@ -26,7 +27,8 @@ class Evaluation:
     Attributes
     ----------
     folder
-        Folder with ``evaluation.json``, ``evaluation.md``, and a sweep folder for each sweep.
+        Folder with the tables as ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``,
+        and a sweep folder for each sweep.
     sweeps
         Results of its sweeps by their names.
     tables
@@ -119,17 +121,22 @@ def _finished(result: SweepResult) -> list[dict[str, Any]]:
 
 
 def _write(evaluation: Evaluation) -> None:
-    """Write ``evaluation.json`` and ``evaluation.md``, each all or nothing.
+    """Write ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``, each all or nothing.
 
     Raises
     ------
     AirhiltError
         The disk takes no more.
     """
-    document = f"{json.dumps(evaluation.document(), indent=2)}\n"
+    document = evaluation.document()
+    texts = {
+        "json": f"{json.dumps(document, indent=2)}\n",
+        "md": evaluation.markdown(),
+        "html": f"{render(document)}\n",
+    }
     try:
-        replace_file(evaluation.folder / "evaluation.json", document.encode())
-        replace_file(evaluation.folder / "evaluation.md", evaluation.markdown().encode())
+        for ending, text in texts.items():
+            replace_file(evaluation.folder / f"evaluation.{ending}", text.encode())
     except OSError as error:
         raise AirhiltError(
             f"{evaluation.folder}: cannot be written: {error.strerror}; the runs are kept"

@@ -67,9 +67,9 @@ def number(found: Estimate, digits: int = 1) -> Quantity:
     """Return a number as a cell: ``7.4 (7.3 to 7.6)``."""
     if found.value is None:
         return Quantity.of(found, NOTHING)
-    text = f"{found.value:.{digits}f}"
+    text = _rounded(found.value, digits)
     if found.low is not None and found.high is not None:
-        text += f" ({found.low:.{digits}f} to {found.high:.{digits}f})"
+        text += f" ({_rounded(found.low, digits)} to {_rounded(found.high, digits)})"
     return Quantity.of(found, text)
 
 
@@ -81,6 +81,11 @@ def percent(found: Estimate) -> Quantity:
     if found.low is not None and found.high is not None:
         text += f" ({100.0 * found.low:.0f} to {100.0 * found.high:.0f} %)"
     return Quantity.of(found, text)
+
+
+def _rounded(value: float, digits: int) -> str:
+    """Return a number with some digits; zero has no sign."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def _text(cell: Cell) -> str:
