@@ -12,6 +12,7 @@
     python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
     python tools/bench.py sight             whole runs with cameras against real time
     python tools/bench.py many              runs one after the other in a process: CPU, memory
+    python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
     python tools/bench.py headon --json
@@ -39,6 +40,7 @@ BENCHMARKS = {
     "frames": "pictures",
     "sight": "pictures",
     "many": "many_runs",
+    "sweep": "sweeps",
     "startup": "startup",
 }
 """Module of `benchmarks` that has the function of a name."""
