@@ -65,8 +65,13 @@ def text(cell: Any) -> str:
 def test_only_what_is_lost_without_an_assistant_can_be_avoided() -> None:
     nobody = [row(seed=0, avoided=False), row(seed=1, avoided=False), row(seed=2, avoided=None)]
     baselines = Baselines.of(nobody, [])
-    found = avoided([row(seed=0), row(seed=1, avoided=None), row(seed=2)], baselines)
-    assert (found.value, found.n) == (0.5, 2)
+    rows = [row(seed=0), row(seed=1, avoided=False), row(seed=2)]
+    assert (avoided(rows, baselines).value, avoided(rows, baselines).n) == (0.5, 2)
+
+
+def test_a_conflict_that_did_not_come_about_with_an_assistant_was_avoided() -> None:
+    baselines = Baselines.of([row(avoided=False)], [])
+    assert avoided([row(avoided=None, warned=False)], baselines).value == 1.0
 
 
 def test_a_margin_over_well_clear_is_that_of_the_same_run() -> None:

@@ -82,8 +82,12 @@ def mean(rows: Sequence[Row], column: str) -> Estimate:
 
 
 def avoided(rows: Sequence[Row], baselines: Baselines) -> Estimate:
-    """Return the share of avoided conflicts, of those that are lost without an assistant."""
-    return share_of([row["avoided"] is True for row in rows if pair_of(row) in baselines.lost])
+    """Return the share of runs without harm to the pair, of those with harm without an assistant.
+
+    The runs are the same but for the assistant, so whatever is different came of it, also where
+    its warning was over before the conflict began.
+    """
+    return share_of([row["avoided"] is not False for row in rows if pair_of(row) in baselines.lost])
 
 
 def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimate:

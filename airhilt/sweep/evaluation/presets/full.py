@@ -95,7 +95,8 @@ def _families(results: Results, baselines: Baselines) -> Table:
 def _notes(results: Results) -> Iterator[str]:
     yield (
         "In brackets: 95 % interval (Wilson for shares, bootstrap over the runs for means and "
-        "rates). Avoided: of the runs in which the pair came to harm without an assistant. "
+        "rates). Avoided: no harm to the pair, of the runs in which it came to harm without an "
+        "assistant. "
         "Nuisance: alerts in an hour of nominal traffic. A family that an assistant is not listed "
         "in does not apply to it: it is not made for it, or has nothing to read of the pair."
     )
