@@ -41,6 +41,7 @@ class SweepFolder:
         self.table_path = path / "sweep.parquet"
         self.machine_path = path / "machine.parquet"
         self.parts_path = path / "parts"
+        self._lock_path = self.parts_path / ".lock"
         self.runs_path = path / "runs"
         self.figures_path = path / "figures"
         self.report_path = path / "report.html"
@@ -67,12 +68,24 @@ class SweepFolder:
         SweepFolderError
             It holds something else, or cannot be written.
         """
-        if self.path.is_dir() and any(self.path.iterdir()) and not self.info_path.is_file():
+        if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
             )
         with _told(self.path):
             self.parts_path.mkdir(parents=True, exist_ok=True)
+            self._lock_path.touch()
+
+    def _holds_something_else(self) -> bool:
+        """Return true for a folder that no sweep has made; one that was just begun is a sweep's.
+
+        A ``sweep.json`` alone does not make it one: the specification of a user may have that name.
+        """
+        if not self.path.is_dir() or self._lock_path.is_file():
+            return False
+        if any(entry != self.parts_path for entry in self.path.iterdir()):
+            return True
+        return self.parts_path.is_dir() and any(self.parts_path.iterdir())
 
     @contextmanager
     def locked(self) -> Iterator[None]:
@@ -84,7 +97,7 @@ class SweepFolder:
             Another process has it.
         """
         with _told(self.path):
-            stream = (self.parts_path / ".lock").open("w")
+            stream = self._lock_path.open("w")
         with stream:
             try:
                 fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

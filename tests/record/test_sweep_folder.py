@@ -30,6 +30,27 @@ def keys(folder: SweepFolder) -> list[str]:
     return [] if table is None else sorted(table["key"].to_pylist())
 
 
+def test_a_sweep_killed_as_it_began_can_begin_again(tmp_path: Path) -> None:
+    begun = SweepFolder(tmp_path)
+    begun.parts_path.mkdir()
+    begun.create()
+    (tmp_path / "sweep.json.partial").write_text("{")
+    begun.create()
+    with begun.locked():
+        begun.write_info({"format": 1})
+    assert begun.info() == {"format": 1}
+
+
+@pytest.mark.parametrize("name", ["sweep.json", "notes.txt", "parts/mine.parquet"])
+def test_a_folder_of_something_else_is_left_as_it_is(tmp_path: Path, name: str) -> None:
+    mine = tmp_path / name
+    mine.parent.mkdir(exist_ok=True)
+    mine.write_text('{"format": 1, "scenarios": ["s02a_headon"]}')
+    with pytest.raises(AirhiltError, match="holds files that are no sweep"):
+        SweepFolder(tmp_path).create()
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [mine]
+
+
 def test_each_run_is_on_the_disk_when_it_is_kept(folder: SweepFolder) -> None:
     assert keys(folder) == []
     for count, key in enumerate("abc", start=1):
