@@ -15,6 +15,10 @@ CONFIDENCE = 0.95
 RESAMPLES = 1999
 """Resamples of a bootstrap: 2.5 % of one more than their number is whole (Davison and Hinkley,
 Bootstrap Methods and their Application, 1997)."""
+FEWEST_RESAMPLED = 6
+"""Number of runs below which a bootstrap gives no interval: it stays between the least and the
+greatest value, which for n draws are on either side of the median with the probability
+1 - 2^(1 - n) only (David and Nagaraja, Order Statistics, 2003, section 7.1): 50 % for 2."""
 MOST_RESAMPLED = 200
 """Number of runs above which Student's t gives the interval of a mean: the mean of so many is close
 to normal, and a bootstrap would take memory by the square of their number."""
@@ -67,14 +71,14 @@ def share_of(flags: Sequence[bool] | NDArray[np.bool_]) -> Estimate:
 def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Estimate:
     """Return the mean, with the interval of a BCa bootstrap over the runs.
 
-    The interval is None for a single value, or if none is asked for. For more than
-    `MOST_RESAMPLED` it is that of Student's t.
+    The interval is None for fewer than `FEWEST_RESAMPLED` values, or if none is asked for. For more
+    than `MOST_RESAMPLED` it is that of Student's t.
     """
     sample = np.asarray(values, dtype=np.float64)
     if sample.size == 0:
         return UNKNOWN
     mean = float(sample.mean())
-    if sample.size == 1 or not with_interval:
+    if sample.size < FEWEST_RESAMPLED or not with_interval:
         return Estimate(mean, None, None, sample.size)
     if np.ptp(sample) == 0.0:
         return Estimate(mean, mean, mean, sample.size)
@@ -85,7 +89,7 @@ def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Esti
 def median_of(values: Sequence[float] | Array) -> Estimate:
     """Return the median, with the interval of a percentile bootstrap over the runs.
 
-    The interval is None for a single value.
+    The interval is None for fewer than `FEWEST_RESAMPLED` values.
     """
     from scipy.stats import bootstrap
 
@@ -93,8 +97,8 @@ def median_of(values: Sequence[float] | Array) -> Estimate:
     if sample.size == 0:
         return UNKNOWN
     median = float(np.median(sample))
-    if sample.size == 1:
-        return Estimate(median, None, None, 1)
+    if sample.size < FEWEST_RESAMPLED:
+        return Estimate(median, None, None, sample.size)
     found = bootstrap(
         (sample,),
         np.median,
@@ -114,6 +118,7 @@ def rate_of(
     """Return a number of events by exposure, with the interval of a bootstrap over the runs.
 
     Where nothing happened, the upper limit is that of a Poisson count of 0 (Garwood, 1936).
+    Otherwise the interval is None for fewer than `FEWEST_RESAMPLED` runs.
     """
     events = np.asarray(counts, dtype=np.float64)
     whole = np.asarray(exposures, dtype=np.float64)
@@ -121,7 +126,7 @@ def rate_of(
     if events.size == 0 or total <= 0.0:
         return UNKNOWN
     rate = float(events.sum()) / total
-    if not with_interval or (events.size == 1 and rate > 0.0):
+    if not with_interval or (events.size < FEWEST_RESAMPLED and rate > 0.0):
         return Estimate(rate, None, None, events.size)
     if rate == 0.0:
         return Estimate(0.0, 0.0, -math.log((1.0 - CONFIDENCE) / 2.0) / total, events.size)

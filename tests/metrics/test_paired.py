@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.metrics.paired import mcnemar, mean_difference
+from airhilt.metrics.estimates import UNKNOWN
+from airhilt.metrics.paired import mcnemar, mean_difference, share_difference
 
 
 def test_mcnemar_counts_the_pairs_that_differ() -> None:
@@ -32,3 +33,38 @@ def test_a_difference_that_all_pairs_share_is_sure_whatever_the_spread() -> None
     assert found.value == pytest.approx(2.0, abs=0.1)
     assert found.low is not None
     assert found.low > 1.9
+
+
+def test_a_difference_of_shares_has_the_interval_of_agresti_and_min() -> None:
+    # 1600 voters are asked twice (Agresti, Categorical Data Analysis, 2002, table 10.1): 150 and 86
+    # change their minds. Wald's own interval, which so many pairs leave nearly as it is, is -0.059
+    # to -0.021 (section 10.1.1).
+    first, second = np.zeros(1600, bool), np.zeros(1600, bool)
+    first[:150] = second[150:236] = True
+    found = share_difference(first, second)
+    assert found.value == pytest.approx(-0.04)
+    assert (found.low, found.high) == (
+        pytest.approx(-0.0588, abs=1e-3),
+        pytest.approx(-0.0212, abs=1e-3),
+    )
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_a_few_pairs_that_all_differ_are_no_sure_difference(n: int) -> None:
+    found = share_difference(np.zeros(n, bool), np.ones(n, bool))
+    assert found.value == 1.0
+    assert found.low is not None
+    assert found.low < 0.0 or n == 3
+    assert found.high == 1.0
+
+
+def test_pairs_that_agree_leave_room_for_a_difference() -> None:
+    found = share_difference(np.ones(10, bool), np.ones(10, bool))
+    assert found.value == 0.0
+    assert found.low == pytest.approx(-found.high)
+    assert found.high > 0.1
+
+
+def test_no_pairs_have_no_difference() -> None:
+    nothing = np.zeros(0, bool)
+    assert share_difference(nothing, nothing) == UNKNOWN

@@ -7,6 +7,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
@@ -18,6 +20,7 @@ from airhilt.report.comparison import compare
 from airhilt.report.comparison.page import write_comparison
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import SweepComparison
+from airhilt.report.comparison.words import measure_row
 from airhilt.scenario import Scenario
 from sweep_tables import Row, sweep_row, write_sweep
 
@@ -72,6 +75,34 @@ def test_runs_that_leave_a_parameter_to_the_scenario_are_paired_too(tmp_path: Pa
     given = [*rows("paper", range(2), snr_db=None), *rows("paper", range(2), snr_db=0.0)]
     first = write_sweep(tmp_path / "a", given)
     assert sweeps(first, write_sweep(tmp_path / "b", given)).pairs == 4
+
+
+def test_a_parameter_that_only_one_sweep_leaves_to_the_scenario_is_no_partner_by_force(
+    tmp_path: Path,
+) -> None:
+    given = [*rows("paper", range(2), snr_db=5.0), *rows("paper", range(2), snr_db=10.0)]
+    first = write_sweep(tmp_path / "a", given)
+    second = write_sweep(tmp_path / "b", rows("paper", range(2), snr_db=None))
+    table = pq.read_table(second / "sweep.parquet")
+    of_nulls = pa.array([None, None], pa.string())
+    place = table.column_names.index("snr_db")
+    pq.write_table(table.set_column(place, "snr_db", of_nulls), second / "sweep.parquet")
+    with pytest.raises(AirhiltError, match="no run of the one has a partner"):
+        compare(first, second)
+
+
+def test_two_pairs_make_no_clear_difference(tmp_path: Path) -> None:
+    folder = write_sweep(
+        tmp_path / "s",
+        [
+            *rows("paper", range(2), avoided=False, time_to_first_warning_s=9.0),
+            *rows("reference", range(2), avoided=True, time_to_first_warning_s=7.0),
+        ],
+    )
+    found = sweeps(folder, assistants=("paper", "reference"))
+    assert found_of(found, "avoided").difference.value == 100.0
+    for name in ("avoided", "time_to_first_warning"):
+        assert not measure_row(found_of(found, name))["is_clear"]
 
 
 def test_two_sweeps_with_one_assistant_each_differ_in_it(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from airhilt.errors import AirhiltError
 from airhilt.metrics.estimates import Estimate
 from airhilt.metrics.measures import HOUR_S, MEASURES, Measure
-from airhilt.metrics.paired import McNemar, mcnemar, mean_difference
+from airhilt.metrics.paired import McNemar, mcnemar, mean_difference, share_difference
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -134,7 +134,8 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
     by = [*ALWAYS, *(name for name in shared if name not in differing)]
     for side, other in ((first, second), (second, first)):
         _require_unique(side, by, other)
-    pairs = first.runs.merge(second.runs, on=by, suffixes=(FIRST, SECOND))
+    one, other = (_comparable(side.runs, by) for side in (first, second))
+    pairs = one.merge(other, on=by, suffixes=(FIRST, SECOND))
     if pairs.empty:
         raise AirhiltError(
             f"{first.name}, {second.name}: no run of the one has a partner in the other; expected "
@@ -149,6 +150,16 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         alone_first=len(first.runs) - len(pairs),
         alone_second=len(second.runs) - len(pairs),
         families=_by_family(pairs),
+    )
+
+
+def _comparable(runs: DataFrame, by: list[str]) -> DataFrame:
+    """Return runs whose columns to pair by have one type on either side.
+
+    A parameter that only one side leaves to the scenario, or gives as a text, has another there.
+    """
+    return runs.assign(
+        **{name: runs[name].astype(object).where(runs[name].notna(), None) for name in by}
     )
 
 
@@ -210,13 +221,16 @@ def _difference(measure: Measure, pairs: DataFrame) -> MeasureDifference | None:
         return None
     ones, others = (_numbers(values[both]) for values in (first, second))
     is_share = measure.kind == "share"
+    difference = (
+        share_difference(ones > 0, others > 0) if is_share else mean_difference(ones, others)
+    )
     factor = 100.0 if measure.unit == "%" else 1.0
     paired = pairs[both]
     return MeasureDifference(
         measure=measure,
         first=measure.estimate(_one_side(measure, paired, FIRST)),
         second=measure.estimate(_one_side(measure, paired, SECOND)),
-        difference=mean_difference(ones, others).times(factor),
+        difference=difference.times(factor),
         test=mcnemar(ones > 0, others > 0) if is_share else None,
         one_sided=either - int(both.sum()),
     )

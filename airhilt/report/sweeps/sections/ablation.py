@@ -44,8 +44,9 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
     return section_json(
         "ablation",
         "Comparison",
-        "Shares with Wilson's 95 % interval, rates with that of a bootstrap over the runs. Avoided "
-        "is counted among the runs in which somebody was warned or the conflict came about.",
+        "Shares with Wilson's 95 % interval, rates with that of a bootstrap over the runs, if they "
+        "are 6 or more. Avoided is counted among the runs in which somebody was warned or the "
+        "conflict came about.",
         found,
     )
 

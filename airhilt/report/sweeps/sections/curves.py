@@ -54,7 +54,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
         "curves",
         "Curves",
         "Each point is over all runs with that value, with its 95 % interval: Wilson's for shares, "
-        "otherwise a bootstrap over the runs.",
+        "otherwise a bootstrap over the runs, if they are 6 or more.",
         found,
     )
 
