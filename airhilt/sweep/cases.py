@@ -6,6 +6,7 @@ import fnmatch
 import hashlib
 import itertools
 import json
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -108,10 +109,8 @@ def cases(specification: Specification) -> list[Case]:
     """
     scenarios = [load(path) for path in _paths(specification.scenarios)]
     seeds = _seeds(specification)
+    _require_countable(specification, len(scenarios) * len(seeds))
     combinations = list(_combinations(specification))
-    total = len(scenarios) * len(seeds) * len(combinations)
-    if total > MOST_RUNS:
-        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
     found: list[Case] = []
     problems: list[str] = []
     for scenario in scenarios:
@@ -154,6 +153,21 @@ def _seeds(specification: Specification) -> list[int]:
         if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**63:
             raise AirhiltError(f"seeds: found {shown(seed)}; expected integers from 0 to 2^63 - 1")
     return seeds  # type: ignore[return-value]  # checked one by one
+
+
+def _require_countable(specification: Specification, each: int) -> None:
+    """Complain about more runs than a sweep may have, before any of them is made.
+
+    Parameters
+    ----------
+    each
+        Number of runs of one combination: scenarios times seeds.
+    """
+    drawn = 1 if specification.sample is None else specification.sample.count
+    sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
+    total = each * drawn * math.prod(sizes)
+    if total > MOST_RUNS:
+        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
 
 
 Combination = tuple[tuple[Parameter, JsonValue], ...]
@@ -227,6 +241,7 @@ def _content(value: Any) -> Any:
         return [_content(each) for each in value]
     if not isinstance(value, str):
         return value
-    path = Path(value.partition(":")[2] or value)
-    is_file = len(path.parts) > 1 or path.suffix
+    argument = value.partition(":")[2]
+    path = Path(argument or value)
+    is_file = argument or "/" in value or path.suffix
     return f"{value} {content_sha256(path)}" if is_file and path.exists() else value

@@ -12,7 +12,7 @@ from airhilt import library
 from airhilt.errors import AirhiltError
 from airhilt.record.folder import versions
 
-PACKAGE_FILES = (".py", ".onnx", ".json", ".csv", ".npz")
+PACKAGE_FILES = (".py", ".onnx", ".json", ".csv", ".txt", ".npz")
 """Endings of the files of the package that decide results: code, models and their data."""
 NOT_RESULTS = ("cli", "library", "report", "sweep")
 """Parts of the package that decide no results, and its copy of `LIBRARY`."""

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from airhilt.errors import AirhiltError
 from airhilt.sweep.cases import Case, cases
+from airhilt.sweep.clusters import FAMILY
 from airhilt.sweep.engine import renderer_of
 from airhilt.sweep.outcome import Outcome, Request
 from airhilt.sweep.runner_process import RunnerProcess
@@ -49,6 +50,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     AirhiltError
         Something that was given is wrong, or the probe failed.
     """
+    FAMILY.create(work.scheduler, configuration=work.scheduler_config)
     grid = cases(specification)
     renderer = renderer_of(grid)
     outcome = _probe(grid[0], renderer, work)

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import airhilt
 from airhilt.errors import AirhiltError
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.environment import Environment, require_same
+from airhilt.sweep.environment import PACKAGE_FILES, Environment, require_same
 from airhilt.sweep.specification import Specification, specification_of
 
 HERE = Environment(versions={"airhilt": "1"}, code_sha256="0", renderer="embree")
@@ -98,6 +99,34 @@ def test_two_spellings_of_one_parameter_are_one() -> None:
 def test_what_cannot_be_run_is_refused_by_name(fields: dict[str, Any], problem: str) -> None:
     with pytest.raises(AirhiltError, match=problem):
         grid(**fields)
+
+
+def test_a_grid_without_end_is_refused_before_it_is_made() -> None:
+    many = {"from": 1, "to": 10_000, "step": 1}
+    with pytest.raises(AirhiltError, match="the grid has 100000000 runs"):
+        grid(axes={"snr_db": many, "visibility_m": many})
+
+
+def test_a_folder_that_an_option_names_is_part_of_the_key(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    model = tmp_path / "mine" / "model.bin"
+    model.parent.mkdir()
+    (plain,) = grid()
+    for name in ("whisper:mine", "./mine"):
+        case = Case(plain.document, plain.options | {"asr": name}, plain.seed, {})
+        model.write_text("one")
+        before = case.key(HERE)
+        model.write_text("another")
+        assert case.key(HERE) != before
+
+
+def test_every_kind_of_file_of_the_package_is_known_to_decide_results_or_not() -> None:
+    package = Path(airhilt.__file__).parent
+    of_pages = {".html", ".js", ".css", ".typed", ".pyc"}
+    endings = {path.suffix for path in package.rglob("*") if path.is_file()}
+    assert endings <= {*PACKAGE_FILES, *of_pages}
 
 
 def test_all_values_that_a_scenario_refuses_are_told_at_once() -> None:

@@ -16,9 +16,11 @@ import pyarrow.parquet as pq
 import pytest
 
 import airhilt
+from airhilt.errors import AirhiltError
 from airhilt.metrics.columns import metrics_of
 from airhilt.scenario import Scenario
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.estimate import estimate
 from airhilt.sweep.outcome import Outcome
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.specification import Specification, specification_of
@@ -227,3 +229,10 @@ def test_a_limit_ends_a_run_and_not_the_sweep(scenario_file: Path, tmp_path: Pat
     assert {row["status"] for row in result.folder.machine().to_pylist()} == {"over_time"}
     retried = sweep(few, replace(work, limits=UNLIMITED, retry=True), Noted())
     assert (retried.rows, retried.failed) == (2, 0)
+
+
+def test_a_dry_run_refuses_the_scheduler_that_a_sweep_would(
+    scenario_file: Path, tmp_path: Path
+) -> None:
+    with pytest.raises(AirhiltError, match="nonsense"):
+        estimate(specification(scenario_file), Work(tmp_path / "s", scheduler="nonsense"))
