@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 import pyarrow as pa
 import pytest
 
 from airhilt.errors import AirhiltError
+from airhilt.files import replace_file
+from airhilt.record import sweep_folder
 from airhilt.record.sweep_folder import MOST_PARTS, SweepFolder
 
 
@@ -64,6 +67,26 @@ def test_many_parts_become_one_and_no_run_is_lost(folder: SweepFolder) -> None:
         folder.keep(run(key))
     assert keys(folder) == expected
     assert len(list(folder.parts_path.glob("*.parquet"))) <= MOST_PARTS
+
+
+def test_a_disk_that_is_full_when_parts_become_one_loses_no_run(
+    folder: SweepFolder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    expected = sorted(f"{number:03}" for number in range(MOST_PARTS + 1))
+    for key in expected[:-1]:
+        folder.keep(run(key))
+    room = [True]
+
+    def replace_while_there_is_room(path: Path, data: bytes) -> None:
+        if not room:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        room.pop()
+        replace_file(path, data)
+
+    monkeypatch.setattr(sweep_folder, "replace_file", replace_while_there_is_room)
+    with pytest.raises(AirhiltError, match="No space left"):
+        folder.keep(run(expected[-1]))
+    assert keys(folder) == expected
 
 
 def test_parts_of_an_earlier_version_have_fewer_columns(folder: SweepFolder) -> None:
