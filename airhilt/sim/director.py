@@ -135,13 +135,12 @@ class Director:
             if self._interrupted:
                 raise KeyboardInterrupt
             t_ns = heap[0][0]
-            has_room = t_ns > self.now_ns + 1
-            if not (posted and has_room) and not self.pace.wait_until(t_ns, self._wake):
-                self._wake.clear()
-            elif posted and has_room:
+            if posted and t_ns > self.now_ns + 1:
                 elapsed_ns = self.pace.elapsed_ns(self.now_ns)
                 self.now_ns = min(max(elapsed_ns, self.now_ns + 1), t_ns - 1)
                 posted.popleft()()
-            else:
+            elif self.pace.wait_until(t_ns, self._wake):
                 self.now_ns, _, _, action = pop(heap)
                 action()
+            else:
+                self._wake.clear()

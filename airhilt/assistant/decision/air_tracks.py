@@ -92,12 +92,11 @@ class AirTracks:
         look-ahead; they are left out here, where it is cheap.
         """
         seen = set()
-        rates = {name: abs(track.profile().rate_m_s) for name, track in self._tracks.items()}
         for icao24 in self._updated:
             own = self._tracks.get(icao24)
             if own is None:
                 continue
-            level_m = reach.vertical_m + rates[icao24] * reach.time_s
+            level_m = reach.vertical_m + abs(own.profile().rate_m_s) * reach.time_s
             north_m = reach.horizontal_m + abs(own.velocity_north_m_s) * reach.time_s
             for name, other in self._tracks.items():
                 pair = (icao24, name) if icao24 < name else (name, icao24)
@@ -106,8 +105,8 @@ class AirTracks:
                 gap_m = abs(own.altitude_m - other.altitude_m)
                 apart_m = abs(own.latitude_rad - other.latitude_rad) * LEAST_CURVATURE_RADIUS_M
                 if pair in wanted or (
-                    gap_m <= level_m + rates[name] * reach.time_s
-                    and apart_m <= north_m + abs(other.velocity_north_m_s) * reach.time_s
+                    apart_m <= north_m + abs(other.velocity_north_m_s) * reach.time_s
+                    and gap_m <= level_m + abs(other.profile().rate_m_s) * reach.time_s
                 ):
                     seen.add(pair)
                     yield pair

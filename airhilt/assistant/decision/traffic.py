@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 
@@ -45,18 +46,22 @@ class Traffic:
         self.ground_m: float | None = None
         self._reports: dict[str, AdsbReport] = {}
         self._heard_ns: dict[str, int] = {}
+        """Time of the last report of each, the longest silent first."""
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Keep the last report of an aircraft or a vehicle, which arrived at a time."""
+        self._heard_ns.pop(report.icao24, None)
         self._heard_ns[report.icao24] = t_ns
         self._reports[report.icao24] = report
 
     def forget(self, t_ns: int) -> None:
         """Forget those of whom nothing arrived for a while."""
-        for icao24, report in list(self._reports.items()):
-            stale_ns = STALE_ON_GROUND_NS if report.on_ground else STALE_NS
-            if t_ns - self._heard_ns[icao24] > stale_ns:
-                del self._reports[icao24]
+        heard_ns = self._heard_ns
+        silent = list(itertools.takewhile(lambda who: t_ns - heard_ns[who] > STALE_NS, heard_ns))
+        for icao24 in silent:
+            stale_ns = STALE_ON_GROUND_NS if self._reports[icao24].on_ground else STALE_NS
+            if t_ns - heard_ns[icao24] > stale_ns:
+                del self._reports[icao24], heard_ns[icao24]
 
     def carrier(self, view: CameraView) -> AdsbReport | None:
         """Return the last report of the carrier of a camera, None if there is none."""

@@ -264,7 +264,9 @@ class ConflictMonitor:
         truth.closest = _nearer(truth.closest, near)
         if truth.opened_ns is not None:
             since_s = (truth.opened_ns - now_ns) / SECOND_NS
-            inside = self._approach(now_ns, pair, motion, max(back_s, since_s))
+            inside = near
+            if since_s > back_s:  # It was nearest before the window opened.
+                inside = self._approach(now_ns, pair, motion, since_s)
             truth.closest_in_window = _nearer(truth.closest_in_window, inside)
         self._classify(now_ns, pair, truth, near, back_s)
 
@@ -284,16 +286,18 @@ class ConflictMonitor:
         """Record the phases of a pair at its closest approach, ``back_s`` (0 or less) from now."""
         _, horizontal, vertical = near
         first, second = (self._bodies[name] for name in pair)
-        if self._in_flight(pair[0]) and self._in_flight(pair[1]):
-            too_near = horizontal < self._minima.horizontal_m
-            too_level = vertical < self._minima.vertical_m
+        too_near = horizontal < self._minima.horizontal_m
+        too_level = vertical < self._minima.vertical_m
+        is_nmac = horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m
+        is_near = too_near or too_level or is_nmac
+        if is_near and self._in_flight(pair[0]) and self._in_flight(pair[1]):
             if too_level:
                 truth.least_horizontal_m = _lesser(truth.least_horizontal_m, horizontal)
             if too_near:
                 truth.least_vertical_m = _lesser(truth.least_vertical_m, vertical)
             if too_near and too_level and not (self._in_zone(first) and self._in_zone(second)):
                 self._record("loss_of_separation", now_ns, pair, horizontal, vertical)
-            if horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m:
+            if is_nmac:
                 self._record("nmac", now_ns, pair, horizontal, vertical)
         if horizontal > radius_m(first) + radius_m(second):
             return
