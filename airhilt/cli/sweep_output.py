@@ -41,9 +41,14 @@ def print_result(result: SweepResult, as_json: bool, quiet: bool) -> None:
         return
     if quiet:
         return
-    click.echo(f"{result.rows} rows of {result.runs} runs in {table}")
+    click.echo(f"{_counted(result.rows, 'row')} of {_counted(result.runs, 'run')} in {table}")
     if result.failed:
-        click.echo(f"{result.failed} runs failed: their causes are in {result.folder.machine_path}")
+        failed = _counted(result.failed, "run")
+        click.echo(f"{failed} failed: the causes are in {result.folder.machine_path}")
     if result.missing:
-        click.echo(f"{result.missing} runs are missing: the same command does them")
+        click.echo(f"still to do: {_counted(result.missing, 'run')}, with the same command")
     click.echo(f"sweep folder: {result.folder.path}")
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'s' * (count != 1)}"

@@ -184,6 +184,8 @@ class SweepFolder:
         import pyarrow as pa
 
         tables = [table for part in parts if (table := self._read_part(part, _ignore))]
+        if not tables:
+            return
         self._write_part(pa.concat_tables(tables, promote_options="permissive"))
         for part in parts:
             part.unlink(missing_ok=True)

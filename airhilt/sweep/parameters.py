@@ -119,9 +119,10 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
     except PathError as error:
         is_at_top = error.chunk == path.partition(".")[0]
         known = [*error.known, *swept_options(), ASSISTANT] if is_at_top else error.known
-        what = "there is no such option, and" if is_at_top else "there"
+        also = "there is no such option, and " if is_at_top else ""
+        where = "" if is_at_top else " there"
         raise AirhiltError(
-            f"parameter {path}: {what} {document['name']!r} has no {error.chunk!r}"
+            f"parameter {path}: {also}{document['name']!r} has no {error.chunk!r}{where}"
             f"{nearest(error.chunk, known)}"
         ) from None
     changed["perturbations"] = [

@@ -76,9 +76,7 @@ def tables_of(
         if finished[key]["status"] not in OF_THE_MACHINE
     ]
     parameters = _parameter_columns(list(cases.values()))
-    taken = {column.name for column in parameters}
-    metrics = (column for column in metric_columns() if column.name not in taken)
-    columns = (*IDENTITY, *parameters, *ENDING, *metrics)
+    columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
 
 
@@ -107,7 +105,14 @@ def _result_row(key: str, case: Case, finished: Mapping[str, Any]) -> dict[str, 
         "assistant": case.assistant,
         "seed": case.seed,
     }
-    return {**finished, **case.parameters, **identity}
+    parameters = {column_name(path): value for path, value in case.parameters.items()}
+    return {**finished, **parameters, **identity}
+
+
+def column_name(path: str) -> str:
+    """Return the column of a parameter: its path, or another name if a metric has that one."""
+    measured = {column.name for column in metric_columns()}
+    return f"parameter.{path}" if path in measured else path
 
 
 def _parameter_columns(cases: Sequence[Case]) -> list[Column]:
@@ -115,7 +120,8 @@ def _parameter_columns(cases: Sequence[Case]) -> list[Column]:
     known = {column.name for column in IDENTITY}
     paths = dict.fromkeys(path for case in cases for path in case.parameters if path not in known)
     return [
-        _parameter_column(path, [case.parameters.get(path) for case in cases]) for path in paths
+        _parameter_column(column_name(path), [case.parameters.get(path) for case in cases])
+        for path in paths
     ]
 
 

@@ -16,7 +16,7 @@ from airhilt.report.sweeps.axes import Axis, axis_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
-    from pandas import DataFrame
+    from pandas import DataFrame, Series
 
 Json = dict[str, Any]
 
@@ -26,6 +26,8 @@ MEASURED = tuple(column for each in MEASURES for column in each.columns)
 """Columns that measures are made of."""
 OTHER_FAMILY = "other"
 """Name of the group of scenarios without a family."""
+ALL_FAMILIES = "all"
+"""Name of the group of all scenarios."""
 
 
 @dataclass(frozen=True)
@@ -92,9 +94,14 @@ class SweepData:
         """
         wanted = (*BEFORE_PARAMETERS, *self.parameters, *MEASURED)
         runs = self.finished[[name for name in dict.fromkeys(wanted) if name in self.columns]]
-        names = runs["family"].fillna("").replace("", OTHER_FAMILY)
-        groups = [(str(name), group) for name, group in runs.groupby(names, sort=True)]
-        return [("all", runs), *groups] if len(groups) > 1 else groups
+        groups = [(str(name), group) for name, group in runs.groupby(_families(runs), sort=True)]
+        return [(ALL_FAMILIES, runs), *groups] if len(groups) > 1 else groups
+
+    def failed(self, family: str, assistant: str) -> int:
+        """Return how many runs of an assistant failed, in a family or in all of them."""
+        failed = self.runs[self.runs[AFTER_PARAMETERS] != "finished"]
+        is_of_family = (_families(failed) == family) | (family == ALL_FAMILIES)
+        return int((is_of_family & (failed["assistant"] == assistant)).sum())
 
     def link_to(self, path: Path) -> str:
         """Return the address of a file in the sweep folder, as the page has to give it."""
@@ -102,6 +109,11 @@ class SweepData:
 
     def _unit(self, name: str) -> str:
         return self.columns[name].unit
+
+
+def _families(runs: DataFrame) -> Series:
+    """Return the family of each run, with a name for those that have none."""
+    return runs["family"].fillna("").replace("", OTHER_FAMILY)
 
 
 def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:

@@ -30,6 +30,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:  # noq
                 "family": family,
                 "assistant": assistant,
                 "runs": len(runs),
+                "failed": sweep.failed(family, assistant),
                 "cells": [
                     {"text": text, "interval": interval, "n": found[i].n}
                     for i in shown
