@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, cast
 
 import pytest
@@ -207,7 +207,7 @@ def test_a_gliding_aircraft_is_reported_where_it_is(run: Run) -> None:
     for report in run.reports:
         assert report.latitude_deg == pytest.approx(38.9, abs=2e-3)
         assert report.altitude_ft == 35_000.0
-    assert replace(run.steps[0], seq=0) == run.steps[0]
+    assert run.steps[0]._replace(seq=0) == run.steps[0]
 
 
 # --- on the ground --------------------------------------------------------------------------
