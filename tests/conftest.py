@@ -18,7 +18,7 @@ from airhilt.cli import main
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 
-WHOLE_RUNS = ("bus", "cli", "cosim", "docs")
+WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 

@@ -61,6 +61,7 @@ def test_only_what_cameras_show_is_left_out_and_everything_else_comes_when_it_di
     assert replay(tmp_path / "adaptive").identical
 
 
+@pytest.mark.slow
 def test_with_a_body_in_view_from_the_start_a_run_is_that_of_the_full_rate(tmp_path: Path) -> None:
     near = meeting(3.0, 0.5)
     for rate in ("full", "adaptive"):

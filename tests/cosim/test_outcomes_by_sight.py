@@ -75,7 +75,9 @@ def test_one_that_is_seen_later_is_not(tmp_path: Path, monkeypatch: pytest.Monke
     assert summary.nmac
 
 
-@pytest.mark.parametrize("name", NOMINAL)
+@pytest.mark.parametrize(
+    "name", [NOMINAL[0], pytest.param(NOMINAL[1], marks=pytest.mark.slow), NOMINAL[2]]
+)
 def test_in_normal_traffic_that_is_seen_nothing_is_told(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -220,6 +220,7 @@ def test_runs_in_hand_finish_when_the_user_stops(scenario_file: Path, tmp_path: 
     assert len(rows(result)) == len(observer.outcomes)
 
 
+@pytest.mark.slow
 def test_a_limit_ends_a_run_and_not_the_sweep(scenario_file: Path, tmp_path: Path) -> None:
     work = Work(tmp_path / "limited", Limits(wall_s=0.02, memory_mb=4000.0), workers=1)
     few = specification(scenario_file, axes={}, seeds=[1, 3])
