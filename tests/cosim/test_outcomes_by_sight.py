@@ -34,7 +34,9 @@ def warnings(folder: Path) -> list[Advisory]:
     return [a for a in told if a.severity is Severity.WARNING and a.evidence.sources[0] == "vision"]
 
 
-@pytest.mark.parametrize("name", ON_THE_RUNWAY)
+@pytest.mark.parametrize("name", [ON_THE_RUNWAY[1], *(
+    pytest.param(name, marks=pytest.mark.slow) for name in ON_THE_RUNWAY[::2]
+)])  # fmt: skip
 def test_what_is_seen_on_a_runway_or_before_it_sends_the_arrival_around(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
