@@ -22,7 +22,7 @@ from pathlib import Path
 from shutil import rmtree
 
 from airhilt.cosim.simulation import run
-from airhilt.errors import AirhiltError, failure_in
+from airhilt.errors import AirhiltError, RunFolderError, failure_in
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
@@ -69,6 +69,8 @@ def run_request(request: Request) -> Outcome:
             metrics = metrics_of(_summary(request, folder))
         except (OSError, MemoryError) as error:
             status, cause = "crashed", failure_in(error)
+        except RunFolderError as error:  # A full disk is of this machine alone.
+            status, cause = "crashed", str(error)
         except AirhiltError as error:
             status, cause = "failed", " ".join(str(error).split())
         except Exception as error:  # A mistake in any part of a run is a row, not the sweep's end.
