@@ -1,4 +1,4 @@
-"""What is costly to make and always the same, kept in files for all processes of a user.
+"""Caches: files with what is costly to make and always the same, for all processes of a user.
 
 A cache folder holds entries of one kind, such as synthesised speech. The name of an entry's file is
 a hash of everything that determines its content. So nothing in it is ever out of date, processes

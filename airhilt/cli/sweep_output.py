@@ -1,4 +1,4 @@
-"""What a sweep prints at its end, and what a dry run prints."""
+"""Output of a sweep at its end, and of a dry run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is shown of many runs: a share, a mean or a rate of a column of the table of a sweep."""
+"""Measures of many runs: a share, a mean or a rate of a column of the table of a sweep."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the sections of all pages have in common: a template, and a script where one is needed."""
+"""Sections of a page: each has a template, and a script where one is needed."""
 
 from __future__ import annotations
 

@@ -32,9 +32,9 @@ NOTICE_PERIOD_S = 60.0
 SAME_VERSIONS = ("dask", "distributed")
 """Packages whose versions decide whether processes of Dask understand each other."""
 LOGGERS = ("distributed", "distributed.client")
-"""What Dask logs by, each with a level of its own."""
+"""Names of the loggers of Dask, each with a level of its own."""
 LOST = (OSError, RuntimeError, ValueError, CancelledError)
-"""What Dask raises if the scheduler is not there any more; TimeoutError is an OSError."""
+"""Errors of Dask if the scheduler is not there any more; TimeoutError is an OSError."""
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""What AIRHILT puts into each worker of Dask: runners, and the task that gives them a case."""
+"""AIRHILT in each worker of Dask: runners, and the task that gives them a case."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class SweepObserver:
 
 @dataclass(frozen=True)
 class SweepResult:
-    """What a sweep has come to."""
+    """Result of a sweep: its folder, and numbers of runs, rows, failures and missing runs."""
 
     folder: SweepFolder
     runs: int

@@ -1,4 +1,4 @@
-"""What decides the results of a run besides scenario and options: the software that runs it."""
+"""Software that runs a run: with scenario and options it decides the results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a worker is asked to run, and what it returns of it: JSON, from process to process."""
+"""Requests to a worker and their outcomes: JSON, from process to process."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Request(BaseModel):
 
 
 class Machine(BaseModel):
-    """What a run took on the machine that ran it."""
+    """Cost of a run on the machine that ran it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     wall_s: float = Field(description="wall time of the run, without the start of its process")
@@ -43,13 +43,13 @@ class Machine(BaseModel):
 
 
 class Outcome(BaseModel):
-    """What became of one run."""
+    """Outcome of one run."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     key: str
     status: Status
     cause: str = ""
-    """What ended it, in one line; empty if it finished."""
+    """Cause of its end, in one line; empty if it finished."""
     is_kept: bool = False
     metrics: dict[str, Any] = {}
     """`airhilt.metrics.columns`, by name; empty unless it finished."""

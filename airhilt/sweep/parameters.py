@@ -1,4 +1,4 @@
-"""Parameters of a sweep: what a path names, and how a value is put there.
+"""Parameters of a sweep: the place that a path names, and the value that is put there.
 
 A path is the name of an option, ``assistant.`` and a setting of the assistant, or leads from the
 top of a scenario to a value. There, entries of lists are named by callsign, id or name.
@@ -41,7 +41,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Parameter:
-    """What a path names.
+    """Parameter that a path names.
 
     Attributes
     ----------

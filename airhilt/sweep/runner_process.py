@@ -25,7 +25,7 @@ MEGABYTE = 1e6
 
 @dataclass(frozen=True)
 class Limits:
-    """What one run may take."""
+    """Limits of one run: wall time in s, and memory in MB."""
 
     wall_s: float = 3600.0
     memory_mb: float = 4000.0

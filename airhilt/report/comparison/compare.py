@@ -1,4 +1,4 @@
-"""What can be compared, and with what."""
+"""Comparisons: runs with runs, sweeps with sweeps, assistants of one sweep with each other."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ class RunComparison:
     first, second
         Names of the folders.
     settings
-        What was asked for differently: name, and the value of each run.
+        Options that differ: name, and the value of each run.
     metrics
         The metrics that differ.
     equal

@@ -37,7 +37,7 @@ def figure_json(
     Parameters
     ----------
     choice
-        What the figure differs in from the others, such as ``{"Measure": "Avoided"}``.
+        Choices by which the figure differs from the others, such as ``{"Measure": "Avoided"}``.
     """
     folder = sweep.folder.figures_path
     return {

@@ -46,7 +46,7 @@ class Sighting:
 
 
 class Prospect(NamedTuple):
-    """What a picture of an instant would show, if it were taken.
+    """Content of a picture of an instant, if it were taken.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ FORMAT = 1
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What an evaluation has come to.
+    """Result of an evaluation.
 
     Attributes
     ----------

@@ -18,7 +18,7 @@ Row = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Choice:
-    """What the user chooses in a preset.
+    """Choices of the user in a preset.
 
     Attributes
     ----------

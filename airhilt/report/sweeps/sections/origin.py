@@ -1,4 +1,4 @@
-"""What was asked for, the software that ran it, and what it cost."""
+"""Origin of a sweep: its specification, the software that ran it, and its cost."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ COMPRESSION = 1
 
 
 class SharedRays:
-    """What rays meet of one landscape.
+    """Hits of rays on one landscape.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What fixed cameras see of the landscape, kept for all processes of a user.
+"""Backgrounds of fixed cameras, kept for all processes of a user.
 
 A fixed camera's picture of the landscape is drawn with many samples a pixel, which takes 0.4 to
 2.3 s of CPU. Each run has a process of its own that draws, and so would draw it again.
