@@ -70,12 +70,13 @@ def tables_of(
         Rows of the parts by their keys; rows of other runs are left out.
     """
     keys = sorted(key for key in cases if key in finished)
+    names = _column_names(cases.values())
     results = [
-        _result_row(key, cases[key], finished[key])
+        _result_row(key, cases[key], finished[key], names)
         for key in keys
         if finished[key]["status"] not in OF_THE_MACHINE
     ]
-    parameters = _parameter_columns(list(cases.values()))
+    parameters = _parameter_columns(list(cases.values()), names)
     columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
 
@@ -97,7 +98,9 @@ def folder_name(key: str) -> str:
     return key[:16]
 
 
-def _result_row(key: str, case: Case, finished: Mapping[str, Any]) -> dict[str, Any]:
+def _result_row(
+    key: str, case: Case, finished: Mapping[str, Any], names: Mapping[str, str]
+) -> dict[str, Any]:
     identity = {
         "key": key,
         "scenario": case.scenario,
@@ -105,23 +108,24 @@ def _result_row(key: str, case: Case, finished: Mapping[str, Any]) -> dict[str, 
         "assistant": case.assistant,
         "seed": case.seed,
     }
-    parameters = {column_name(path): value for path, value in case.parameters.items()}
+    parameters = {names[path]: value for path, value in case.parameters.items()}
     return {**finished, **parameters, **identity}
 
 
-def column_name(path: str) -> str:
-    """Return the column of a parameter: its path, or another name if a metric has that one."""
+def _column_names(cases: Iterable[Case]) -> dict[str, str]:
+    """Return the column of each parameter: its path, or another name if a metric has that one."""
     measured = {column.name for column in metric_columns()}
-    return f"parameter.{path}" if path in measured else path
+    paths = dict.fromkeys(path for case in cases for path in case.parameters)
+    return {path: f"parameter.{path}" if path in measured else path for path in paths}
 
 
-def _parameter_columns(cases: Sequence[Case]) -> list[Column]:
+def _parameter_columns(cases: Sequence[Case], names: Mapping[str, str]) -> list[Column]:
     """Return a column for each parameter that is not among the first columns already."""
     known = {column.name for column in IDENTITY}
-    paths = dict.fromkeys(path for case in cases for path in case.parameters if path not in known)
     return [
-        _parameter_column(column_name(path), [case.parameters.get(path) for case in cases])
-        for path in paths
+        _parameter_column(name, [case.parameters.get(path) for case in cases])
+        for path, name in names.items()
+        if name not in known
     ]
 
 
