@@ -163,31 +163,27 @@ class SweepFolder:
         _write_table(runs, self.parts_path / f"{uuid.uuid4().hex}.parquet")
 
     def _read_part(self, part: Path, notice: Callable[[str], None]) -> pa.Table | None:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-
-        try:
-            table = pq.read_table(part)
-            if "key" in table.column_names:
-                return table
-            reason = "it has no column key"
-        except (pa.ArrowException, OSError) as error:
-            reason = str(error).splitlines()[0]
-        aside = part.with_suffix(".damaged")
-        with _told(part):
-            part.replace(aside)
-        notice(f"{part} is damaged ({reason}): set aside as {aside.name}, its runs are missing")
-        return None
+        """Return a part, None if it is damaged: it is set aside and told."""
+        table, reason = _table_or_reason(part)
+        if table is None:
+            aside = part.with_suffix(".damaged")
+            with _told(part):
+                part.replace(aside)
+            notice(f"{part} is damaged ({reason}): set aside as {aside.name}, its runs are missing")
+        return table
 
     def _put_together(self, parts: Sequence[Path]) -> None:
-        """Replace parts by one; a kill in between leaves runs twice, which have one key."""
+        """Replace parts by one; a kill in between leaves runs twice, which have one key.
+
+        Damaged ones stay, for `finished` to tell.
+        """
         import pyarrow as pa
 
-        tables = [table for part in parts if (table := self._read_part(part, _ignore))]
-        if not tables:
+        read = {part: table for part in parts if (table := _table_or_reason(part)[0]) is not None}
+        if not read:
             return
-        self._write_part(pa.concat_tables(tables, promote_options="permissive"))
-        for part in parts:
+        self._write_part(pa.concat_tables(list(read.values()), promote_options="permissive"))
+        for part in read:
             part.unlink(missing_ok=True)
 
     # --- tables -----------------------------------------------------------------------------
@@ -212,8 +208,16 @@ class SweepFolder:
         return _read_table(self.machine_path)
 
 
-def _ignore(_text: str) -> None:
-    pass
+def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
+    """Return the table of a part, or None and why it cannot be read."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.read_table(part)
+    except (pa.ArrowException, OSError) as error:
+        return None, str(error).splitlines()[0]
+    return (table, "") if "key" in table.column_names else (None, "it has no column key")
 
 
 def _write_table(table: pa.Table, path: Path) -> None:

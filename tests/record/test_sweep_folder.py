@@ -89,6 +89,20 @@ def test_a_disk_that_is_full_when_parts_become_one_loses_no_run(
     assert keys(folder) == expected
 
 
+def test_a_damaged_part_is_told_after_the_others_have_become_one(folder: SweepFolder) -> None:
+    folder.keep(run("lost"))
+    (damaged,) = folder.parts_path.glob("*.parquet")
+    damaged.write_bytes(b"no parquet")
+    for number in range(MOST_PARTS + 5):
+        folder.keep(run(f"{number:03}"))
+    told: list[str] = []
+    table = folder.finished(told.append)
+    assert table is not None
+    assert table.num_rows == MOST_PARTS + 5
+    assert len(told) == 1
+    assert damaged.name in told[0]
+
+
 def test_parts_of_an_earlier_version_have_fewer_columns(folder: SweepFolder) -> None:
     folder.keep(pa.table({"key": ["old"]}))
     folder.keep(run("new"))
