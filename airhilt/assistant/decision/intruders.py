@@ -360,7 +360,7 @@ def _note(encounter: _Encounter) -> str:
     """Return the estimates with their errors, for the evidence."""
     approach, track = encounter.approach, encounter.track
     turning = math.hypot(*approach.turning_rad_s) / DEGREE
-    error_s = approach.closing_error * approach.time_s**2
+    error_s = math.hypot(approach.closing_error, approach.lasting_error) * approach.time_s**2
     return (
         f"{track.camera}: contact in {approach.time_s:.0f} s, give or take {error_s:.0f} s; "
         f"direction turns by {turning:.2f} degrees/s"

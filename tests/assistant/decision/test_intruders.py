@@ -307,7 +307,7 @@ def test_what_is_doubtful_in_all_pictures_is_not_certain_in_many() -> None:
 def test_nobody_goes_back_before_the_two_are_past_by_the_minimum() -> None:
     """Contact is 24 s after the last picture, and the two draw apart at 40 m/s."""
     apart_s = 4.0 + 24.0 + MINIMA.horizontal_m / 40.0
-    later_s = [4.5 + 0.5 * step for step in range(300)]
+    later_s = [4.5 + 0.5 * step for step in range(420)]
 
     def told(until_s: float) -> list[Alert]:
         camera = closing_camera(40.0, 0.0, 24.0, 4.0)
@@ -399,6 +399,21 @@ def test_errors_that_last_for_a_second_are_not_taken_for_growth() -> None:
         shifts.append((approach.closing - 1.0 / 40.0) / approach.closing_error)
     rms = math.sqrt(sum(shift**2 for shift in shifts) / len(shifts))
     assert rms < 2.0
+
+
+@pytest.mark.parametrize("shown", [(0.65, 1.05), (0.8, 1.2), (1.0, 0.7)])
+def test_what_grows_because_more_of_it_shows_may_be_far_longer_away_than_it_seems(
+    shown: tuple[float, float],
+) -> None:
+    """A wing drifts from between two rows of pixels into one: within 5 s all of it shows."""
+    left_s = 53.0
+    seen = glimpses_of(65.0, 0.0, left_s, 5.0, 0.2, 0.0)
+    parts = np.linspace(*shown, len(seen))
+    wrong = [
+        each._replace(size_rad=(part * each.size_rad[0], part * each.size_rad[1]))
+        for each, part in zip(seen, parts, strict=True)
+    ]
+    assert approach_of(wrong).longest_s > left_s
 
 
 def test_a_passage_to_the_side_is_told_in_sizes() -> None:
