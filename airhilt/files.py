@@ -6,6 +6,9 @@ import hashlib
 from contextlib import suppress
 from pathlib import Path
 
+PARTIAL = ".partial"
+"""End of the name of a file that is being written."""
+
 
 def replace_file(path: Path, data: bytes) -> None:
     """Write a file, in the place of an earlier one only when all of it is there.
@@ -15,7 +18,7 @@ def replace_file(path: Path, data: bytes) -> None:
     OSError
         It cannot be written; nothing has changed.
     """
-    partial = path.with_name(path.name + ".partial")
+    partial = path.with_name(path.name + PARTIAL)
     try:
         partial.write_bytes(data)
         partial.replace(path)

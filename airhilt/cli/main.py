@@ -72,6 +72,9 @@ def cli() -> None:
     airhilt report RUN                        make its report, one HTML file
     airhilt replay RUN                        run it again and compare
     airhilt listen RUN                        write what was said, as sound and as text
+    airhilt sweep --scenario 's02a_*' --snr 0:20:5 --seeds 10    run many, into one table
+    airhilt evaluate --preset paper           make the paper's table
+    airhilt compare SWEEP SWEEP               say what differs, and how surely
     airhilt render --scenario s01b_nominal --camera runway_01    write what a camera sees
     """
 

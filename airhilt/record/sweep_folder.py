@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.files import PARTIAL, replace_file
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 FORMAT = 1
 MOST_PARTS = 64
 """Small parts from which they are put together into one."""
+UNFINISHED = f"*{PARTIAL}"
+"""Names of files that are being written."""
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
 
@@ -91,6 +93,8 @@ class SweepFolder:
     def locked(self) -> Iterator[None]:
         """Keep the folder for one process; the lock ends with it, however it ends.
 
+        What a killed process left half-written is removed.
+
         Raises
         ------
         SweepFolderError
@@ -106,6 +110,8 @@ class SweepFolder:
                     f"{self.path}: another sweep is writing here; wait for it, or choose another "
                     "folder with --out"
                 ) from None
+            for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
+                left.unlink(missing_ok=True)
             yield
 
     # --- what is run ------------------------------------------------------------------------

@@ -190,8 +190,12 @@ def _combinations(specification: Specification) -> Iterator[Combination]:
 
 
 def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
-    """Return values without those that come again."""
-    return list({json.dumps(value): value for value in values}.values())
+    """Return values without those that come again; 5 and 5.0 are one."""
+    first: dict[object, JsonValue] = {}
+    for value in values:
+        is_number = isinstance(value, int | float)
+        first.setdefault((type(value) is bool, value) if is_number else json.dumps(value), value)
+    return list(first.values())
 
 
 def _plan(document: Json, options: Json, combination: Combination) -> Plan:

@@ -186,3 +186,13 @@ def test_a_full_disk_is_told_and_keeps_what_was_finished(
         folder.keep(run("b"))
     monkeypatch.undo()
     assert keys(folder) == ["a"]
+
+
+def test_what_a_killed_sweep_left_half_written_is_removed_by_the_next(folder: SweepFolder) -> None:
+    folder.keep(run("a"))
+    halves = [folder.path / "sweep.parquet.partial", folder.parts_path / "b.parquet.partial"]
+    for half in halves:
+        half.write_bytes(b"PAR1")
+    with folder.locked():
+        assert not any(half.exists() for half in halves)
+    assert keys(folder) == ["a"]

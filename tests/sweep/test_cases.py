@@ -34,7 +34,7 @@ def test_a_grid_has_every_combination_once() -> None:
     found = grid(
         scenarios=["s02a_*"],
         seeds={"from": 0, "to": 2, "step": 1},
-        axes={"snr_db": [0, 10, 10], "assistant": ["reference", "none"]},
+        axes={"snr_db": [0, 10, 10, 10.0], "assistant": ["reference", "none"]},
     )
     names = {case.scenario for case in found}
     assert all(name.startswith("s02a_") for name in names)
