@@ -142,6 +142,31 @@ def test_runways_that_are_true_are_said_with_their_side() -> None:
         assert item.value[2:] == "" or sides[item.value[2]] in call.text.split()
 
 
+def test_manners_and_ends_that_are_true_are_said() -> None:
+    words = {"left", "right", "contact", "monitor", "maintain", "straight_in", "increase"}
+    for call in calls():
+        text = re.sub(r"\b(and uh|uh|um|er|ah) ?", "", call.text)
+        for item in call.items:
+            if item.manner in words and item.kind != "block_altitude":
+                assert item.manner[:6].replace("_", " ") in text, (item, call.text)
+            assert re.sub(r"\band ", "", item.ends or "") in text, (item, call.text)
+
+
+def test_items_without_value_are_said() -> None:
+    for word in (
+        "follow",
+        "ident",
+        "expedite",
+        "immediately",
+        "own_navigation",
+        "pushback",
+        "wake",
+    ):
+        for call, _ in items({word}):
+            said = {"own_navigation": "own", "pushback": "push"}.get(word, word)
+            assert said in call.text, call.text
+
+
 @pytest.mark.parametrize("style", ["faa", "icao"])
 def test_spelled_numbers_are_read_as_they_were(style: Style) -> None:
     speller = Speller(random.Random(1), style)

@@ -44,8 +44,14 @@ def cleared(s: Scene) -> Exchange:
     end = " approach" if s.is_faa or s.chance(0.7) else ""
     text = f"cleared {straight}{words}{end}"
     item = Item("approach", value, None, "now", "straight_in" if straight else None)
+    bare = Item("approach", value)
     return exchange(
-        s.source(*CLEARANCE), text, item, text, f"cleared {words}", f"cleared the {words}"
+        s.source(*CLEARANCE),
+        text,
+        item,
+        text,
+        (f"cleared {words}", bare),
+        (f"cleared the {words}", bare),
     )
 
 
@@ -70,7 +76,9 @@ def visual(s: Scene) -> Exchange:
         other = s.other_callsign()
         text = f"follow {other} {text}"
         items += (Item("follow"),)
-    return exchange(s.source("7-4-3", "12.3.3.2"), text, items, text, f"cleared visual {runway}")
+    return exchange(
+        s.source("7-4-3", "12.3.3.2"), text, items, text, (f"cleared visual {runway}", items[0])
+    )
 
 
 def vectored(s: Scene) -> Exchange:

@@ -72,7 +72,7 @@ def heading_later(s: Scene) -> Exchange:
 def heading_until(s: Scene) -> Exchange:
     """Return a heading now, and the direct that follows it."""
     fix, heading_deg = s.fix(), s.heading_deg()
-    ends = f"when able direct {fix}"
+    ends = f"when able proceed direct {fix}"
     text = f"fly heading {s.say.heading(heading_deg)} when able proceed direct {fix}"
     first = Item("heading", heading_deg, "deg", ends=ends)
     second = Item("direct", fix, None, "conditional", begins="when able")

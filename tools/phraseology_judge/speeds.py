@@ -45,7 +45,9 @@ def speed_until(s: Scene) -> Exchange:
     )
     text = f"maintain {s.say.speed(speed_kt)} knots {ends}"
     item = Item("speed", speed_kt, "kt", "now", "maintain", ends=ends)
-    return exchange(s.source(*METHODS), text, item, text, text.replace("maintain ", ""))
+    bare = Item("speed", speed_kt, "kt", ends=ends)
+    short = text.removeprefix("maintain ")
+    return exchange(s.source(*METHODS), text, item, text, (short, bare))
 
 
 def speed_later(s: Scene) -> Exchange:

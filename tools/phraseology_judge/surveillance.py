@@ -54,8 +54,13 @@ def contact_without_number(s: Scene) -> Exchange:
         value["fraction"] = "9"
     status: Status = "conditional" if begins else "now"
     item = Item("frequency", value, None, status, manner, begins)
+    bare = Item("frequency", value, None, status, None, begins)
     return exchange(
-        s.source("2-1-17", "12.3.1.4"), f"{manner} {unit}", item, f"over to {unit}", unit
+        s.source("2-1-17", "12.3.1.4"),
+        f"{manner} {unit}",
+        item,
+        (f"over to {unit}", bare),
+        (unit, bare),
     )
 
 
@@ -228,12 +233,13 @@ def atis(s: Scene) -> Exchange:
 def low_altitude(s: Scene) -> Exchange:
     """Return an alert of terrain (2-1-6)."""
     text = "low altitude alert check your altitude immediately"
-    items: tuple[Item, ...] = (information("low_altitude_alert"),)
+    items = (information("low_altitude_alert"),)
     if s.chance(0.5):
-        altitude_ft = s.low_ft()
-        text += f" climb and maintain {s.say.altitude(altitude_ft)}"
-        items += (Item("altitude", altitude_ft, "ft", "now", "climb"),)
-    return exchange("FAA JO 7110.65 2-1-6", text, items, text.removeprefix("low altitude alert "))
+        return exchange("FAA JO 7110.65 2-1-6", text, items)
+    altitude_ft = s.low_ft()
+    order = f"climb and maintain {s.say.altitude(altitude_ft)}"
+    item = Item("altitude", altitude_ft, "ft", "now", "climb")
+    return exchange("FAA JO 7110.65 2-1-6", f"{text} {order}", (*items, item), (order, item))
 
 
 def report_when(s: Scene) -> Exchange:

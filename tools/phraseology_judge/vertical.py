@@ -149,10 +149,12 @@ def stop_climb(s: Scene) -> Exchange:
     words, value, unit = s.say.vertical(s.altitude_ft())
     manner = s.pick("climb", "descend")
     noun = {"climb": "climb", "descend": "descent"}[manner]
-    text = s.pick(f"stop {noun} at {words}", f"amend altitude maintain {words}")
-    return exchange(
-        s.source("4-5-7", "12.3.1.2"), text, Item("altitude", value, unit, "now", "maintain"), text
+    text, how = s.pick(
+        (f"stop {noun} at {words}", "stop"),
+        (f"amend altitude maintain {words}", "maintain"),
     )
+    item = Item("altitude", value, unit, "now", how)
+    return exchange(s.source("4-5-7", "12.3.1.2"), text, item, text)
 
 
 def block(s: Scene) -> Exchange:

@@ -5,7 +5,7 @@ from __future__ import annotations
 KINDS = {
     line.split(" | ")[0].strip(): line.split(" | ")[1].strip()
     for line in """
-altitude | a level in "ft" or "FL"; manner: climb, descend, maintain, at_or_below, ...
+altitude | a level in "ft" or "FL"; manner: climb, descend, maintain, stop, at_or_below, ...
 altitude_passing | a level passed, left or reached, in "ft" or "FL"
 block_altitude | levels low and high, in "ft" or "FL"
 vertical_rate | a rate in "ft/min"; manner: or_greater, or_less
