@@ -131,7 +131,8 @@ def _short(aircraft: Aircraft, speller: Speller) -> str:
     ident = aircraft.ident
     if ident[0] == "N":
         if aircraft.model or speller.style == "faa":
-            begin = "" if aircraft.model or speller.rng.random() < 0.4 else "november "
+            is_bare = aircraft.model or (ident[-1].isalpha() and speller.rng.random() < 0.4)
+            begin = "" if is_bare else "november "
             return begin + speller.letters(ident[-3:]) if len(ident) > 4 else ""
         return ""
     return speller.letters(ident[0] + ident[-2:])

@@ -99,7 +99,7 @@ def squawk(s: Scene) -> Exchange:
     """Return a transponder code, with ident sometimes."""
     code = "".join(f"{s.rng.randint(0, 7)}" for _ in range(4))
     if s.chance(0.2):
-        code = s.pick("1200", "7000", "2000", "7700")
+        code = s.pick("1200", "7000", "2000", "1000")
     words = s.say.code(code)
     item = Item("squawk", code)
     text = f"squawk {words}"
