@@ -1,0 +1,64 @@
+"""The score of a corpus counts what is right, wrong and invented, with every value."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from phraseology_judge.score import Score, score
+
+ROSTER = ["DAL456", "UAL12", "N172SP"]
+
+
+def item(kind: str, value: Any = None, **more: Any) -> dict[str, Any]:
+    nothing = {"unit": None, "manner": None, "begins": None, "ends": None}
+    return {"kind": kind, "value": value, "status": "now", **nothing, **more}
+
+
+def scored(text: str, *items: dict[str, Any], callsign: str | None = "DAL456") -> Score:
+    line = {"text": text, "roster": ROSTER, "callsign": callsign, "items": list(items)}
+    return score([line])
+
+
+HEADING = item("heading", 270, unit="deg", manner="left")
+TURN = "delta four five six turn left heading two seven zero"
+
+
+def test_an_instruction_is_right_with_all_its_values() -> None:
+    counts = scored(TURN, HEADING)
+    assert (counts.items, counts.items_right, counts.wrong_and_confident) == (1, 1, 0)
+    assert counts.callsign_right == 1
+
+
+@pytest.mark.parametrize("truth", [{"value": 280}, {"manner": "right"}, {"manner": None}])
+def test_an_instruction_with_another_value_is_wrong_and_confident(truth: dict[str, Any]) -> None:
+    counts = scored(TURN, {**HEADING, **truth})
+    assert (counts.items_right, counts.wrong_and_confident) == (0, 1)
+
+
+@pytest.mark.parametrize("status", ["request", "withdrawn", "conditional"])
+def test_what_is_not_in_effect_may_not_be_read_as_if_it_were(status: str) -> None:
+    begins = "after departure" if status == "conditional" else None
+    counts = scored(TURN, {**HEADING, "status": status, "begins": begins})
+    assert (counts.items_right, counts.wrong_and_confident) == (0, 1)
+
+
+def test_what_a_pilot_reports_may_be_read_and_is_not_counted() -> None:
+    counts = scored(TURN, {**HEADING, "status": "report"})
+    assert (counts.items, counts.wrong_and_confident) == (0, 0)
+
+
+def test_a_clearance_without_truth_is_invented() -> None:
+    counts = scored("delta four five six runway two seven cleared to land")
+    assert (counts.invented, counts.invented_and_confident) == (1, 1)
+
+
+def test_a_wrong_callsign_is_wrong_and_confident() -> None:
+    counts = scored(TURN, HEADING, callsign="UAL12")
+    assert (counts.callsign_right, counts.wrong_callsigns, counts.wrong_and_confident) == (0, 1, 1)
+
+
+def test_kinds_out_of_scope_are_listed_and_not_missed() -> None:
+    counts = scored("delta four five six information bravo", item("atis", "B"))
+    assert (counts.items, counts.out_of_scope["atis"]) == (0, 1)
