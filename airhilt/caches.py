@@ -22,7 +22,7 @@ from airhilt.library import nearest
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 """Environment variable with the greatest size of all entries together, in MB."""
 DEFAULT_LIMIT_MB = 2000.0
-KINDS = ("aircraft", "backgrounds", "detections", "rays", "voices")
+KINDS = ("aircraft", "backgrounds", "detections", "pictures", "rays", "voices")
 """Kinds of entries that AIRHILT keeps itself; each is a folder in `cache_folder`."""
 ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial|pcm)")
 """Name of an entry, of one that is being written, and of an entry of versions up to 0.5."""

@@ -281,11 +281,13 @@ def reference_worker(
             )
         case "vision":
             from airhilt.assistant.vision.detectors import vision_engine
-            from airhilt.assistant.vision.shared_detections import shared
+            from airhilt.assistant.vision.shared_looks import Reproducible, SharedLooks
             from airhilt.assistant.vision.worker import VisionWorker
 
             detector = vision_engine(DETECTOR if engine is None else engine, also)
-            return VisionWorker(shared(detector) if shares_detections else detector, name or kind)
+            if shares_detections and isinstance(detector, Reproducible):
+                return VisionWorker(detector, name or kind, SharedLooks(detector))
+            return VisionWorker(detector, name or kind)
         case "decision":
             return decision_worker(
                 ASSISTANT if engine is None else engine,

@@ -68,7 +68,7 @@ class RemoteWorker:
                 GrantInput(
                     key=item.key,
                     t_in_ns=item.t_in_ns,
-                    size=len(item.payload),
+                    size=item.size,
                     attachment=item.attachment,
                 )
                 for item in inputs

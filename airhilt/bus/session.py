@@ -11,6 +11,7 @@ from typing import Any
 
 import zenoh
 
+from airhilt.deferred import Payload
 from airhilt.errors import BusError
 
 ROOT = "airhilt"
@@ -124,15 +125,20 @@ class Bus:
         self._latest: dict[str, bytes] = {}
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
-    def put(self, key: str, payload: bytes, attachment: bytes | None = None) -> None:
-        """Publish to other processes under a key relative to the run."""
+    def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
+        """Publish to other processes under a key relative to the run.
+
+        A deferred payload is made only if somebody has subscribed to the key.
+        """
         publisher = self._publishers.get(key)
         if publisher is None:
             publisher = self.session.declare_publisher(
                 f"{self.prefix}/{key}", allowed_destination=zenoh.Locality.REMOTE
             )
             self._publishers[key] = publisher
-        publisher.put(payload, attachment=attachment)
+        # The status is an object that Zenoh's stubs call a bool.
+        if isinstance(payload, bytes) or publisher.matching_status.matching:  # type: ignore[attr-defined]
+            publisher.put(bytes(payload), attachment=attachment)
 
     def keep(self, key: str, payload: bytes) -> None:
         """Publish, and answer later queries on the key with the payload kept last."""

@@ -14,6 +14,7 @@ from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
+from airhilt.deferred import Payload
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.options import Options
@@ -25,7 +26,8 @@ from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.frame import Frame, Prospect
+    from airhilt.sensors.cameras.frame import Prospect
+    from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
     from airhilt.sensors.cameras.renderer_link import RendererLink
     from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -35,7 +37,7 @@ if TYPE_CHECKING:
 class Recorder(Protocol):
     """Keeps something of what is published, until it is closed."""
 
-    def take(self, key: str, message: Message, payload: bytes) -> None: ...  # noqa: D102
+    def take(self, key: str, message: Message, payload: Payload) -> None: ...  # noqa: D102
 
     def close(self) -> None: ...  # noqa: D102
 
@@ -105,7 +107,9 @@ class Vision:
         """
         if self._process is None:
             return
+        from airhilt.sensors.cameras.pictures import DrawnPictures
         from airhilt.sensors.cameras.sensor import CameraSensor
+        from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
         setup = self._setup
         actors = pair_of(setup.scenario) or tuple(setup.actors)
@@ -116,9 +120,15 @@ class Vision:
         for recorder in self._recorders:
             router.observe(recorder.take)
         loss = setup.recorded.cameras_lost
+        # What a renderer draws cannot be shared if more than its library determines that.
+        source = (
+            SharedPictures(self._process)
+            if self._process.identity
+            else DrawnPictures(self._process)
+        )
         self._sensor = CameraSensor(
             director,
-            self._process if loss is None else _UntilLost(self._process, *loss),
+            source if loss is None else _UntilLost(source, *loss),
             setup.scenario.cameras,
             setup.site,
             setup.actors,
@@ -248,7 +258,7 @@ def _open_renderer_process(
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
     return RendererProcess(
-        scenario, renderer=options.renderer, link=link, shares_rays=options.share_pictures
+        scenario, renderer=options.renderer, link=link, shares_pictures=options.share_pictures
     )
 
 
@@ -263,13 +273,15 @@ def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
 class _UntilLost:
     """Takes pictures up to the instant at which an earlier run could take no more."""
 
-    def __init__(self, process: RendererProcess, lost_ns: int, cause: str) -> None:
-        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = process.own_aircraft
-        self._process = process
+    def __init__(self, source: PictureSource, lost_ns: int, cause: str) -> None:
+        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = source.own_aircraft
+        self._source = source
         self._lost_ns = lost_ns
         self._cause = cause
 
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+    def take(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> list[CameraPicture]:
         """Take them.
 
         Raises
@@ -278,14 +290,14 @@ class _UntilLost:
             The earlier run could not.
         """
         self._require_not_lost(t_ns)
-        return self._process.shoot(names, bodies, t_ns)
+        return self._source.take(names, bodies, t_ns)
 
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
-        """Return what pictures would show; it raises what `shoot` does."""
+        """Return what pictures would show; it raises what `take` does."""
         self._require_not_lost(t_ns)
-        return self._process.prospects(names, bodies, t_ns)
+        return self._source.prospects(names, bodies, t_ns)
 
     def _require_not_lost(self, t_ns: int) -> None:
         if t_ns >= self._lost_ns:

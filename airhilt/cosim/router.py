@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from airhilt.bus.session import Bus
+from airhilt.deferred import Payload
 from airhilt.messages import RUN, Message
 from airhilt.record.log import LogWriter
 
-Listener = Callable[[str, Message, bytes], None]
+Listener = Callable[[str, Message, Payload], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
 Attributed = Callable[[str, Message], None]
 """Called with the name of the publisher and its message."""
@@ -37,7 +38,7 @@ class MessageRouter:
         self._attributed.append(listener)
 
     def publish(
-        self, key: str, message: Message, publisher: str = RUN, raw: bytes | None = None
+        self, key: str, message: Message, publisher: str = RUN, raw: Payload | None = None
     ) -> None:
         """Publish a message whose ``t_ns`` is now.
 
@@ -52,7 +53,7 @@ class MessageRouter:
             self._bus.put(key, data)
         else:
             self._bus.put(key, raw, data)
-        payload = data if raw is None else raw
+        payload: Payload = data if raw is None else raw
         for observer in self._observers:
             observer(key, message, payload)
         if not key.startswith("truth/"):

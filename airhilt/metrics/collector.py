@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from airhilt.deferred import Payload
 from airhilt.messages import (
     ADVISORY_CALL,
     CONTROLLER,
@@ -116,7 +117,7 @@ class Collector:
         self._advisories = new_records()
         self._equipment = EquipmentRecords(scenario.equipment, new_records)
 
-    def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Receive a published message."""
         if isinstance(message, ActorTruth):
             return  # The most frequent message: the monitors follow the actors themselves.

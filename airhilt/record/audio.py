@@ -12,6 +12,7 @@ from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import encode_wav, read_wav
+from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import (
     AdvisoryAudio,
@@ -45,7 +46,7 @@ class AudioRecorder:
         self._chunks: dict[str, bytearray] = {}
         """PCM of the transmissions that are on the air, by id."""
 
-    def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
         """Write the sound of a message.
 
         Raises
@@ -55,13 +56,13 @@ class AudioRecorder:
         """
         match message:
             case TransmissionChunk():
-                self._chunks.setdefault(message.id, bytearray()).extend(payload)
+                self._chunks.setdefault(message.id, bytearray()).extend(bytes(payload))
             case TransmissionClosed():
                 pcm = bytes(self._chunks.pop(message.id, b""))
                 if pcm and not message.is_complete:
                     self._write(message, pcm)
             case Transmission() | AdvisoryAudio() if payload:
-                self._write(message, payload)
+                self._write(message, bytes(payload))
 
     def _write(self, message: MessageWithSound, pcm: bytes) -> None:
         path = audio_file(self._folder, message)

@@ -91,7 +91,7 @@ class Overlay:
         from PIL import Image, ImageDraw
 
         header = picture.header
-        inner = Image.frombytes("RGB", self._picture_size, picture.pixels)
+        inner = Image.frombytes("RGB", self._picture_size, bytes(picture.pixels))
         title = f"{header.camera}   t = {clock(header.t_frame_ns)}"
         if seen is not None:
             is_own = seen.seq == header.seq

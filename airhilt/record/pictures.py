@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
+from airhilt.deferred import Payload
 from airhilt.errors import disk_failed
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -64,7 +65,7 @@ class Picture(NamedTuple):
     """One picture, and the actors that are really in it."""
 
     header: CameraFrame
-    pixels: bytes
+    pixels: Payload
     sightings: tuple[SightingTruth, ...]
 
 
@@ -73,7 +74,7 @@ class _HasHeader(Protocol):
     def header(self) -> CameraFrame: ...
 
     @property
-    def pixels(self) -> bytes: ...
+    def pixels(self) -> Payload: ...
 
 
 T = TypeVar("T", bound=_HasHeader)
@@ -149,7 +150,7 @@ class KeyPictures:
         self._written: set[Occasion] = set()
         self._is_full = False
 
-    def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
         """Receive a published message, truth too.
 
         Raises
@@ -234,7 +235,7 @@ class KeyPictures:
         self._written.add(occasion)
         header = picture.header
         size = header.view.width_px, header.view.height_px
-        image = Image.frombuffer("RGB", size, picture.pixels)
+        image = Image.frombuffer("RGB", size, bytes(picture.pixels))
         if occasion == "start" and size[0] > START_WIDTH_PX:
             image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
         path = PictureName(occasion, header.camera, header.seq).path(self._folder)

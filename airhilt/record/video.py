@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, VideoError, disk_failed, first_line
 from airhilt.messages import (
     CONTROLLER,
@@ -82,7 +83,7 @@ class _AnnotatedPicture(NamedTuple):
         return self.picture.header
 
     @property
-    def pixels(self) -> bytes:
+    def pixels(self) -> Payload:
         return self.picture.pixels
 
 
@@ -114,7 +115,7 @@ class VideoRecorder:
         self._is_watched = False
         self._is_full = False
 
-    def take(self, key: str, message: Message, payload: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
         """Receive a published message; truth is ignored.
 
         Raises
@@ -128,7 +129,7 @@ class VideoRecorder:
             self._is_full = True
             raise
 
-    def _take(self, message: Message, payload: bytes) -> None:
+    def _take(self, message: Message, payload: Payload) -> None:
         match message:
             case CameraInfo(camera=name, rate_hz=rate_hz):
                 self._rates_hz[name] = rate_hz

@@ -103,9 +103,9 @@ class Server:
         """
         for index, (policy, older) in enumerate(self._waiting):
             if older.key == item.key:
-                if item.payload or not older.payload:
+                if item.size or not older.size:
                     self._waiting[index] = (policy, item)
-                    self.dropped[item.key] += bool(older.payload)
+                    self.dropped[item.key] += bool(older.size)
                 return True
         return False
 

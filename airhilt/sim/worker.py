@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
+from airhilt.deferred import DeferredBytes, Payload
+
 Policy = Literal["fifo", "latest", "batch"]
 
 
@@ -26,6 +28,48 @@ class Input:
     payload: bytes
     attachment: Any = None
     begun_ns: int | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of bytes of the payload."""
+        return len(self.payload)
+
+    @classmethod
+    def of(
+        cls,
+        key: str,
+        t_in_ns: int,
+        payload: Payload,
+        attachment: Any = None,
+        begun_ns: int | None = None,
+    ) -> Input:
+        """Return an input whose payload is made, if that is deferred, when somebody reads it."""
+        if isinstance(payload, bytes):
+            return cls(key, t_in_ns, payload, attachment, begun_ns)
+        return DeferredInput(key, t_in_ns, payload, attachment, begun_ns)
+
+
+class DeferredInput(Input):
+    """An input whose payload is made when it is read: the field itself is never set."""
+
+    __slots__ = ("_deferred",)
+
+    def __init__(
+        self, key: str, t_in_ns: int, payload: DeferredBytes, attachment: Any, begun_ns: int | None
+    ) -> None:
+        given = {"key": key, "t_in_ns": t_in_ns, "attachment": attachment, "begun_ns": begun_ns}
+        for name, value in {**given, "_deferred": payload}.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def size(self) -> int:
+        """Number of bytes that the payload has, or will have."""
+        return len(self._deferred)
+
+    def __getattr__(self, name: str) -> bytes:
+        if name != "payload":
+            raise AttributeError(name)
+        return bytes(self._deferred)
 
 
 @dataclass(frozen=True, slots=True)

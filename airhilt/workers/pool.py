@@ -12,6 +12,7 @@ from typing import Any, Literal, Protocol
 from pydantic import ValidationError
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
+from airhilt.deferred import Payload
 from airhilt.errors import WorkerError, first_problem
 from airhilt.messages import (
     UNREGISTERED,
@@ -113,7 +114,7 @@ class WorkerPool:
             self.servers[description.name] = server
             self._inputs.append((server, policies))
 
-    def offer(self, key: str, message: Message, data: bytes) -> None:
+    def offer(self, key: str, message: Message, data: Payload) -> None:
         """Give a message to the workers that want its key.
 
         ``data`` is its JSON, or the raw bytes that it is the header of.
@@ -129,7 +130,7 @@ class WorkerPool:
         attachment = message.model_dump(mode="json") if is_header else None
         begun_ns = message.t_tx_ns if isinstance(message, Transmission) else None
         for server, policy in routes:
-            server.offer(Input(key, message.t_ns, data, attachment, begun_ns), policy)
+            server.offer(Input.of(key, message.t_ns, data, attachment, begun_ns), policy)
 
     def inputs_dropped(self) -> dict[str, int]:
         """Return how many inputs were dropped as out of date, by worker and key."""

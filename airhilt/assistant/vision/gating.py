@@ -9,7 +9,8 @@ a picture as well as the whole.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import hashlib
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.vision.changes import changed_blocks, windows_about
@@ -21,6 +22,7 @@ from airhilt.assistant.vision.detector import (
     Shot,
     once,
 )
+from airhilt.assistant.vision.kept_pixels import KeptPixels, SeenPicture
 from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
 from airhilt.imaging.boxes import centre, shared_area
 
@@ -40,10 +42,32 @@ class SeesParts(Detector, Protocol):
         ...
 
 
-class _Looked(NamedTuple):
-    """State of a tile when its parts were last looked at."""
+class Look(NamedTuple):
+    """Result of a look at a tile: windows that the detector looked at, and all that is in it."""
 
-    pixels: Picture
+    windows: tuple[Tile, ...]
+    found: tuple[Found, ...]
+
+
+class Looks(Protocol):
+    """Looks that may have been taken before."""
+
+    def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
+        """Return a look: see `airhilt.assistant.vision.shared_looks.SharedLooks`."""
+        ...
+
+
+class _Looked(NamedTuple):
+    """State of a tile when its parts were last looked at.
+
+    Attributes
+    ----------
+    history
+        Hash of the pictures to which it is due.
+    """
+
+    history: str
+    pixels: KeptPixels
     found: tuple[Found, ...]
 
 
@@ -51,10 +75,16 @@ class Gate:
     """Asks a detector only about changes, for any number of cameras.
 
     Small pictures are looked at in one piece, big ones in tiles.
+
+    Parameters
+    ----------
+    looks
+        Looks that runs share, for pictures with a SHA-256; None if each is taken anew.
     """
 
-    def __init__(self, detector: Detector) -> None:
+    def __init__(self, detector: Detector, looks: Looks | None = None) -> None:
         self._detector = detector
+        self._looks = looks
         self._looked: dict[tuple[str, Tile], _Looked] = {}
 
     def look(self, shot: Shot, picture: Picture) -> list[Found]:
@@ -65,34 +95,55 @@ class Gate:
         airhilt.errors.VisionError
             The detector has failed.
         """
-        tiles = tiles_of(picture)
+        return self.look_at(shot, SeenPicture.of(picture))
+
+    def look_at(self, shot: Shot, picture: SeenPicture) -> list[Found]:
+        """Return what is in a picture whose pixels may not be needed; otherwise as `look`."""
+        tiles = tiles_of(picture.shape)
         found = [self._look_at(shot, tile, picture) for tile in tiles]
         if len(tiles) == 1:
             return list(found[0])
         return merged([
             piece
             for tile, these in zip(tiles, found, strict=True)
-            for piece in pieces_of(these, tile, picture)
+            for piece in pieces_of(these, tile, picture.shape)
         ])  # fmt: skip
 
-    def _look_at(self, shot: Shot, tile: Tile, picture: Picture) -> tuple[Found, ...]:
+    def _look_at(self, shot: Shot, tile: Tile, picture: SeenPicture) -> tuple[Found, ...]:
         """Return what is in a tile, with boxes as they are in it."""
-        pixels, part = tile.of(picture), _part(shot, tile)
         last = self._looked.get((shot.camera, tile))
-        looked = self._anew(part, pixels) if last is None else self._again(last, part, pixels)
-        self._looked[shot.camera, tile] = looked
-        return looked.found
+        history = _history("" if last is None else last.history, picture.sha256)
 
-    def _anew(self, shot: Shot, pixels: Picture) -> _Looked:
-        kept, detector = pixels.copy(), self._detector
-        if isinstance(detector, DetectsShots):
-            return _Looked(kept, tuple(detector.detect_shot(kept, shot)))
-        return _Looked(kept, tuple(detector.detect(kept)))
+        def take() -> Look:
+            pixels, part = tile.of(picture.read()), _part(shot, tile)
+            return self._anew(part, pixels) if last is None else self._again(last, part, pixels)
 
-    def _again(self, last: _Looked, shot: Shot, pixels: Picture) -> _Looked:
-        blocks = changed_blocks(last.pixels, pixels)
+        if self._looks is None:
+            look = take()
+        else:
+            look = self._looks.get(history, tile, picture.shape, take)
+        if last is None or look.windows == (_whole(tile),):
+            history = _history("", picture.sha256)  # What was before has no part in it any more.
+            last = _Looked(history, KeptPixels(tile, picture), look.found)
+        elif look.windows:
+            last.pixels.add(picture, look.windows)
+            last = _Looked(history, last.pixels, look.found)
+        self._looked[shot.camera, tile] = last
+        return last.found
+
+    def _anew(self, shot: Shot, pixels: Picture) -> Look:
+        detector, (rows, columns) = self._detector, pixels.shape[:2]
+        found = (
+            detector.detect_shot(pixels, shot)
+            if isinstance(detector, DetectsShots)
+            else detector.detect(pixels)
+        )
+        return Look((Tile(0, 0, rows, columns),), tuple(found))
+
+    def _again(self, last: _Looked, shot: Shot, pixels: Picture) -> Look:
+        blocks = changed_blocks(last.pixels.read(), pixels)
         if not blocks.any():
-            return last
+            return Look((), last.found)
         detector, (rows, columns) = self._detector, pixels.shape[:2]
         if not isinstance(detector, SeesParts):
             return self._anew(shot, pixels)
@@ -105,10 +156,16 @@ class Gate:
             for one in detector.detect_in(pixels, window)
             if window.holds(centre(one.box))
         ]
-        kept = last.pixels.copy()
-        for window in windows:
-            window.of(kept)[...] = window.of(pixels)
-        return _Looked(kept, tuple(_together(last.found, seen, windows)))
+        return Look(tuple(windows), tuple(_together(last.found, seen, windows)))
+
+
+def _whole(tile: Tile) -> Tile:
+    return Tile(0, 0, tile.height, tile.width)
+
+
+def _history(before: str, sha256: str) -> str:
+    """Return the hash of some pictures and one more."""
+    return hashlib.sha256(f"{before} {sha256}".encode()).hexdigest()
 
 
 def _part(shot: Shot, tile: Tile) -> Shot:

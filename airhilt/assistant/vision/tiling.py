@@ -50,9 +50,9 @@ class Piece(NamedTuple):
     """True if its box ends where the tile does and the picture does not."""
 
 
-def tiles_of(picture: Picture) -> list[Tile]:
-    """Return overlapping tiles of a big picture, and a small one in one piece."""
-    rows, columns = picture.shape[:2]
+def tiles_of(shape: Sequence[int]) -> list[Tile]:
+    """Return overlapping tiles of a big picture of a shape, and a small one in one piece."""
+    rows, columns = shape[:2]
     if max(rows, columns) <= GREATEST_SIDE_PX:
         return [Tile(0, 0, rows, columns)]
     return [
@@ -61,9 +61,9 @@ def tiles_of(picture: Picture) -> list[Tile]:
     ]
 
 
-def pieces_of(found: Iterable[Found], tile: Tile, picture: Picture) -> list[Piece]:
-    """Return the findings in a tile, with their boxes in the picture."""
-    rows, columns = picture.shape[:2]
+def pieces_of(found: Iterable[Found], tile: Tile, shape: Sequence[int]) -> list[Piece]:
+    """Return the findings in a tile of a picture, with their boxes in the picture."""
+    rows, columns = shape[:2]
     top, left, height, width = tile
     return [
         Piece(

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.assistant.vision.detector import Detector, Found, Picture, PictureMissed, Shot
-from airhilt.assistant.vision.gating import Gate
+from airhilt.assistant.vision.detector import Detector, Found, PictureMissed, Shot
+from airhilt.assistant.vision.gating import Gate, Looks
+from airhilt.assistant.vision.kept_pixels import SeenPicture
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.masks import Mask, mask_of
@@ -24,7 +25,7 @@ from airhilt.messages import (
     InputSpec,
     WorkerDescription,
 )
-from airhilt.sim.worker import Input, Output
+from airhilt.sim.worker import DeferredInput, Input, Output
 from airhilt.workers.protocol import Step
 
 MOST_OF_OWN_AIRCRAFT = 0.6
@@ -43,11 +44,18 @@ class VisionWorker:
 
     A finding below the detector's threshold is published only if it continues a track that was
     found in three pictures or more.
+
+    Parameters
+    ----------
+    looks
+        Looks that runs share; None if each is taken anew.
     """
 
-    def __init__(self, detector: Detector, name: str = "vision") -> None:
+    def __init__(
+        self, detector: Detector, name: str = "vision", looks: Looks | None = None
+    ) -> None:
         self._engine = detector.name
-        self._gate = Gate(detector)
+        self._gate = Gate(detector, looks)
         self._threshold = detector.threshold
         self._infos: dict[str, CameraInfo] = {}
         self._masks: dict[str, Mask] = {}
@@ -111,7 +119,7 @@ class VisionWorker:
         )
         if header.encoding == "none":
             return seen.model_copy(update={"missed": EXPOSURE_LEFT_OUT})
-        picture = picture_of(header, item.payload, self._infos.get(header.camera))
+        picture = picture_of(header, item, self._infos.get(header.camera))
         mask = self._masks.get(header.camera)
         try:
             found = self._found(header, picture, mask)
@@ -132,12 +140,14 @@ class VisionWorker:
         )
         return seen.model_copy(update={"detections": detections})
 
-    def _found(self, header: CameraFrame, picture: Picture, mask: Mask | None) -> Sequence[Found]:
+    def _found(
+        self, header: CameraFrame, picture: SeenPicture, mask: Mask | None
+    ) -> Sequence[Found]:
         """Return what is in a picture; the same pixels again have the same in them."""
         last = self._last.get(header.camera)
         if last is None or last.sha256 != header.sha256:
             shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
-            last = _LastLook(header.sha256, self._gate.look(shot, picture))
+            last = _LastLook(header.sha256, self._gate.look_at(shot, picture))
             self._last[header.camera] = last
         return last.found
 
@@ -166,8 +176,8 @@ def header_of(item: Input) -> CameraFrame:
     return header
 
 
-def picture_of(header: CameraFrame, pixels: bytes, info: CameraInfo | None) -> Picture:
-    """Return a picture, read-only.
+def picture_of(header: CameraFrame, item: Input, info: CameraInfo | None) -> SeenPicture:
+    """Return the picture in an input, whose pixels are read-only.
 
     Raises
     ------
@@ -180,12 +190,17 @@ def picture_of(header: CameraFrame, pixels: bytes, info: CameraInfo | None) -> P
             f"camera {header.camera}, picture {header.seq}: {columns} by {rows} pixels; expected "
             f"{info.width_px} by {info.height_px}, as its description says"
         )
-    if len(pixels) != 3 * columns * rows:
+    if item.size != 3 * columns * rows:
         raise VisionError(
-            f"camera {header.camera}, picture {header.seq}: {len(pixels)} bytes; expected "
+            f"camera {header.camera}, picture {header.seq}: {item.size} bytes; expected "
             f"{3 * columns * rows}, {columns} by {rows} pixels of rgb8"
         )
-    return np.frombuffer(pixels, np.uint8).reshape(rows, columns, 3)
+    return SeenPicture(
+        (rows, columns, 3),
+        header.sha256,
+        lambda: np.frombuffer(item.payload, np.uint8).reshape(rows, columns, 3),
+        is_made=not isinstance(item, DeferredInput),
+    )
 
 
 def covered_share(box: Box, mask: Mask) -> float:

@@ -14,6 +14,7 @@ from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
+from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
 from airhilt.sensors.cameras.renderer_link import COMMAND, ENVIRONMENT, RendererLink
@@ -43,8 +44,8 @@ class RendererProcess:
         all that the cameras see, sample by sample, is added.
     link
         A process that has been started before; it is closed with this one.
-    shares_rays
-        True if other runs may have the same views from moving cameras.
+    shares_pictures
+        True if other runs may have the same pictures.
 
     Attributes
     ----------
@@ -55,6 +56,11 @@ class RendererProcess:
     own_aircraft
         Pixels that the aircraft which carries the camera may cover, by camera; shape (rows,
         columns).
+    identity
+        Identity of the scene if pictures are shared: see `SceneRenderer`.
+    states
+        States of the cameras as JSON, from which their next pictures are drawn if pictures are
+        shared: see `CameraState.to_json`. Each picture changes them, and so may the caller.
 
     Raises
     ------
@@ -72,7 +78,7 @@ class RendererProcess:
         supersampling: int = 1,
         patience_s: float = PATIENCE_S,
         link: RendererLink | None = None,
-        shares_rays: bool = False,
+        shares_pictures: bool = False,
     ) -> None:
         self.renderer = renderer
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
@@ -82,6 +88,8 @@ class RendererProcess:
         self._patience_s = patience_s + drawing_s
         self._places = places_of(self._cameras)
         self._last: dict[str, Frame] = {}
+        self._shares_pictures = shares_pictures
+        self.states: dict[str, Any] = dict.fromkeys(self._cameras, CameraState().to_json())
         self._link, self._pixels = self._connect(link)
         try:
             opened = self._ask(
@@ -90,7 +98,7 @@ class RendererProcess:
                     "cameras": wanted,
                     "renderer": renderer,
                     "supersampling": supersampling,
-                    "shares_rays": shares_rays,
+                    "shares_pictures": shares_pictures,
                 },
                 STARTING_S + drawing_s,
             )
@@ -98,6 +106,7 @@ class RendererProcess:
             self.close()
             raise
         self.renderer = opened["renderer"]
+        self.identity: str = opened["identity"]
         self.actors: tuple[str, ...] = tuple(opened["actors"])
         self.own_aircraft: Mapping[str, Mask] = {
             name: _mask(runs, self._cameras[name]) for name, runs in opened["own_aircraft"].items()
@@ -113,7 +122,7 @@ class RendererProcess:
         RendererError
             The renderer's process has died, or does not answer.
         """
-        views = self._views(names, bodies)
+        views = self.views(names, bodies)
         pictures = self._ask_of(names, bodies, t_ns, draw=True)["pictures"]
         return [self._frame(name, t_ns, views[name], pictures[name]) for name in names]
 
@@ -124,11 +133,18 @@ class RendererProcess:
 
         It raises what `shoot` does.
         """
-        views = self._views(names, bodies)
+        views = self.views(names, bodies)
         has_body = self._ask_of(names, bodies, t_ns, draw=False)["has_body"]
         return {name: Prospect(views[name], has_body[name]) for name in names}
 
-    def _views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
+    def views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
+        """Return what cameras look at while bodies are where they are.
+
+        Raises
+        ------
+        CameraError
+            As `shoot`.
+        """
         there = {body.actor: body for body in bodies}
         return {name: find_camera(self._cameras, name).view(there) for name in names}
 
@@ -141,10 +157,15 @@ class RendererProcess:
             "t_ns": t_ns,
             "draw": draw,
         }
-        return self._ask(question, self._patience_s)
+        if self._shares_pictures:
+            question["states"] = [self.states[name] for name in names]
+        answer = self._ask(question, self._patience_s)
+        if self._shares_pictures:
+            self.states.update(zip(names, answer["states"], strict=True))
+        return answer
 
     def _frame(self, name: str, t_ns: int, view: View, answer: Mapping[str, Any]) -> Frame:
-        sightings = tuple(_sighting(found) for found in answer["sightings"])
+        sightings = tuple(sighting_of(found) for found in answer["sightings"])
         last = self._last.get(name)
         if answer["unchanged"] and last is not None:
             return replace(last, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
@@ -254,5 +275,6 @@ def _mask(runs: Sequence[int], camera: Camera) -> Mask:
     return mask_of(runs, camera.intrinsics.height_px, camera.intrinsics.width_px)
 
 
-def _sighting(found: Mapping[str, Any]) -> Sighting:
+def sighting_of(found: Mapping[str, Any]) -> Sighting:
+    """Return a sighting from what `dataclasses.asdict` makes of it, read from JSON."""
     return Sighting(**{**found, "box": Box(*found["box"])})

@@ -10,18 +10,20 @@ import json
 import mmap
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from typing import IO, Any
 
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.imaging.masks import runs_of
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame
-from airhilt.sensors.cameras.mounts import cameras_named
+from airhilt.sensors.cameras.mounts import Camera, cameras_named
 from airhilt.sensors.cameras.renderers import require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
+from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.shared_pixels import Planes, places_of, planes
 from airhilt.world.site import ScenarioSite
 
@@ -50,7 +52,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
             opening["renderer"],
             opening["supersampling"],
             keeps_backgrounds=True,
-            shares_rays=opening["shares_rays"],
+            shares_pictures=opening["shares_pictures"],
         )
     except AirhiltError as error:
         answer(_failure(error))
@@ -59,6 +61,7 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
         {
             "renderer": scene_renderer.renderer,
             "actors": scene_renderer.actors,
+            "identity": scene_renderer.identity,
             "own_aircraft": {name: runs_of(scene_renderer.own_aircraft(name)) for name in names},
         }
     )
@@ -67,18 +70,36 @@ def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> N
         bodies = [BodyState(*body) for body in question["bodies"]]
         ask = question["cameras"], bodies, question["t_ns"]
         try:
-            if not question["draw"]:
-                answer({"has_body": scene_renderer.has_body(*ask)})
-                continue
-            frames = scene_renderer.shoot(*ask)
+            _resume(scene_renderer, cameras, question)
+            if question["draw"]:
+                frames = scene_renderer.shoot(*ask)
+                told: dict[str, Any] = {
+                    "pictures": {frame.camera: _picture(frame) for frame in frames}
+                }
+            else:
+                frames = []
+                told = {"has_body": scene_renderer.has_body(*ask)}
         except AirhiltError as error:
             answer(_failure(error))
             continue
         for frame in frames:
             if not frame.unchanged:
                 _write_pixels(frame, planes(pixels, places[frame.camera], cameras[frame.camera]))
-        answer({"pictures": {frame.camera: _picture(frame) for frame in frames}})
+        if "states" in question:
+            states = [scene_renderer.state(name).to_json() for name in question["cameras"]]
+            told["states"] = states
+        answer(told)
     scene_renderer.close()
+
+
+def _resume(
+    scene_renderer: SceneRenderer, cameras: Mapping[str, Camera], question: Mapping[str, Any]
+) -> None:
+    """Take up the states from which a question wants pictures drawn, if it has any."""
+    for name, given in zip(question["cameras"], question.get("states", ()), strict=False):
+        if scene_renderer.state(name).to_json() != given:
+            state = CameraState.of_json(given, cameras[name].intrinsics)
+            scene_renderer.resume(name, state)
 
 
 def _write_pixels(frame: Frame, planes: Planes) -> None:

@@ -7,7 +7,6 @@ of it, and how much of it others hide, are counted and not guessed.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -15,29 +14,28 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.errors import CameraError
 from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
-from airhilt.sensors.cameras.frame import Frame, Sighting
+from airhilt.sensors.cameras.camera_state import CameraState
+from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
 from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
-from airhilt.sensors.cameras.scene.bodies import BodyState, Model
+from airhilt.sensors.cameras.scene.bodies import BodyState, Model, numbered
+from airhilt.sensors.cameras.scene.identity import scene_identity
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
-from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene.rain import Streaks
 from airhilt.sensors.cameras.scene.shadows import darken
+from airhilt.sensors.cameras.scene.sightings import Sightings
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBodies, VisibleBody
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
 
-MOST_ACTORS = int(np.iinfo(np.uint8).max)
-"""Number of actors that ``Frame.instance`` tells apart."""
 OWN_SAMPLES = 2
 OWN_MARGIN_PX = 2
 """Margin of the mask of the own aircraft, in pixels."""
@@ -63,6 +61,14 @@ class _Content(NamedTuple):
         return bool(self.drawn or self.shadows or self.spots)
 
 
+class _OwnAircraft(NamedTuple):
+    """The aircraft that carries a camera, drawn as it was in one light."""
+
+    light: tuple[object, ...]
+    layer: Layer
+    body: BodyState
+
+
 class _Plain(NamedTuple):
     """A picture of the landscape with at most the own aircraft before it, and what it shows."""
 
@@ -84,13 +90,16 @@ class SceneRenderer:
         Samples along each side of a pixel, at least.
     keeps_backgrounds
         True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
-    shares_rays
-        True if other runs may have the same views from moving cameras.
+    shares_pictures
+        True if other runs may have the same pictures; see `SharedRays` and `identity`.
 
     Attributes
     ----------
     renderer
         Name of the renderer that draws.
+    identity
+        Hash of all that reaches into pictures but bodies and time; empty if that is not known, or
+        pictures are not shared.
 
     Raises
     ------
@@ -110,24 +119,24 @@ class SceneRenderer:
         rain_mm_h: float = 0.0,
         supersampling: int = 1,
         keeps_backgrounds: bool = False,
-        shares_rays: bool = False,
+        shares_pictures: bool = False,
     ) -> None:
         self._light = light
         self._models = dict(models)
-        self._numbers = _numbered(self._models)
+        self._numbers = numbered(self._models)
         self._cameras = {camera.name: camera for camera in cameras}
         for camera in self._cameras.values():
             if isinstance(camera.at, Pose):
                 landscape.require_free(camera.name, camera.at.position_m)
         self._bodies = VisibleBodies(self._models, light, supersampling)
         self.renderer, self._renderer = open_renderer(
-            renderer, landscape.mesh, self._bodies.shapes, light, shares_rays
+            renderer, landscape.mesh, self._bodies.shapes, light, shares_pictures
         )
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)
         self._backgrounds = self._open_backgrounds(landscape if keeps_backgrounds else None)
         self._plain: dict[str, _Plain] = {}
-        self._own: dict[str, tuple[tuple[object, ...], Layer]] = {}
+        self._own: dict[str, _OwnAircraft] = {}
         self._streaks = {
             camera.name: Streaks(
                 (camera.intrinsics.width_px, camera.intrinsics.height_px), rain_mm_h, camera.name
@@ -136,6 +145,14 @@ class SceneRenderer:
             if rain_mm_h > 0.0
         }
         self._taken = dict.fromkeys(self._cameras, 0)
+        labels = {actor: model.label for actor, model in self._models.items()}
+        self._sightings = Sightings(labels, light.extinction_per_m)
+        self.identity = (
+            scene_identity(self.renderer, landscape, light, rain_mm_h, self._models,
+                           self._cameras.values(), supersampling)
+            if shares_pictures
+            else ""
+        )  # fmt: skip
 
     @property
     def actors(self) -> tuple[str, ...]:
@@ -187,6 +204,28 @@ class SceneRenderer:
             self._taken[name] += not found[name]
         return found
 
+    def state(self, name: str) -> CameraState:
+        """Return what pictures of a camera have left behind for the next one."""
+        own = self._own.get(name)
+        moves = not self._cameras[name].is_fixed
+        return CameraState(
+            self._backgrounds[name].drawings if moves else (),
+            None if own is None else own.body,
+            self._taken[name] if name in self._streaks else 0,
+        )
+
+    def resume(self, name: str, state: CameraState) -> None:
+        """Let the next picture of a camera be drawn as if those had been that led to a state."""
+        camera = self._cameras[name]
+        self._plain.pop(name, None)
+        self._own.pop(name, None)
+        self._taken[name] = state.taken
+        if not camera.is_fixed:
+            self._backgrounds[name].resume(state.drawings)
+        if state.own is not None:
+            view = camera.view({state.own.actor: state.own})
+            self._own_layer(name, state.own, state.own.pose, view)
+
     def own_aircraft(self, name: str) -> Mask:
         """Return the pixels of a camera that its own aircraft may cover, shape (rows, columns).
 
@@ -233,7 +272,7 @@ class SceneRenderer:
         is_plain = not (content.is_busy or camera.name in self._streaks)
         last = self._plain.get(camera.name)
         if is_plain and last and last.drawn == background.drawn and last.own is content.own:
-            sightings = self._sightings([], content.faint)
+            sightings = self._sightings.of([], content.faint)
             return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
         frame = self._draw(camera.name, t_ns, view, background, content)
         if is_plain:
@@ -293,7 +332,7 @@ class SceneRenderer:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
         self._taken[name] += 1
-        sightings = self._sightings(layers, content.faint, content.own)
+        sightings = self._sightings.of(layers, content.faint, content.own)
         return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
 
     def _open_backgrounds(self, kept: Landscape | None) -> dict[str, Background]:
@@ -324,7 +363,7 @@ class SceneRenderer:
         light = np.round(np.asarray(self._light.sun) @ pose.rotation * TURN_STEPS)
         key = (body.shape, *light.tolist())
         kept = self._own.get(name)
-        if kept is None or kept[0] != key:
+        if kept is None or kept.light != key:
             seen = self._bodies.seen(body, pose, view)
             if seen is None:
                 return None
@@ -333,8 +372,8 @@ class SceneRenderer:
             nothing = np.full((seen.window.height, seen.window.width), np.inf, dtype=np.float32)
             layer = self._layer(seen, part, drawn, nothing)
             layer.range_m = 0.0
-            kept = self._own[name] = (key, layer)
-        return kept[1]
+            kept = self._own[name] = _OwnAircraft(key, layer, body)
+        return kept.layer
 
     # --- lights and truth -----------------------------------------------------------------
 
@@ -350,53 +389,3 @@ class SceneRenderer:
         if not camera.is_fixed and self._light.needs_lights:
             found.extend(self._fixed_lights.seen(view, self._light))
         return found
-
-    def _sightings(
-        self, layers: Sequence[Layer], faint: Sequence[VisibleBody], own: Layer | None = None
-    ) -> tuple[Sighting, ...]:
-        """Return what is true of each body; layers are in order, the nearest last."""
-        found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
-        for index, layer in enumerate(layers):
-            if layer is own:
-                continue
-            seen = layer.cover.copy()
-            for nearer in layers[index + 1 :]:
-                nearer.hide(seen, layer.window)
-            pixels = float(seen.sum())
-            fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
-            actor = self.actors[layer.number - 1]
-            found.append(
-                self._sighting(actor, layer.box, layer.whole, layer.range_m, pixels, fraction)
-            )
-        return tuple(sorted(found, key=lambda sighting: sighting.range_m))
-
-    def _sighting(
-        self,
-        actor: str,
-        box: Box,
-        whole: Box,
-        range_m: float,
-        pixels: float = 0.0,
-        visible_fraction: float = 0.0,
-    ) -> Sighting:
-        inside = min(box.area / max(whole.area, 1e-9), 1.0)
-        left = math.exp(-self._light.extinction_per_m * range_m)
-        label = self._models[actor].label
-        return Sighting(actor, label, box, pixels, visible_fraction, 1.0 - inside, range_m, left)
-
-
-def _numbered(actors: Iterable[str]) -> dict[str, int]:
-    """Return the numbers of actors in ``Frame.instance``, from 1.
-
-    Raises
-    ------
-    CameraError
-        There are more than pictures tell apart.
-    """
-    numbers = {actor: number for number, actor in enumerate(actors, start=1)}
-    if len(numbers) > MOST_ACTORS:
-        raise CameraError(
-            f"there are {len(numbers)} actors, and cameras tell at most {MOST_ACTORS} apart; take "
-            "some out of the scenario, or run it with --no-cameras"
-        )
-    return numbers

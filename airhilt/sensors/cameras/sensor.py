@@ -6,11 +6,12 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Literal, NamedTuple, Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.deferred import Payload
 from airhilt.errors import CameraError, RendererError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.masks import runs_of
@@ -20,12 +21,12 @@ from airhilt.messages import (
     CameraInfo,
     CameraTruth,
     CameraView,
+    Message,
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
-from airhilt.sensors.base import Publish
-from airhilt.sensors.cameras.frame import Frame, Prospect
 from airhilt.sensors.cameras.mounts import local_frame_of
+from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
 from airhilt.sim import Director, Priority
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
@@ -35,33 +36,10 @@ from airhilt.world.site import ScenarioSite
 NO_PIXELS_SHA256 = hashlib.sha256(b"").hexdigest()
 
 
-class FrameSource(Protocol):
-    """Source of the pictures of all cameras that are due at an instant."""
+class PublishPictures(Protocol):
+    """Publishes a message; ``raw`` is the payload of a key whose message is only its header."""
 
-    own_aircraft: Mapping[str, npt.NDArray[np.bool_]]
-    """Pixels that a camera's own aircraft may cover, by camera."""
-
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
-        """Take the pictures.
-
-        Raises
-        ------
-        RendererError
-            It cannot, and never will again.
-        """
-        ...
-
-    def prospects(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, Prospect]:
-        """Return what pictures of an instant would show, by camera, without taking them.
-
-        Raises
-        ------
-        RendererError
-            It cannot, and never will again.
-        """
-        ...
+    def __call__(self, key: str, message: Message, *, raw: Payload | None = None) -> None: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -89,13 +67,6 @@ class Exposures:
         return (self.end_ns(seq) - self.phase_ns) // SECOND_NS
 
 
-class _Pixels(NamedTuple):
-    """The pixels of a camera's last picture, and their SHA-256."""
-
-    pixels: bytes
-    sha256: str
-
-
 class CameraSensor:
     """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
 
@@ -119,18 +90,18 @@ class CameraSensor:
     def __init__(
         self,
         director: Director,
-        frame_source: FrameSource,
+        source: PictureSource,
         cameras: Sequence[Camera],
         site: ScenarioSite,
         actors: Mapping[str, Actor],
         *,
         is_adaptive: bool = False,
         state_at_ns: Callable[[], int],
-        publish: Publish,
+        publish: PublishPictures,
         lost: Callable[[str], None],
     ) -> None:
         self._director = director
-        self._frame_source = frame_source
+        self._source = source
         self._cameras = {camera.name: camera for camera in cameras}
         self._local_frame = local_frame_of(site)
         self._ground_m = site.ground_m
@@ -146,12 +117,11 @@ class CameraSensor:
         """Number of exposures that are over, by camera."""
         self._sparse = set(self._cameras) if is_adaptive else set()
         """Cameras that expose once a second."""
-        self._last: dict[str, _Pixels] = {}
 
     def start(self) -> None:
         """Publish what never changes about each camera, and schedule the first exposures."""
         for camera in self._cameras.values():
-            own = self._frame_source.own_aircraft.get(camera.name)
+            own = self._source.own_aircraft.get(camera.name)
             self._publish(
                 f"camera/{camera.name}/info",
                 CameraInfo(
@@ -180,7 +150,7 @@ class CameraSensor:
         due = [name for name in self._cameras if self._due_ns(name) == now_ns]
         able = [name for name in due if not self._has_ended(self._cameras[name])]
         try:
-            left_out, frames = self._look(able, now_ns) if able else ({}, {})
+            left_out, pictures = self._look(able, now_ns) if able else ({}, {})
         except (CameraError, RendererError) as error:
             self._lost(str(error))
             return
@@ -188,12 +158,14 @@ class CameraSensor:
             if name in left_out:
                 self._publish_left_out(name, left_out[name])
             else:
-                self._publish_frame(frames[name])
+                self._publish_picture(pictures[name])
         for name in due:
             self._passed[name] += 1
         self._schedule()
 
-    def _look(self, names: Sequence[str], now_ns: int) -> tuple[dict[str, View], dict[str, Frame]]:
+    def _look(
+        self, names: Sequence[str], now_ns: int
+    ) -> tuple[dict[str, View], dict[str, CameraPicture]]:
         """Return the views of cameras whose exposures are left out, and the pictures of others."""
         bodies = self._bodies()
         doubtful = [
@@ -201,12 +173,12 @@ class CameraSensor:
             for name in names
             if name in self._sparse and not self._exposures[name].begins_second(self._passed[name])
         ]
-        prospects = self._frame_source.prospects(doubtful, bodies, now_ns) if doubtful else {}
+        prospects = self._source.prospects(doubtful, bodies, now_ns) if doubtful else {}
         self._sparse -= {name for name, prospect in prospects.items() if prospect.has_body}
         left_out = {name: each.view for name, each in prospects.items() if not each.has_body}
         taken = [name for name in names if name not in left_out]
-        frames = self._frame_source.shoot(taken, bodies, now_ns) if taken else []
-        return left_out, {frame.camera: frame for frame in frames}
+        pictures = self._source.take(taken, bodies, now_ns) if taken else []
+        return left_out, {picture.camera: picture for picture in pictures}
 
     def _has_ended(self, camera: Camera) -> bool:
         carrier = camera.carrier
@@ -221,22 +193,18 @@ class CameraSensor:
             self._state_at_ns(),
         )
 
-    def _publish_frame(self, frame: Frame) -> None:
-        now_ns, name = self._director.now_ns, frame.camera
-        if not frame.unchanged or name not in self._last:
-            pixels = frame.colour.tobytes()
-            self._last[name] = _Pixels(pixels, hashlib.sha256(pixels).hexdigest())
+    def _publish_picture(self, picture: CameraPicture) -> None:
+        now_ns, name = self._director.now_ns, picture.camera
         truth = CameraTruth(
             t_ns=now_ns,
             camera=name,
             seq=self._passed[name],
             t_frame_ns=now_ns,
-            sightings=tuple(SightingTruth(**asdict(each)) for each in frame.sightings),
+            sightings=tuple(SightingTruth(**asdict(each)) for each in picture.sightings),
         )
         self._publish(f"truth/camera/{name}", truth)
-        pixels, digest = self._last[name]
-        header = self._header(name, frame.view, "rgb8", digest)
-        self._publish(f"camera/{name}/frame", header, raw=pixels)
+        header = self._header(name, picture.view, "rgb8", picture.sha256)
+        self._publish(f"camera/{name}/frame", header, raw=picture.pixels)
 
     def _publish_left_out(self, name: str, view: View) -> None:
         header = self._header(name, view, "none", NO_PIXELS_SHA256)

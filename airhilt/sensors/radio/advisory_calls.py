@@ -8,6 +8,7 @@ from functools import partial
 from typing import NamedTuple
 
 from airhilt.audio.pcm import from_pcm
+from airhilt.deferred import Payload
 from airhilt.messages import (
     ADVISORY_CALL,
     ASSISTANT,
@@ -108,7 +109,7 @@ class AdvisoryCalls:
         self._said: dict[str, _Waiting] = {}
         """Advisories on the air or about to be, by the ids of their transmissions."""
 
-    def take(self, message: Message, payload: bytes) -> None:
+    def take(self, message: Message, payload: Payload) -> None:
         """Transmit an advisory, or the voice of one."""
         match message:
             case Advisory(recipient=recipient) if recipient in self._callsigns:
@@ -120,7 +121,7 @@ class AdvisoryCalls:
             case AdvisoryAudio(id=identity, recipient=recipient):
                 latest = self._latest.get((identity, recipient))
                 if latest is not None and latest.revision == message.revision:
-                    self._add(latest, message.text, payload)
+                    self._add(latest, message.text, bytes(payload))
 
     def ended(self, on_air: OnAir) -> None:
         """Let the recipient of an advisory hear it, if the transmission was one and reaches it."""

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from airhilt.commands import Command
+from airhilt.deferred import Payload
 from airhilt.messages import Advisory, Message
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
@@ -165,7 +166,7 @@ class RadioConversation:
         self._script.start()
         self._stuck_microphones.schedule(self._failures)
 
-    def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Give a transcript to the crews that wait for it, and advisories to who is to confirm.
 
         Advisories that are spoken on a frequency are transmitted.

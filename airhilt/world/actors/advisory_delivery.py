@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+from airhilt.deferred import Payload
 from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,
@@ -77,7 +78,7 @@ class AdvisoryDelivery:
         self._in_force: dict[str, set[str]] = {}
         """Ids of the alerts of equipment that tell a recipient what to do."""
 
-    def take(self, key: str, message: Message, data: bytes) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Receive a message of the bus."""
         match message:
             case Advisory() if message.recipient in self._by_address:

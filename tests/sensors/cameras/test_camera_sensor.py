@@ -20,6 +20,7 @@ from airhilt.imaging.view import Intrinsics, Pose, View, attitude
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
+from airhilt.sensors.cameras.pictures import DrawnPictures
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.sensor import CameraSensor, Exposures, angles_of, view_message
@@ -77,7 +78,7 @@ class Run:
         self.director = Director(Virtual())
         self.sensor = CameraSensor(
             self.director,
-            cast(Any, frame_source),
+            DrawnPictures(cast(Any, frame_source)),
             scenario.cameras,
             site,
             self.cast,

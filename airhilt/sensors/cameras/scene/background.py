@@ -9,8 +9,8 @@ same as the last one for as long as can be.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,14 @@ SKY_M = 1e7
 SAMPLES_AT_ONCE = 2_500_000
 
 
+class Drawing(NamedTuple):
+    """Bands that were drawn together: the first one, and the one behind the last."""
+
+    view: View
+    first: int
+    end: int
+
+
 class Background:
     """The landscape as one camera sees it.
 
@@ -51,6 +59,8 @@ class Background:
         Arrays as in `airhilt.sensors.cameras.renderers.Samples`; each look changes them.
     drawn
         Number of times that any part of it has been drawn.
+    drawings
+        Drawings of a moving camera of which bands are left, the oldest first.
     """
 
     def __init__(
@@ -67,6 +77,7 @@ class Background:
         self.colour = np.zeros((0, 0, 3), dtype=np.uint8)
         self.distance_m = np.zeros((0, 0), dtype=np.float32)
         self.drawn = 0
+        self.drawings: tuple[Drawing, ...] = ()
         self._views: list[View] = []
         self._towards = self._places = self._points = np.zeros((3, 0, 0))
 
@@ -81,11 +92,20 @@ class Background:
             soon = np.flatnonzero(moved_px > SOON_PX)
             self._draw(view, int(soon[0]), int(soon[-1]) + 1)
 
+    def resume(self, drawings: Sequence[Drawing]) -> None:
+        """Draw what had been drawn when a camera had these drawings, or forget all for none."""
+        self.drawings = ()
+        self._views = []
+        if drawings:
+            self._begin(drawings[0].view)
+        for view, first, end in drawings:
+            self._draw(view, first, end)
+
     def _has(self, view: View) -> bool:
         """Return whether all has been drawn from just there."""
         return all(kept.pose is view.pose for kept in self._views)
 
-    def _draw_all(self, view: View) -> None:
+    def _begin(self, view: View) -> None:
         lens = view.intrinsics
         rows, columns = lens.height_px, lens.width_px
         bands = -(-rows // BAND_ROWS)
@@ -93,13 +113,16 @@ class Background:
         self.distance_m = np.empty((rows, columns), dtype=np.float32)
         self._views = [view] * bands
         self._aim(lens, bands)
+
+    def _draw_all(self, view: View) -> None:
+        self._begin(view)
         if self._cache is None:
             self._draw_whole(view)
             return
         kept = self._cache.get(view, self._samples, lambda: self._draw_whole(view))
         self.colour, self.distance_m = kept
-        self._watch(view, 0, bands, self.distance_m)
-        self.drawn = 1
+        self._watch(view, 0, len(self._views), self.distance_m)
+        self.drawn += 1
 
     def _draw_whole(self, view: View) -> Samples:
         self._draw(view, 0, len(self._views))
@@ -120,7 +143,13 @@ class Background:
             self.distance_m[window.slices] = drawn.distance_m
             self._views[band:past] = [view] * (past - band)
             self._watch(view, band, past, drawn.distance_m)
+        self.drawings = (
+            *(each for each in self.drawings if self._is_left(each)), Drawing(view, first, end)
+        )  # fmt: skip
         self.drawn += 1
+
+    def _is_left(self, drawing: Drawing) -> bool:
+        return any(view is drawing.view for view in self._views[drawing.first : drawing.end])
 
     def _aim(self, lens: Intrinsics, bands: int) -> None:
         """Choose what is watched: squares in the order of their bands, of shape (3, bands, n)."""

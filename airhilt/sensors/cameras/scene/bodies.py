@@ -6,6 +6,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import numpy as np
+
+from airhilt.errors import CameraError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.view import Pose
 from airhilt.messages import VisibleClass
@@ -20,6 +23,8 @@ from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.mover import carried_on
 from airhilt.world.surface.kinds import load_kind
 
+MOST_ACTORS = int(np.iinfo(np.uint8).max)
+"""Number of actors that ``Frame.instance`` tells apart."""
 LANDING_LIGHTS_BELOW_M = 3048.0
 """Height, in m, below which landing lights are on: 10,000 ft, FAA AIM 4-3-23."""
 
@@ -161,3 +166,20 @@ def state_of(
         angles = body.state.heading_rad, body.state.pitch_rad, body.state.roll_rad
         return BodyState(callsign, east, north, up, *angles, shape, lit)
     return BodyState(callsign, east, north, up, state.heading_rad, 0.0, 0.0, shape, True)
+
+
+def numbered(actors: Iterable[str]) -> dict[str, int]:
+    """Return the numbers of actors in ``Frame.instance``, from 1.
+
+    Raises
+    ------
+    CameraError
+        There are more than pictures tell apart.
+    """
+    numbers = {actor: number for number, actor in enumerate(actors, start=1)}
+    if len(numbers) > MOST_ACTORS:
+        raise CameraError(
+            f"there are {len(numbers)} actors, and cameras tell at most {MOST_ACTORS} apart; take "
+            "some out of the scenario, or run it with --no-cameras"
+        )
+    return numbers

@@ -69,7 +69,7 @@ def open_scene_renderer(
     renderer: str = AUTO,
     supersampling: int = 1,
     keeps_backgrounds: bool = False,
-    shares_rays: bool = False,
+    shares_pictures: bool = False,
 ) -> SceneRenderer:
     """Return what draws for cameras of a scenario: those named, or those that it declares.
 
@@ -77,8 +77,8 @@ def open_scene_renderer(
     ----------
     keeps_backgrounds
         True if other processes may draw for the same fixed cameras.
-    shares_rays
-        True if other runs may have the same views from moving cameras.
+    shares_pictures
+        True if other runs may have the same pictures.
 
     Raises
     ------
@@ -95,5 +95,5 @@ def open_scene_renderer(
     landscape = landscape_of(scenario, site, light)
     return SceneRenderer(
         landscape, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling,
-        keeps_backgrounds, shares_rays,
+        keeps_backgrounds, shares_pictures,
     )  # fmt: skip

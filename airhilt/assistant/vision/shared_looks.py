@@ -1,0 +1,65 @@
+"""Looks that runs share: what a detector finds in a picture, kept by the content of pictures.
+
+Runs of one sweep that differ only in what cameras cannot see look at the same pictures until
+somebody acts on an advisory. What a `airhilt.assistant.vision.gating.Gate` finds in one depends on
+the pictures before it, so a look is kept by the SHA-256 of all of them. Who has looked at the same
+ones needs neither the detector nor the pixels.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+import airhilt.assistant.vision
+import airhilt.imaging
+from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.gating import Look, SeesParts
+from airhilt.assistant.vision.tiling import Tile
+from airhilt.caches import CacheFolder
+from airhilt.files import source_sha256
+from airhilt.processor import processor_sha256
+
+
+@runtime_checkable
+class Reproducible(SeesParts, Protocol):
+    """A detector whose answer depends on its files, its libraries and the picture alone."""
+
+    @property
+    def identity(self) -> Sequence[str]:
+        """SHA-256 of its files, and names and versions of its libraries."""
+        ...
+
+
+class SharedLooks:
+    """The looks of one detector at tiles, for all processes of a user."""
+
+    def __init__(self, detector: Reproducible) -> None:
+        self._folder = CacheFolder("detections")
+        self._identity = [_code(), *detector.identity, np.__version__, processor_sha256()]
+
+    def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
+        """Return a look, which is taken if nobody has taken it before.
+
+        Parameters
+        ----------
+        history
+            Hash of the pictures of the camera that a look depends on.
+        shape
+            Shape of the picture.
+        """
+        key = json.dumps([*self._identity, history, tile, shape])
+        windows, found = json.loads(self._folder.get(key, lambda: json.dumps(look()).encode()))
+        return Look(
+            tuple(Tile(*window) for window in windows),
+            tuple(Found(label, confidence, tuple(box)) for label, confidence, box in found),
+        )
+
+
+def _code() -> str:
+    packages = (airhilt.imaging, airhilt.assistant.vision)
+    return source_sha256(*(Path(place) for package in packages for place in package.__path__))

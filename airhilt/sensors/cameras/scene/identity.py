@@ -1,0 +1,78 @@
+"""The identity of a scene: a hash of all that reaches into its pictures but bodies and time."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from dataclasses import astuple
+from pathlib import Path
+
+import numpy as np
+
+import airhilt.imaging
+import airhilt.sensors.cameras
+import airhilt.shapes
+import airhilt.world.surface.kinds
+from airhilt.files import source_sha256
+from airhilt.processor import processor_sha256
+from airhilt.sensors.cameras.mounts import Camera, Mount
+from airhilt.sensors.cameras.renderers import library_of
+from airhilt.sensors.cameras.scene.bodies import Model
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.landscape import Landscape
+from airhilt.shapes.mesh import Mesh
+from airhilt.world.surface.kinds import FAMILY
+
+
+def scene_identity(
+    renderer: str,
+    landscape: Landscape,
+    light: Illumination,
+    rain_mm_h: float,
+    models: Mapping[str, Model],
+    cameras: Iterable[Camera],
+    supersampling: int,
+) -> str:
+    """Return the identity of a scene, empty if not all that determines its pictures is known.
+
+    That is so if a graphics card draws, or if an actor is of a kind from another package, whose
+    lights are a function.
+    """
+    library = library_of(renderer)
+    own = {point.name for point in FAMILY.own()}
+    if not library or any(not each.aircraft and each.kind not in own for each in models.values()):
+        return ""
+    digest = hashlib.sha256()
+    for part in (
+        _code(), renderer, library, np.__version__,
+        processor_sha256(), light.sun.tolist(), light.visibility_m, light.overcast,
+        light.background, rain_mm_h, landscape.lights, supersampling,
+    ):  # fmt: skip
+        digest.update(f"{part!r}\n".encode())
+    _add(digest, landscape.mesh)
+    for callsign, model in models.items():
+        digest.update(f"{callsign} {model.label} {model.kind} {model.aircraft!r}\n".encode())
+        for shapes in (model.shapes, model.far):
+            for name, mesh in shapes.items():
+                digest.update(f"{name}\n".encode())
+                _add(digest, mesh)
+    for camera in cameras:
+        mount = camera.at if isinstance(camera.at, Mount) else None
+        pose = camera.at.pose if isinstance(camera.at, Mount) else camera.at
+        carried = None if mount is None else (mount.actor, mount.sees_own_aircraft)
+        place = *pose.position_m, *pose.rotation.ravel().tolist()
+        digest.update(f"{camera.name} {astuple(camera.intrinsics)} {carried} {place}\n".encode())
+    return digest.hexdigest()
+
+
+def _code() -> str:
+    """Return the SHA-256 of the code that draws, and of what bodies look like."""
+    packages = (
+        airhilt.imaging, airhilt.sensors.cameras, airhilt.shapes, airhilt.world.surface.kinds,
+    )  # fmt: skip
+    return source_sha256(*(Path(place) for package in packages for place in package.__path__))
+
+
+def _add(digest: hashlib._Hash, mesh: Mesh) -> None:
+    for array in (mesh.corners, mesh.normals, mesh.colours, mesh.glow, mesh.sunlit):
+        digest.update(np.ascontiguousarray(array).data)
