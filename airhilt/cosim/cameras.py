@@ -120,12 +120,9 @@ class Vision:
         for recorder in self._recorders:
             router.observe(recorder.take)
         loss = setup.recorded.cameras_lost
-        # What a renderer draws cannot be shared if more than its library determines that.
-        source = (
-            SharedPictures(self._process)
-            if self._process.identity
-            else DrawnPictures(self._process)
-        )
+        # What is drawn cannot be shared if more than a library determines it.
+        shares = setup.options.share_pictures and bool(self._process.identity)
+        source = SharedPictures(self._process) if shares else DrawnPictures(self._process)
         self._sensor = CameraSensor(
             director,
             source if loss is None else _UntilLost(source, *loss),

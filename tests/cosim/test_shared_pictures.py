@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -10,8 +13,12 @@ from airhilt import load
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError
+from airhilt.messages import InputSpec, WorkerDescription
 from airhilt.options import Options
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.renderer_process import RendererProcess
+from airhilt.workers import Input, Step
 
 SEEN = Options(renderer="embree", speech=False, latency="fixed")
 
@@ -43,9 +50,71 @@ def test_a_run_that_shares_has_the_log_of_one_that_does_not(
     plain = log_of(tmp_path / "plain")
     assert not (cache / "detections").exists()
     assert log_of(tmp_path / "first", share_pictures=True) == plain
-    assert {each.name for each in cache.iterdir()} >= {"detections", "rays"}
+    assert {each.name for each in cache.iterdir()} >= {"detections", "pictures", "rays"}
     monkeypatch.setattr(EmbeddedDetector, "proposed", None)  # Nothing is looked at again.
+    drawn = drawings(monkeypatch)
     assert log_of(tmp_path / "second", share_pictures=True) == plain
+    pictures = key_pictures(tmp_path / "second")
+    assert pictures == key_pictures(tmp_path / "plain")
+    assert 0 < len(drawn) <= len(pictures)
+
+
+def key_pictures(out: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in (out / "pictures").iterdir()}
+
+
+def drawings(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """Return a list that grows with each call in which pictures are drawn."""
+    drawn: list[object] = []
+    shoot = RendererProcess.shoot
+
+    def counted(process: RendererProcess, *asked: Any) -> list[Frame]:
+        drawn.append(asked)
+        return shoot(process, *asked)
+
+    monkeypatch.setattr(RendererProcess, "shoot", counted)
+    return drawn
+
+
+def test_pictures_that_another_program_hears_have_their_pixels(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log_of(tmp_path / "first", share_pictures=True)
+    sent: list[Any] = []
+    worker = Watching(sent)
+    run(meeting(), SEEN.model_copy(update={"out": tmp_path / "second", "share_pictures": True,
+                                           "detector": "none"}), workers=[worker])  # fmt: skip
+    assert len(sent) > 10
+    assert all(hashlib.sha256(pixels).hexdigest() == sha256 for sha256, pixels in sent)
+
+
+class Watching:
+    """A worker of the caller that reads all pictures."""
+
+    description = WorkerDescription(
+        name="watching", modality="vision", inputs=(InputSpec(key="camera/*/frame"),)
+    )
+
+    def __init__(self, sent: list[Any]) -> None:
+        self._sent = sent
+
+    def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+        self._sent += [(item.attachment["sha256"], item.payload) for item in inputs]
+        return Step()
+
+
+@pytest.mark.slow
+def test_runs_that_go_apart_have_the_logs_that_each_has_alone(tmp_path: Path) -> None:
+    """The intruder is met otherwise with each assistant, and with none."""
+    scenario = load("s02c_intruder_headon")
+    for assistant in ("reference", "paper", "none"):
+        options = SEEN.model_copy(update={"assistant": assistant, "camera_rate": "adaptive"})
+        for shares in (False, True):
+            out = tmp_path / f"{assistant}-{shares}"
+            run(scenario, options.model_copy(update={"out": out, "share_pictures": shares}))
+        alone, shared = (tmp_path / f"{assistant}-{shares}" for shares in (False, True))
+        assert (shared / "log.mcap").read_bytes() == (alone / "log.mcap").read_bytes()
+        assert key_pictures(shared) == key_pictures(alone)
 
 
 def test_measured_latencies_of_vision_cannot_be_shared(tmp_path: Path) -> None:
