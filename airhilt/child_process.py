@@ -79,11 +79,17 @@ class ChildProcess:
         self._answers: IO[bytes] = os.fdopen(answers, "rb", buffering=0)
         self._unread = b""
         self._was_asked = False
+        self._is_asked = False
 
     @property
     def process_id(self) -> int:
         """Identifier of the process."""
         return self._process.pid
+
+    @property
+    def is_idle(self) -> bool:
+        """True if it lives, and has answered all that it was asked."""
+        return not self._is_asked and self._process.poll() is None
 
     def ask(
         self,
@@ -106,7 +112,7 @@ class ChildProcess:
         Ended
             The process has ended.
         """
-        self._was_asked = True
+        self._was_asked = self._is_asked = True
         try:
             self._questions.write(json.dumps(question).encode() + b"\n")
             self._questions.flush()
@@ -128,6 +134,7 @@ class ChildProcess:
         if not line:
             raise Ended(self._how_it_ended())
         self._discard_output()
+        self._is_asked = False
         return json.loads(line)
 
     def close(self) -> None:

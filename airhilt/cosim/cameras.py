@@ -28,7 +28,7 @@ from airhilt.sim import Director, StepRecord
 if TYPE_CHECKING:
     from airhilt.sensors.cameras.frame import Prospect
     from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
-    from airhilt.sensors.cameras.renderer_link import RendererLink
+    from airhilt.sensors.cameras.renderer_link import RendererKeeper, RendererLink
     from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.sensor import CameraSensor
@@ -159,7 +159,11 @@ class Vision:
 
 @contextmanager
 def started_renderer(
-    scenario: Scenario, options: Options, recorded: Recorded, is_watched: bool
+    scenario: Scenario,
+    options: Options,
+    recorded: Recorded,
+    is_watched: bool,
+    keeper: RendererKeeper | None,
 ) -> Iterator[RendererLink | None]:
     """Start the process that draws while a run is set up, if somebody may look at its pictures.
 
@@ -167,6 +171,8 @@ def started_renderer(
     ----------
     is_watched
         True if the caller gives workers, which may look.
+    keeper
+        Has the process that draws for run after run; None: this run has one of its own.
     """
     may_look = (
         is_watched
@@ -182,12 +188,12 @@ def started_renderer(
     link = None
     if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
         with suppress(OSError):  # It is started again when it is asked, which says what is wrong.
-            link = _start_renderer()
+            link = _start_renderer() if keeper is None else keeper.link()
     try:
         yield link
     finally:
         if link is not None:
-            link.close()
+            link.release()
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.session import Bus
@@ -50,6 +51,9 @@ from airhilt.workers import Worker
 from airhilt.workers.pool import WorkerPool
 from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
+if TYPE_CHECKING:
+    from airhilt.sensors.cameras.renderer_link import RendererKeeper
+
 END_PERIOD_NS = SECOND_NS // 2
 """Period at which the conditions that end the run are evaluated, in ns."""
 SNAPSHOT_PERIOD_NS = SECOND_NS // 2
@@ -62,6 +66,7 @@ def run(
     observer: Observer | None = None,
     recorded: Recorded | None = None,
     workers: Sequence[Worker] = (),
+    keeper: RendererKeeper | None = None,
 ) -> Result:
     """Run a scenario and leave its run folder behind.
 
@@ -71,6 +76,9 @@ def run(
         Parts of the record of an earlier run that a replay takes.
     workers
         Workers of this process that take the places of reference workers.
+    keeper
+        Keeps the process that draws from one run of this process to the next; None: each run
+        has one of its own.
 
     Raises
     ------
@@ -83,7 +91,9 @@ def run(
     observer = observer or Observer()
     options, recorded = options or Options(), recorded or Recorded()
     with ExitStack() as stack:
-        link = stack.enter_context(started_renderer(scenario, options, recorded, bool(workers)))
+        link = stack.enter_context(
+            started_renderer(scenario, options, recorded, bool(workers), keeper)
+        )
         setup = set_up(scenario, options, recorded)
         for text in setup.notices:
             observer.notice(text)

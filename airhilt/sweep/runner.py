@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 import queue
-import resource
 import socket
 import sys
 import tempfile
@@ -21,12 +20,15 @@ from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
+import psutil
+
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RunFolderError, failure_in
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.renderer_link import RendererKeeper
 from airhilt.sweep.environment import environment
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
@@ -50,14 +52,21 @@ def main(arguments: Sequence[str]) -> None:
         told.flush()
         requests: queue.SimpleQueue[str] = queue.SimpleQueue()
         threading.Thread(target=_read, args=(questions, requests), daemon=True).start()
+        keeper = RendererKeeper()
         while True:
-            outcome = run_request(Request.model_validate_json(requests.get()))
+            outcome = run_request(Request.model_validate_json(requests.get()), keeper)
             told.write(outcome.model_dump_json() + "\n")
             told.flush()
 
 
-def run_request(request: Request) -> Outcome:
-    """Return what becomes of a run; its folder stays if the request says so."""
+def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outcome:
+    """Return what becomes of a run; its folder stays if the request says so.
+
+    Parameters
+    ----------
+    keeper
+        Keeps the process that draws from one run to the next; None: each run has one of its own.
+    """
     status: Status = "finished"
     cause, metrics = "", {}
     begun_wall, begun_cpu = time.perf_counter(), _cpu_s()
@@ -66,7 +75,7 @@ def run_request(request: Request) -> Outcome:
         try:
             if request.keep != "none":
                 folder = _emptied(Path(f"{request.folder}.partial"))
-            metrics = metrics_of(_summary(request, folder))
+            metrics = metrics_of(_summary(request, folder, keeper))
         except (OSError, MemoryError) as error:
             status, cause = "crashed", failure_in(error)
         except RunFolderError as error:  # A full disk is of this machine alone.
@@ -94,12 +103,12 @@ def run_request(request: Request) -> Outcome:
     )
 
 
-def _summary(request: Request, folder: Path) -> Summary:
+def _summary(request: Request, folder: Path, keeper: RendererKeeper | None) -> Summary:
     scenario = Scenario.model_validate(request.scenario)
     options = Options.model_validate(
         request.options | {"out": folder, "report": request.keep == "all"}
     )
-    return run(scenario, options).summary
+    return run(scenario, options, keeper=keeper).summary
 
 
 def _emptied(folder: Path) -> Path:
@@ -122,9 +131,14 @@ def _settle(folder: Path, kept: Path, is_kept: bool) -> bool:
 
 
 def _cpu_s() -> float:
-    """Return the CPU time of this process and of its children that have ended."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(each.ru_utime + each.ru_stime for each in used)
+    """Return the CPU time of this process and of its children, ended or not."""
+    this = psutil.Process()
+    total = 0.0
+    for process in (this, *this.children()):
+        with suppress(psutil.Error):  # One that ends just now counts among those that have ended.
+            used = process.cpu_times()
+            total += used.user + used.system + used.children_user + used.children_system
+    return total
 
 
 def _read(questions: int, requests: queue.SimpleQueue[str]) -> None:

@@ -1,7 +1,7 @@
 """Pixels of pictures as a `airhilt.assistant.vision.gating.Gate` has looked at them.
 
-Of a picture whose detections are known already nobody may ever need the pixels. So they are read,
-and put together, only when a later picture is to be compared with them.
+Nobody may ever need the pixels of a picture whose detections are known already. So pixels are
+read, and put together, only when a later picture is to be compared with them.
 """
 
 from __future__ import annotations

@@ -25,6 +25,8 @@ class RendererLink(ChildProcess):
     ----------
     shared
         File for pixels, which both processes map into their memory.
+    is_kept
+        True if it stays for another run when it is released.
 
     Raises
     ------
@@ -32,7 +34,8 @@ class RendererLink(ChildProcess):
         There is no room for the files of the process.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_kept: bool = False) -> None:
+        self.is_kept = is_kept
         self.shared = _shared_file()
         number = self.shared.fileno()
         try:
@@ -41,12 +44,43 @@ class RendererLink(ChildProcess):
             self.shared.close()
             raise
 
+    def release(self) -> None:
+        """End the process, unless it stays for another run."""
+        if not self.is_kept:
+            self.close()
+
     def close(self) -> None:
         """End the process; a question that it has not read is lost with it."""
         try:
             super().close()
         finally:
             self.shared.close()
+
+
+class RendererKeeper:
+    """Keeps one process that draws for run after run; a new one takes its place if it dies."""
+
+    def __init__(self) -> None:
+        self._link: RendererLink | None = None
+
+    def link(self) -> RendererLink:
+        """Return a process that nobody else has.
+
+        Raises
+        ------
+        OSError
+            There is no room for the files of a new one.
+        """
+        if self._link is None or not self._link.is_idle:
+            self.close()
+            self._link = RendererLink(is_kept=True)
+        return self._link
+
+    def close(self) -> None:
+        """End the process."""
+        if self._link is not None:
+            self._link.close()
+        self._link = None
 
 
 def _shared_file() -> IO[bytes]:

@@ -43,7 +43,7 @@ class RendererProcess:
         Time for the pictures of one instant, before the renderer is given up. The time to draw
         all that the cameras see, sample by sample, is added.
     link
-        A process that has been started before; it is closed with this one.
+        A process that has been started before; it is released with this one.
     shares_pictures
         True if other runs may have the same pictures.
 
@@ -177,9 +177,9 @@ class RendererProcess:
         return frame
 
     def close(self) -> None:
-        """End the process; a question that it has not read is lost with it."""
+        """End the process, unless it stays for another run."""
         try:
-            self._link.close()
+            self._link.release()
         finally:
             self._pixels.close()
 
@@ -203,7 +203,7 @@ class RendererProcess:
             return link, mmap.mmap(link.shared.fileno(), size)
         except OSError as error:
             if link is not None:
-                link.close()
+                link.release()
             raise RendererError(
                 f"the renderer {self.renderer} has no room for pictures of {size / 1e6:.0f} MB and "
                 f"for what it prints: {error.strerror}; expected that much memory, and a few kB "

@@ -10,9 +10,9 @@ import json
 import mmap
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import IO, Any
+from typing import Any
 
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.imaging.masks import runs_of
@@ -24,101 +24,118 @@ from airhilt.sensors.cameras.renderers import require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
-from airhilt.sensors.cameras.shared_pixels import Planes, places_of, planes
+from airhilt.sensors.cameras.shared_pixels import places_of, planes
 from airhilt.world.site import ScenarioSite
 
+UNSEEN = ("name", "title", "description", "radio")
+"""Fields of a scenario that reach no picture: a scene stays open when no others change."""
 
-def serve(questions: IO[bytes], answer: Callable[[Any], None], shared: int) -> None:
-    """Answer questions; the first one says what to draw, and with what.
+
+class RendererServer:
+    """Answers questions: a first one, which opens a scene, and those for pictures of it.
 
     Parameters
     ----------
     shared
-        Descriptor of the file for pixels, which has its size when the first question comes.
+        Descriptor of the file for pixels, which has its size when a scene is opened.
     """
-    line = questions.readline()
-    if not line:
-        return
-    opening = json.loads(line)
-    scenario = Scenario.model_validate(opening["scenario"])
-    names = opening["cameras"]
-    cameras = cameras_named(scenario, names)
-    places, pixels = places_of(cameras), mmap.mmap(shared, 0)
-    try:
-        scene_renderer = open_scene_renderer(
+
+    def __init__(self, shared: int) -> None:
+        self._shared = shared
+        self._opening: dict[str, Any] = {}
+        self._scene: SceneRenderer | None = None
+        self._cameras: Mapping[str, Camera] = {}
+        self._opened: dict[str, Any] = {}
+
+    def answer(self, question: dict[str, Any]) -> dict[str, Any]:
+        """Return the answer to a question, or an error as JSON."""
+        try:
+            if "scenario" in question:
+                return self._open(question)
+            return self._draw(question)
+        except AirhiltError as error:
+            return {"error": type(error).__name__, "text": str(error)}
+
+    def close(self) -> None:
+        """Close the scene."""
+        if self._scene is not None:
+            self._scene.close()
+        self._scene, self._opening = None, {}
+
+    def _open(self, question: dict[str, Any]) -> dict[str, Any]:
+        """Open a scene, or begin anew with the one that is open if it is the same."""
+        names = question["cameras"]
+        scenario = Scenario.model_validate(question["scenario"])
+        seen = scenario.model_dump(mode="json", exclude=set(UNSEEN))
+        opening = {**question, "scenario": seen}
+        if self._scene is None or opening != self._opening:
+            self.close()
+            self._scene = scene = self._opened_scene(scenario, question)
+            self._opening = opening
+            self._opened = {
+                "renderer": scene.renderer,
+                "actors": scene.actors,
+                "identity": scene.identity,
+                "own_aircraft": {name: runs_of(scene.own_aircraft(name)) for name in names},
+            }
+        for name in names:
+            self._scene.resume(name, CameraState())
+        self._places, self._pixels = places_of(self._cameras), mmap.mmap(self._shared, 0)
+        return self._opened
+
+    def _opened_scene(self, scenario: Scenario, question: Mapping[str, Any]) -> SceneRenderer:
+        names = question["cameras"]
+        self._cameras = cameras_named(scenario, names)
+        return open_scene_renderer(
             scenario,
             ScenarioSite.of(scenario),
             names,
-            opening["renderer"],
-            opening["supersampling"],
+            question["renderer"],
+            question["supersampling"],
             keeps_backgrounds=True,
-            shares_pictures=opening["shares_pictures"],
+            shares_pictures=question["shares_pictures"],
         )
-    except AirhiltError as error:
-        answer(_failure(error))
-        return
-    answer(
-        {
-            "renderer": scene_renderer.renderer,
-            "actors": scene_renderer.actors,
-            "identity": scene_renderer.identity,
-            "own_aircraft": {name: runs_of(scene_renderer.own_aircraft(name)) for name in names},
-        }
-    )
-    for line in questions:
-        question = json.loads(line)
+
+    def _draw(self, question: Mapping[str, Any]) -> dict[str, Any]:
+        """Draw pictures, or tell what they would show, from the states that are given if any are.
+
+        Raises
+        ------
+        CameraError
+            A camera cannot see anything.
+        RendererError
+            No scene is open.
+        """
+        scene, names = self._scene, question["cameras"]
+        if scene is None:
+            raise RendererError("no scene is open")
+        for name, given in zip(names, question.get("states", ()), strict=False):
+            if scene.state(name).to_json() != given:
+                lens = self._cameras[name].intrinsics
+                scene.resume(name, CameraState.of_json(given, lens))
         bodies = [BodyState(*body) for body in question["bodies"]]
-        ask = question["cameras"], bodies, question["t_ns"]
-        try:
-            _resume(scene_renderer, cameras, question)
-            if question["draw"]:
-                frames = scene_renderer.shoot(*ask)
-                told: dict[str, Any] = {
-                    "pictures": {frame.camera: _picture(frame) for frame in frames}
-                }
-            else:
-                frames = []
-                told = {"has_body": scene_renderer.has_body(*ask)}
-        except AirhiltError as error:
-            answer(_failure(error))
-            continue
-        for frame in frames:
-            if not frame.unchanged:
-                _write_pixels(frame, planes(pixels, places[frame.camera], cameras[frame.camera]))
+        told: dict[str, Any] = {}
+        if question["draw"]:
+            frames = scene.shoot(names, bodies, question["t_ns"])
+            told["pictures"] = {frame.camera: self._told(frame) for frame in frames}
+        else:
+            told["has_body"] = scene.has_body(names, bodies, question["t_ns"])
         if "states" in question:
-            states = [scene_renderer.state(name).to_json() for name in question["cameras"]]
-            told["states"] = states
-        answer(told)
-    scene_renderer.close()
+            told["states"] = [scene.state(name).to_json() for name in names]
+        return told
 
-
-def _resume(
-    scene_renderer: SceneRenderer, cameras: Mapping[str, Camera], question: Mapping[str, Any]
-) -> None:
-    """Take up the states from which a question wants pictures drawn, if it has any."""
-    for name, given in zip(question["cameras"], question.get("states", ()), strict=False):
-        if scene_renderer.state(name).to_json() != given:
-            state = CameraState.of_json(given, cameras[name].intrinsics)
-            scene_renderer.resume(name, state)
-
-
-def _write_pixels(frame: Frame, planes: Planes) -> None:
-    colour, instance, distance = planes
-    colour[...] = frame.colour
-    instance[...] = frame.instance
-    distance[...] = frame.distance_m
-
-
-def _picture(frame: Frame) -> dict[str, Any]:
-    """Return what is answered about a picture besides its pixels."""
-    return {
-        "sightings": [asdict(sighting) for sighting in frame.sightings],
-        "unchanged": frame.unchanged,
-    }
-
-
-def _failure(error: AirhiltError) -> dict[str, str]:
-    return {"error": type(error).__name__, "text": str(error)}
+    def _told(self, frame: Frame) -> dict[str, Any]:
+        """Write the pixels of a picture if they are new, and return what is answered besides."""
+        if not frame.unchanged:
+            place, camera = self._places[frame.camera], self._cameras[frame.camera]
+            colour, instance, distance = planes(self._pixels, place, camera)
+            colour[...] = frame.colour
+            instance[...] = frame.instance
+            distance[...] = frame.distance_m
+        return {
+            "sightings": [asdict(sighting) for sighting in frame.sightings],
+            "unchanged": frame.unchanged,
+        }
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -130,12 +147,11 @@ def main(arguments: Sequence[str]) -> None:
             sys.exit(str(error))
         return
     questions, answers, shared = (int(number) for number in arguments)
+    server = RendererServer(shared)
     with os.fdopen(questions, "rb") as asked, os.fdopen(answers, "wb", buffering=0) as told:
-        serve(asked, lambda message: _write(told, message), shared)
-
-
-def _write(answers: IO[bytes], message: Any) -> None:
-    answers.write(json.dumps(message).encode() + b"\n")
+        for line in asked:
+            told.write(json.dumps(server.answer(json.loads(line))).encode() + b"\n")
+    server.close()
 
 
 if __name__ == "__main__":

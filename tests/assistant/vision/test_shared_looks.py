@@ -118,7 +118,7 @@ def test_a_damaged_look_is_taken_again(cache: Path) -> None:
 
 
 def test_a_long_row_of_pictures_is_put_together_from_few_of_them() -> None:
-    """Of a body that crosses the picture, only what later looks have left is read again."""
+    """A body crosses the picture: only what later looks have left of it is read again."""
     field = background(640, 64)
     crossing = [
         with_blobs(field, [("truck", (left, 20, left + 12, 30))]) for left in range(0, 600, 2)

@@ -35,8 +35,8 @@ def scene_identity(
 ) -> str:
     """Return the identity of a scene, empty if not all that determines its pictures is known.
 
-    That is so if a graphics card draws, or if an actor is of a kind from another package, whose
-    lights are a function.
+    A graphics card is not known, nor is a kind of actor from another package, whose lights are a
+    function.
     """
     library = library_of(renderer)
     own = {point.name for point in FAMILY.own()}
