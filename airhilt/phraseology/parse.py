@@ -16,8 +16,9 @@ from typing import NamedTuple
 from airhilt.phraseology.actions import FORMS, FREQUENCY_FORM, Form, Read, Segment
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Call, Instruction, Kind
-from airhilt.phraseology.callsigns import Hit, Naming, roster_of
+from airhilt.phraseology.callsigns import Naming, roster_of
 from airhilt.phraseology.denials import NAME, is_meant
+from airhilt.phraseology.hits import Hit
 from airhilt.phraseology.slots import (
     LEVEL,
     NAMED_RUNWAY,
@@ -224,6 +225,8 @@ def _without_name(words: Words, naming: Naming) -> Words:
             continue
         rest.take(words, at, other.start if other else hit.start)
         other = None
+        if hit.before:
+            rest.add(hit.before, words.confidences[hit.start])
         rest.add(NAME, min(words.confidences[hit.start : hit.end]))
         if hit.left_over:
             rest.add(hit.left_over, words.confidences[hit.end - 1])

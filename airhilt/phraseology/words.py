@@ -162,7 +162,12 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
 def _mend(raw: list[Raw]) -> list[Raw]:
     """Leave out fillers, unify spellings, and mend words that were misheard."""
     mended: list[Raw] = []
-    raw = [each for each in raw if each.text not in FILLERS]
+    raw = [
+        each
+        for at, each in enumerate(raw)
+        if each.text not in FILLERS
+        and not (each.text == "and" and at + 1 < len(raw) and raw[at + 1].text in FILLERS)
+    ]
     at, size = 0, len(raw)
     while at < size:
         word, confidence = raw[at]

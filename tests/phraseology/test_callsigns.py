@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.phraseology import AIRLINES, TELEPHONY, parse_call, tokens
+from airhilt.phraseology import AIRLINES, TAU_ASR, TELEPHONY, parse_call, tokens
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLOW4")
@@ -31,7 +31,7 @@ AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLO
         ("November one two, climb FL200", "N12", True),
         ("November one three, climb FL200", None, False),
         ("N12, climb FL200", "N12", True),
-        ("Delta four five, climb FL200", None, False),
+        ("Delta four, climb FL200", None, False),
         ("United five five, climb FL330", None, False),
         ("Delta four five six, traffic American one two three", "DAL456", True),
         ("climb flight level three three zero", None, False),
@@ -73,7 +73,6 @@ def test_vehicles_and_registrations_are_heard_as_they_are_spoken(
 @pytest.mark.parametrize(
     ("spoken", "callsign"),
     [
-        ("two sierra papa", None),
         ("Cessna two sierra papa", "N172SP"),
         ("November sierra papa", "N172SP"),
         ("Golf charlie delta", "G-ABCD"),
@@ -107,7 +106,6 @@ def test_an_abbreviation_that_two_could_have_is_ambiguous() -> None:
         ("lufthanza four alfa bravo", "DLH4AB"),
         ("fed ex sixteen oh two", "FDX1602"),
         ("southwests five", "SWA5"),
-        ("banana one two three", None),
         ("united one two three", None),
     ],
 )
@@ -118,9 +116,78 @@ def test_misspelt_airlines_are_known_by_their_number(spoken: str, callsign: str 
     assert 0.8 <= call.match.score <= 1.0 or callsign is None
 
 
-def test_a_number_without_a_name_is_a_candidate_and_no_more() -> None:
-    match = parse_call("one two three, hold position", KNOWN).match
-    assert (match.callsign, match.candidates[0].callsign, match.score) == (None, "AAL123", 0.5)
+@pytest.mark.parametrize(
+    ("said", "callsign"),
+    [
+        ("one two three, hold position", "AAL123"),
+        ("banana one two three, hold position", "AAL123"),
+        ("hold position, banana one twenty three", "AAL123"),
+        ("tower, banana one two three, ready", "AAL123"),
+        ("Delta four five, hold position", "DAL456"),
+        ("Delta four five niner, hold position", "DAL456"),
+        ("Delta four five six six, hold position", "DAL456"),
+        ("two sierra papa, hold position", "N172SP"),
+        ("hold position, two sierra papa", "N172SP"),
+        ("Maintaining flight level three six zero two sierra papa", "N172SP"),
+        ("november one seven two zero papa, hold position", "N172SP"),
+        ("november one heaven two sierra papa, hold position", "N172SP"),
+        ("november one seven two sierra and uh papa, hold position", "N172SP"),
+    ],
+)
+def test_what_fits_only_one_names_it_but_not_for_certain(said: str, callsign: str) -> None:
+    known = ("AAL123", "DAL456", "AFR7", "N172SP")
+    call = parse_call(said, known)
+    assert call.callsign == callsign
+    is_full = said.startswith("november one seven two sierra and")
+    assert (call.match.score >= TAU_ASR) == is_full
+    assert call.confidence < TAU_ASR or is_full
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "united one two three, hold position",
+        "Cessna one two three, hold position",
+        "Speedbird seven, hold position",
+        "hold position, follow banana one two three",
+        "climb flight level one two three",
+        "turn left one two three",
+        "reduce one two three knots",
+        "contact tower one one eight decimal one two three",
+        "hold position via alfa seven",
+    ],
+)
+def test_anothers_name_and_other_numbers_name_nobody(said: str) -> None:
+    assert parse_call(said, ("AAL123", "AFR7", "DAL456")).callsign is None
+
+
+def test_a_number_that_two_have_names_neither() -> None:
+    match = parse_call("banana one two three, hold position", ("AAL123", "BAW123")).match
+    assert (match.ambiguous, len(match.candidates)) == (True, 2)
+
+
+@pytest.mark.parametrize(
+    ("said", "callsign"),
+    [
+        ("Cleveland approach, Delta four five six, ready", "DAL456"),
+        ("Phenom one seven two sierra papa, hold position", "N172SP"),
+        ("Diamond star two sierra papa, hold position", "N172SP"),
+        ("Oscar echo whiskey zulu zulu, hold position", "OEWZZ"),
+        ("Juliett alfa eight zero eight niner, hold position", "JA8089"),
+        ("Five alfa charlie bravo, hold position", None),
+        ("Four xray alfa bravo charlie, hold position", "4XABC"),
+        ("Robin zulu zulu, hold position", "OEWZZ"),
+        ("K L M six eight romeo, hold position", "KLM68R"),
+        ("Hold position, K L M sixty eight romeo heavy", "KLM68R"),
+        ("Unlisted three nine victor, hold position", "XZQ39V"),
+        ("Request flight following, Delta four five six", "DAL456"),
+        ("Behind the landing traffic line up behind Delta four five six", "DAL456"),
+        ("Caution wake turbulence departing Delta four five six, cleared for takeoff", None),
+    ],
+)
+def test_callsigns_of_all_kinds_are_heard_where_they_stand(said: str, callsign: str | None) -> None:
+    known = ("DAL456", "N172SP", "OEWZZ", "JA8089", "4XABC", "KLM68R", "XZQ39V")
+    assert parse_call(said, known).callsign == callsign
 
 
 def test_who_ends_a_call_is_its_speaker_whoever_else_is_named() -> None:

@@ -123,7 +123,7 @@ def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:
     """
     known = tuple(sorted(callsigns))
     words = tokens(text)
-    naming = roster_of(known).naming(words)
+    naming = roster_of(known).naming(words, is_written=True)
     mentions, rest = _without_callsigns(words, naming)
     runways, rest = _without_runways(rest)
     return Reading(
@@ -232,7 +232,9 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
         words = tokens(clause)
         if not words:
             continue
-        mentions, rest = _without_callsigns(words, roster_of(callsigns).naming(words))
+        mentions, rest = _without_callsigns(
+            words, roster_of(callsigns).naming(words, is_written=True)
+        )
         _, rest = _without_runways(rest)
         told += (
             Told(
