@@ -98,7 +98,7 @@ class Whisper:
                 no_speech_threshold=NO_SPEECH_PROBABILITY,
                 log_prob_threshold=LEAST_LOG_PROBABILITY,
                 word_timestamps=True,
-                hotwords=", ".join(map(_as_written, callsigns)) or None,
+                hotwords=hot_words(callsigns) or None,
             )
             found = list(segments)
         except (RuntimeError, ValueError) as error:
@@ -119,6 +119,15 @@ class Whisper:
             return 0.0
         intervals = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
         return float(sum(each["end"] - each["start"] for each in intervals)) / SAMPLE_RATE_HZ
+
+
+def hot_words(callsigns: Sequence[str]) -> str:
+    """Return the text that stands before each window, in Whisper's own spelling.
+
+    It is given as hot words and not as an initial prompt: faster-whisper puts both in the same
+    place, but the initial prompt before the first window only.
+    """
+    return ", ".join(map(_as_written, callsigns))
 
 
 def _as_written(callsign: str) -> str:
