@@ -22,6 +22,7 @@ from typing import Any
 
 import jiwer
 import numpy as np
+from numpy.typing import NDArray
 
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
@@ -42,11 +43,17 @@ SETS = {
 
 @dataclass(frozen=True)
 class SpokenCall:
-    """One utterance of a test set."""
+    """One utterance of a shard. Its samples stay on the disk until they are asked for."""
 
     text: str
     callsign: str | None
-    speech: Audio
+    voice: str
+    pcm: NDArray[np.int16]
+
+    @property
+    def speech(self) -> Audio:
+        """Clean speech, in [-1, 1]."""
+        return np.asarray(self.pcm, np.float32) / np.float32(32767.0)
 
 
 @dataclass
@@ -70,16 +77,22 @@ def spoken(path: Path) -> Iterator[SpokenCall]:
     at = 0
     for line in path.read_text().splitlines():
         about = json.loads(line)
-        speech = np.asarray(samples[at : at + about["samples"]], np.float32) / 32767.0
+        pcm = samples[at : at + about["samples"]]
         at += about["samples"]
-        yield SpokenCall(about["text"], about["callsign"], speech)
+        yield SpokenCall(about["text"], about["callsign"], about["voice"], pcm)
 
 
 def rosters_for(utterances: list[SpokenCall]) -> list[tuple[str, ...]]:
-    """Return who is on the frequency of each call: ten, its speaker or addressee among them."""
+    """Return who is on the frequency of each call: ten, its speaker or addressee among them.
+
+    There are fewer if all calls together name fewer.
+    """
     everybody = [each.callsign for each in utterances if each.callsign]
+    others = min(9, len(everybody))
     rng = random.Random(0)
-    return [tuple(filter(None, (each.callsign, *rng.sample(everybody, 9)))) for each in utterances]
+    return [
+        tuple(filter(None, (each.callsign, *rng.sample(everybody, others)))) for each in utterances
+    ]
 
 
 def misled(utterances: list[SpokenCall], engine_name: str, snr_db: float) -> float:

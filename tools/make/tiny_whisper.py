@@ -1,10 +1,12 @@
 """Make the tiny Whisper model of the tests: the real architecture, and one sentence.
 
     python tools/make/tiny_whisper.py tests/data/tiny_whisper
+    python tools/make/tiny_whisper.py build/untrained --untrained
 
-Needs ``transformers``, ``ctranslate2``, ``tokenizers`` and ``torch``, none of which AIRHILT needs.
-What it writes is what `ct2-transformers-converter` would write of a real model. Whatever it is
-given, it has learned to hear the same, in the spelling of a general recogniser.
+Needs ``transformers``, ``ctranslate2``, ``tokenizers`` and ``torch``: the extra ``finetune``.
+The first is what `ct2-transformers-converter` would write of a real model. Whatever it is
+given, it has learned to hear the same, in the spelling of a general recogniser. The second is a
+folder as transformers saves it, of random weights, for ``tools/finetune_whisper.py``.
 """
 
 from __future__ import annotations
@@ -28,6 +30,8 @@ from transformers import (
 
 WIDTH = 32
 LAYERS = 1
+UNTRAINED_WIDTH = 64
+UNTRAINED_LAYERS = 2
 WINDOW_S = 10
 """Shorter than Whisper's 30 s, so that tests see that windows are cut to it."""
 TIMESTAMPS = 1501
@@ -79,18 +83,35 @@ def teach(model: WhisperForConditionalGeneration, made: Tokenizer) -> None:
     print(f"loss {loss.item():.4f}", file=sys.stderr)
 
 
-def configuration(made: Tokenizer, token: dict[str, int]) -> WhisperConfig:
-    """Return the architecture of Whisper, as small as it can be."""
+def random_model(made: Tokenizer, width: int, layers: int) -> WhisperForConditionalGeneration:
+    """Return a model of the architecture of Whisper, with random weights."""
+    torch.manual_seed(0)
+    token = {name: made.token_to_id(name) for name in SPECIAL}
+    model = WhisperForConditionalGeneration(configuration(made, token, width, layers))
+    model.generation_config = GenerationConfig(
+        eos_token_id=token["<|endoftext|>"],
+        decoder_start_token_id=token["<|startoftranscript|>"],
+        no_timestamps_token_id=token["<|notimestamps|>"],
+        lang_to_id={"<|en|>": token["<|en|>"]},
+        alignment_heads=[[0, 0]],
+        suppress_tokens=[],
+        begin_suppress_tokens=[],
+    )
+    return model
+
+
+def configuration(made: Tokenizer, token: dict[str, int], width: int, layers: int) -> WhisperConfig:
+    """Return the architecture of Whisper, of a size."""
     return WhisperConfig(
         vocab_size=made.get_vocab_size(),
         num_mel_bins=80,
-        d_model=WIDTH,
-        encoder_layers=LAYERS,
-        decoder_layers=LAYERS,
+        d_model=width,
+        encoder_layers=layers,
+        decoder_layers=layers,
         encoder_attention_heads=2,
         decoder_attention_heads=2,
-        encoder_ffn_dim=WIDTH,
-        decoder_ffn_dim=WIDTH,
+        encoder_ffn_dim=width,
+        decoder_ffn_dim=width,
         max_source_positions=WINDOW_S * 50,
         max_target_positions=448,
         bos_token_id=token["<|endoftext|>"],
@@ -102,43 +123,42 @@ def configuration(made: Tokenizer, token: dict[str, int]) -> WhisperConfig:
     )
 
 
+def save(model: WhisperForConditionalGeneration, made: Tokenizer, folder: Path) -> None:
+    """Write a model as transformers saves it."""
+    model.save_pretrained(folder)
+    roles = dict.fromkeys(("unk_token", "eos_token", "bos_token"), "<|endoftext|>")
+    PreTrainedTokenizerFast(tokenizer_object=made, **roles).save_pretrained(folder)
+    WhisperFeatureExtractor(chunk_length=WINDOW_S).save_pretrained(folder)
+    made.save(str(folder / "tokenizer.json"), pretty=False)
+    settings = folder / "preprocessor_config.json"
+    kept = json.loads(settings.read_text())
+    kept.pop("mel_filters", None)
+    settings.write_text(json.dumps(kept, indent=1))
+
+
 def convert(model: WhisperForConditionalGeneration, made: Tokenizer, out: Path) -> None:
     """Write a model as faster-whisper reads it."""
     with tempfile.TemporaryDirectory() as folder:
-        model.save_pretrained(folder)
-        roles = dict.fromkeys(("unk_token", "eos_token", "bos_token"), "<|endoftext|>")
-        PreTrainedTokenizerFast(tokenizer_object=made, **roles).save_pretrained(folder)
-        WhisperFeatureExtractor(chunk_length=WINDOW_S).save_pretrained(folder)
-        made.save(str(Path(folder) / "tokenizer.json"), pretty=False)
-        copied = Path(folder) / "preprocessor_config.json"
-        kept = json.loads(copied.read_text())
-        kept.pop("mel_filters", None)
-        copied.write_text(json.dumps(kept, indent=1))
+        save(model, made, Path(folder))
         TransformersConverter(
             folder, copy_files=["tokenizer.json", "preprocessor_config.json"]
         ).convert(str(out), quantization="int8", force=True)
 
 
 def main() -> None:
-    """Train the model, and convert it."""
+    """Train the model and convert it, or save it untrained."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    out = parser.parse_args().out
-    torch.manual_seed(0)
+    parser.add_argument("--untrained", action="store_true", help="random weights, not converted")
+    given = parser.parse_args()
+    out: Path = given.out
     made = tokenizer()
-    token = {name: made.token_to_id(name) for name in SPECIAL}
-    model = WhisperForConditionalGeneration(configuration(made, token))
-    teach(model, made)
-    model.generation_config = GenerationConfig(
-        eos_token_id=token["<|endoftext|>"],
-        decoder_start_token_id=token["<|startoftranscript|>"],
-        no_timestamps_token_id=token["<|notimestamps|>"],
-        lang_to_id={"<|en|>": token["<|en|>"]},
-        alignment_heads=[[0, 0]],
-        suppress_tokens=[],
-        begin_suppress_tokens=[],
-    )
-    convert(model, made, out)
+    if given.untrained:
+        save(random_model(made, UNTRAINED_WIDTH, UNTRAINED_LAYERS), made, out)
+    else:
+        model = random_model(made, WIDTH, LAYERS)
+        teach(model, made)
+        convert(model, made, out)
     for path in sorted(out.iterdir()):
         print(f"{path.stat().st_size:9d} {path}", file=sys.stderr)
 
