@@ -233,8 +233,8 @@ class Options(BaseModel):
         bool,
         Flag(
             "--share-pictures",
-            "Take over from other runs, and keep for them, what is costly about the same pictures: "
-            "rays and detections. Sweeps do it by themselves. For latencies that are not measured.",
+            "Take over from other runs, and keep for them, pictures and what is found in them. "
+            "Sweeps do it by themselves. For latencies that are not measured.",
             needs=("cameras",),
             in_sweeps=False,
         ),

@@ -18,6 +18,7 @@ from airhilt.sweep.clusters import FAMILY, Cluster
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared, quiet_dask
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment, environment
+from airhilt.sweep.order import apart
 from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.shared_folder import probe_in
@@ -188,6 +189,7 @@ def _run_missing(
             observer.begun(
                 total, total - len(requests), described(client, work.dashboard is not None)
             )
-            for outcome in outcomes(client, plugin.name, requests, workers, lambda: observer.stops):
+            ordered = apart(requests, count)
+            for outcome in outcomes(client, plugin.name, ordered, workers, lambda: observer.stops):
                 folder.keep(part_of([outcome]))
                 observer.ended(outcome)

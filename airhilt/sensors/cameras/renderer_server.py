@@ -17,6 +17,7 @@ from typing import Any
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.imaging.masks import runs_of
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import Camera, cameras_named
@@ -26,9 +27,6 @@ from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.shared_pixels import places_of, planes
 from airhilt.world.site import ScenarioSite
-
-UNSEEN = ("name", "title", "description", "radio")
-"""Fields of a scenario that reach no picture: a scene stays open when no others change."""
 
 
 class RendererServer:
@@ -66,7 +64,7 @@ class RendererServer:
         """Open a scene, or begin anew with the one that is open if it is the same."""
         names = question["cameras"]
         scenario = Scenario.model_validate(question["scenario"])
-        seen = scenario.model_dump(mode="json", exclude=set(UNSEEN))
+        seen = scenario.model_dump(mode="json", exclude=set(UNSEEN_FIELDS))
         opening = {**question, "scenario": seen}
         if self._scene is None or opening != self._opening:
             self.close()
