@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import queue
+import resource
 import socket
 import sys
 import tempfile
@@ -132,12 +133,12 @@ def _settle(folder: Path, kept: Path, is_kept: bool) -> bool:
 
 def _cpu_s() -> float:
     """Return the CPU time of this process and of its children, ended or not."""
-    this = psutil.Process()
-    total = 0.0
-    for process in (this, *this.children()):
-        with suppress(psutil.Error):  # One that ends just now counts among those that have ended.
-            used = process.cpu_times()
-            total += used.user + used.system + used.children_user + used.children_system
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    total = sum(each.ru_utime + each.ru_stime for each in used)
+    for child in psutil.Process().children():
+        with suppress(psutil.Error):
+            living = child.cpu_times()
+            total += living.user + living.system
     return total
 
 
