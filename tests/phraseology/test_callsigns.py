@@ -9,6 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.phraseology import AIRLINES, TAU_ASR, TELEPHONY, parse_call, tokens
+from airhilt.phraseology.callsign_repair import INTRODUCING, VALUED
+from airhilt.phraseology.hits import STATIONS
+from airhilt.phraseology.spoken_forms import joined
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLOW4")
@@ -246,3 +249,61 @@ def test_nobody_is_named_who_is_not_on_the_frequency(
     assert call.callsign is None or call.callsign in callsigns
     assert {each.callsign for each in call.match.candidates} <= set(callsigns)
     assert all(0.0 <= each.score <= 1.0 for each in call.match.candidates)
+
+
+def test_no_name_of_an_operator_is_a_word_that_introduces_a_value() -> None:
+    others = INTRODUCING | VALUED | STATIONS
+    assert {name for name in TELEPHONY.values() if joined(name) in others} == set()
+    assert len(TELEPHONY) >= 600
+
+
+SAID = {
+    "AAL123": "american one two three",
+    "AAL132": "american one thirty two",
+    "DAL456": "delta four fifty six",
+    "BAW38R": "speedbird three eight romeo",
+    "N172SP": "november one seven two sierra papa",
+    "G-ABCD": "golf alfa bravo charlie delta",
+}
+"""Callsigns of a frequency, in the words that name them."""
+HEARD_FOR = {
+    "one": ("won", "run"), "two": ("to", "too", "you"), "three": ("tree", "free"),
+    "four": ("for", "floor"), "eight": ("ate", "wait"), "seven": ("heaven",),
+    "american": ("americans", "marathon"), "delta": ("dealt", "felt"), "golf": ("gulf",),
+    "speedbird": ("feed bird", "speed"), "november": ("remember",), "sierra": ("sarah",),
+    "papa": ("pepper",), "charlie": ("charley",), "romeo": ("remember",), "six": ("fix", "sex"),
+    "fifty": ("fifteen",), "thirty": ("thirteen",), "alfa": ("alpha", "half"),
+}  # fmt: skip
+"""Words that recognisers write for others."""
+
+
+@settings(deadline=None, max_examples=400)
+@given(
+    st.sampled_from(sorted(SAID)),
+    st.integers(0, 9),
+    st.integers(-1, 2),
+    st.booleans(),
+)
+def test_an_error_never_makes_another_callsign_for_certain(
+    callsign: str, at: int, choice: int, is_first: bool
+) -> None:
+    """One word lost or misheard: only what is another's own callsign, word for word, names it."""
+    words = SAID[callsign].split()
+    at %= len(words)
+    heard = HEARD_FOR.get(words[at], ())
+    words[at] = heard[choice % len(heard)] if choice >= 0 and heard else ""
+    name = " ".join(filter(None, words))
+    text = f"{name} hold position" if is_first else f"holding position {name}"
+    call = parse_call(text, tuple(SAID))
+    assert call.match.score < TAU_ASR or call.callsign in (None, callsign), text
+
+
+@settings(deadline=None, max_examples=300)
+@given(
+    st.lists(st.sampled_from(["climb", "descend", "heading", "level", "knots", "runway", "maintain",
+                              "left", "one", "two", "three", "four", "five", "six", "thousand",
+                              "wind", "at", "turn", "squawk", "decimal", "hundred"]), max_size=12),
+)  # fmt: skip
+def test_values_alone_never_name_anybody_for_certain(words: list[Any]) -> None:
+    match = parse_call(" ".join(words), tuple(SAID)).match
+    assert match.callsign is None or match.score < TAU_ASR
