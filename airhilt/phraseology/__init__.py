@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from airhilt.phraseology.alphabet import LETTERS
 from airhilt.phraseology.call import (
+    BESIDES,
     CLEARANCES,
     REPORTS,
     TAU_ASR,
     Action,
+    Bound,
     Call,
     Instruction,
     Kind,
@@ -26,6 +28,7 @@ from airhilt.phraseology.words import tokens
 
 __all__ = [
     "AIRLINES",
+    "BESIDES",
     "CLEARANCES",
     "DIGITS",
     "LETTERS",
@@ -34,6 +37,7 @@ __all__ = [
     "TELEPHONY",
     "Action",
     "Airline",
+    "Bound",
     "Call",
     "CallsignMatch",
     "Candidate",

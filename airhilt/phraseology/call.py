@@ -13,24 +13,32 @@ Action = Literal[
     "cleared_option", "cleared_approach", "continue_approach", "vacate", "backtrack", "taxi",
     "stop", "push_back", "start_up", "follow", "give_way", "altitude", "heading", "speed",
     "direct", "own_navigation", "squawk", "contact", "monitor", "stand_by", "report",
-    "wildlife", "wildlife_gone",
+    "wildlife", "wildlife_gone", "stop_and_go", "circle", "cancel_approach", "missed_approach",
+    "cross_fix", "climb_via", "descend_via", "vertical_rate", "turn_by", "hold_at", "mach",
+    "resume_speed", "no_speed_restrictions", "ident", "visual_separation",
 ]  # fmt: skip
 """Action that a call orders, reads back, or reports."""
 
 CLEARANCES: frozenset[Action] = frozenset(
     {"cleared_to_land", "cleared_for_takeoff", "line_up", "cross", "proceed", "touch_and_go",
-     "low_approach", "cleared_option", "cleared_approach", "backtrack", "taxi", "push_back",
-     "start_up"}
+     "stop_and_go", "low_approach", "cleared_option", "cleared_approach", "backtrack", "taxi",
+     "push_back", "start_up"}
 )  # fmt: skip
 """Actions that need a clearance, and are therefore never guessed."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 """Actions that are reports."""
+BESIDES: frozenset[Action] = frozenset(
+    {"ident", "visual_separation", "mach", "vertical_rate", "resume_speed",
+     "no_speed_restrictions", "cross_fix"}
+)  # fmt: skip
+"""Actions that leave clearances for runways as they are."""
 
 TAU_ASR = 0.8
 """Confidence below which what was heard is in doubt (guard of arXiv 2511.18718)."""
 
 Sense = Literal["climb", "descend", "maintain"]
 Turn = Literal["left", "right"]
+Bound = Literal["or_more", "or_less"]
 Kind = Literal[
     "instruction", "readback", "report", "request", "say_again", "correction", "disregard",
     "unknown",
@@ -50,20 +58,34 @@ class Instruction:
     position: str | None = None
     """Place: a taxiway or intersection such as B5, a station, a fix or a place in words."""
     condition: str | None = None
-    """Condition or limit in words, such as "behind the landing cessna"."""
+    """Event before which it is not in effect, in words, such as "behind the landing cessna"; None
+    if it is in effect now."""
+    until: str | None = None
+    """Limit of what is in effect now, in words, such as "until 4 mile final"."""
     hold_short: str | None = None
     """Point to hold short of, if it is not a runway."""
     via: tuple[str, ...] = ()
     """Taxiways."""
     sense: Sense | None = None
     altitude_ft: float | None = None
+    bound: Bound | None = None
+    """Side of a level, speed or rate that is free: "at or above" is or_more."""
+    rate_fpm: float | None = None
+    """Vertical rate, in ft/min."""
     turn: Turn | None = None
     heading_deg: float | None = None
+    turn_deg: float | None = None
+    """Number of degrees to turn by."""
     speed_kt: float | None = None
+    mach: float | None = None
+    named: str | None = None
+    """Name of a speed without a number, such as "minimum clean", "normal" or "published"."""
     frequency_khz: int | None = None
     squawk: str | None = None
     approach: str | None = None
     """Kind of approach, such as ils or visual."""
+    variant: str | None = None
+    """Letter of one of several approaches of a kind to a runway: Z of ILS Z."""
     immediate: bool = False
     """True if it is to be done at once or without delay."""
     confidence: float = field(default=1.0, compare=False)
@@ -72,6 +94,11 @@ class Instruction:
     """Least confidence of the recogniser in the words of the action, in [0, 1]."""
     details_heard: float = field(default=1.0, compare=False)
     """Likewise in the words of its details, such as the runway or the level."""
+
+    @property
+    def is_conditional(self) -> bool:
+        """True if it is not in effect before an event."""
+        return self.condition is not None
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +119,9 @@ class Call:
     """True if it begins with the callsign, as an instruction does; a readback ends with it."""
     kind: Kind = "unknown"
     instructions: tuple[Instruction, ...] = ()
+    """Instructions in effect now or under a condition."""
+    expected: tuple[Instruction, ...] = ()
+    """What the call says is to be expected. Nothing of it is an instruction."""
     distress: bool = False
     """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False

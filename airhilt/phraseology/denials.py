@@ -16,7 +16,8 @@ OPEN = frozenset(
      "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
      "confirm", "confirming", "verify", "except", "like", "want", "possible", "possibly",
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
-     "need", "intend", "planning"}
+     "need", "intend", "planning", "chance", "assigned", "ready",
+     "expects"}
 )  # fmt: skip
 """Words before an action that is asked for, asked about, or only expected."""
 ASKED = frozenset(
@@ -114,7 +115,7 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
         or last == "to"
         or (is_cleared and last in OTHERS and before not in OWN)
         or is_cancelled
-        or AFTERWARDS.intersection(ends[:1])
+        or (AFTERWARDS.intersection(ends[:1]) and ends[1:] != ["contact"])
         or ASKED.intersection(words[floor:first])
         or ASKS.intersection(opening)
     )

@@ -19,13 +19,23 @@ SHORTENED = 0.75
 """Confidence in a number that may be part of a longer one. A runway or level that has lost a digit
 is still a runway or level."""
 HIGHEST_FT = 60_000
+NO_SENSE = 0.6
+"""Confidence in a value that nobody assigns, such as 5,510 ft, 187 knots or a heading of 370."""
+SPEEDS_KT = (60.0, 400.0)
+"""Least and greatest speed that is assigned."""
+LEVEL_STEP_FT = 100.0
+"""Step of levels (FAA Order JO 7110.65, 2-4-17 c)."""
+SPEED_STEP_KT = 5.0
+"""Step of assigned speeds (FAA Order JO 7110.65, 5-7-1)."""
 TRANSITION_FT = 18_000.0
 """Transition altitude of the United States, in ft (14 CFR 91.121). Each other state has its own
 (ICAO Doc 8168 volume III, section 2, chapter 1)."""
 TOO_HIGH = 0.6
 """Confidence in a level in feet from `TRANSITION_FT` on: "to four thousand" sounds like 24,000."""
 
-NUMBER_ENDS = r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes))"
+NUMBER_ENDS = (
+    r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes|d m e))"
+)
 """Pattern after a number that is not followed by a unit, and so may be a runway."""
 SIDE = (
     r"(?: (left|right|centre|l|r|c)(?!\S)"
@@ -37,19 +47,57 @@ NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
 
 _LETTER = "|".join(LETTERS)
 TAXIWAY = rf"(?:(?:{_LETTER}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
-LEVEL = re.compile(
-    r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )"
+_NO_RATE = r"(?!(?: feet)? (?:per minute|min)(?!\S))"
+_ANY_LEVEL = (
     r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"
-    r"|(?<!\S)([0-9]{1,2}) thousand(?: ([1-9])00)?(?!\S)(?: feet)?"
-    r"|(?<!\S)([1-9])00 feet(?!\S))"
+    rf"|(?<!\S)([0-9]{{1,2}}) thousand(?: ([1-9])00)?(?!\S){_NO_RATE}(?: feet)?"
+    rf"|(?<!\S)([1-9])00 feet(?!\S){_NO_RATE})"
 )
+LEVEL = re.compile(
+    r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )" + _ANY_LEVEL
+)
+LEVEL_HERE = re.compile(
+    rf"(?: (?:at|to|now|and|maintain|altitude|an|of|immediately))* ?{_ANY_LEVEL}"
+)
+"""A level right here, whatever stands before it."""
+LEVEL_WORDS = (
+    r"(?:(?:flight )?level [0-9]{2,3}|[0-9]{1,2} thousand(?: [1-9]00)?(?: feet)?"
+    r"|[1-9][0-9]{3,4}(?: feet)?)"
+)
+"""Pattern of the words of any level."""
+CONTINUES = re.compile(r" [0-9]|(?: [a-z]+){1,2} hundred(?!\S)")
+"""Pattern after a level whose number goes on, so that it may be the rest of another one."""
 BARE_FEET = re.compile(
     r"(?: (?:to|at|and|now|altitude|an|of|immediately))* ([1-9][0-9]{3,4})(?!\S)"
-    r"(?! (?:knots|miles?|degrees))"
+    rf"(?! (?:miles?|degrees|thousand|decimal)){_NO_RATE}(?: feet)?"
 )
+_NOT_NAMES = (
+    r"(?:runway|heading|as|at|and|then|via|on|or|to|for|with|from|of|the|a|when|after|until|before"
+    r"|once|if|behind|is|it|who|what|in|any|my|your|this|that|radial|course|flight|level|thousand"
+    r"|approach|approved|present|own)(?!\S)"
+)
+FIX_ENDS = (
+    r"(?:runway|heading|at|and|then|via|on|or|to|for|with|from|when|after|until|before|once|if"
+    r"|behind|cross|crossing|climb|climbing|descend|descending|maintain|maintaining|turn|turning"
+    r"|fly|direct|proceed|cleared|contact|monitor|squawk|reduce|increase|speed|slow|resume|expect"
+    r"|report|hold|holding|radar|altimeter|qnh|q|wind|traffic|caution|rest|as|expedite|good|roger"
+    r"|ident|information|arrival|departure|airport|no|say|stand|standby|correction|disregard"
+    r"|negative|unable|intercept|join|continue|make|go|line|taxi|cancel|delete|amend|depart|leave"
+    r"|in|position|flight|left turns|right turns|outbound|inbound|approach|approved|identified"
+    r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
+    r"|number|squawking|below|above|remain|circle|change)"
+)
+"""Words that end the name of a fix."""
+_NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"
+_KNOWN = r"[a-z0-9]+(?:_[a-z0-9]*)+"
+FIX = (
+    rf"(?:{_KNOWN}(?!\S)|(?:[0-9]{{1,2}} (?!{FIX_ENDS}(?!\S)|{_NO_UNIT}))?"
+    rf"(?!{_NOT_NAMES})[a-z]+(?!\S)"
+    rf"(?: (?!{FIX_ENDS}(?!\S))[a-z]+(?!\S)){{0,2}})"
+)
+"""Pattern of the name of a fix or navaid: one the caller knows, or up to three words."""
 FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9]) decimal ([0-9]{1,3})(?!\S)")
 SHORT_FREQUENCY = re.compile(r"(?<!\S)(?:on )?decimal ([0-9]{1,3})(?!\S)")
-JOINED_FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9])([0-9]{1,3})(?!\S)")
 WIND = re.compile(
     r"(?<!\S)wind (?:is )?(?:(calm)|(variable|[0-9]{3})(?: degrees)?(?: at)? ?([0-9]{1,2})(?!\S)"
     r"(?: knots)?(?: gust(?:s|ing)?(?: to)? ([0-9]{1,2})(?!\S))?)"
@@ -70,7 +118,12 @@ def runway_confidence(number: str) -> float:
 
 
 def level_confidence(found: re.Match[str]) -> float:
-    """Return the confidence in a `LEVEL`: two digits of a flight level may be part of three."""
+    """Return the confidence in a `LEVEL`.
+
+    Two digits of a flight level may be part of three, and digits after thousands belong to them.
+    """
+    if CONTINUES.match(found.string, found.end()):
+        return NO_SENSE
     if found[1]:
         return SHORTENED if len(found[1]) == 2 else 1.0
     return feet_confidence(level_ft(found) or 0.0)
@@ -78,7 +131,18 @@ def level_confidence(found: re.Match[str]) -> float:
 
 def feet_confidence(feet: float) -> float:
     """Return the confidence in a level that was given in feet."""
+    if feet % LEVEL_STEP_FT:
+        return NO_SENSE
     return 1.0 if feet < TRANSITION_FT else TOO_HIGH
+
+
+def speed_confidence(speed_kt: float) -> float:
+    """Return the confidence in an assigned speed."""
+    least, greatest = SPEEDS_KT
+    has_sense = least <= speed_kt <= greatest and speed_kt % SPEED_STEP_KT == 0.0
+    if not has_sense:
+        return NO_SENSE
+    return SHORTENED if speed_kt < 100.0 else 1.0
 
 
 def taxiway(text: str) -> str:

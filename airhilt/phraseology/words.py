@@ -162,12 +162,8 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
 def _mend(raw: list[Raw]) -> list[Raw]:
     """Leave out fillers, unify spellings, and mend words that were misheard."""
     mended: list[Raw] = []
-    raw = [
-        each
-        for at, each in enumerate(raw)
-        if each.text not in FILLERS
-        and not (each.text == "and" and at + 1 < len(raw) and raw[at + 1].text in FILLERS)
-    ]
+    if not FILLERS.isdisjoint([each.text for each in raw]):
+        raw = _without_fillers(raw)
     at, size = 0, len(raw)
     while at < size:
         word, confidence = raw[at]
@@ -190,6 +186,15 @@ def _mend(raw: list[Raw]) -> list[Raw]:
         else:
             mended.append(raw[at - 1])
     return mended
+
+
+def _without_fillers(raw: list[Raw]) -> list[Raw]:
+    """Return words without hesitations, of which "and uh" is one."""
+    return [
+        each
+        for each, following in zip(raw, [*raw[1:], Raw("", 1.0)], strict=True)
+        if each.text not in FILLERS and not (each.text == "and" and following.text in FILLERS)
+    ]
 
 
 def _join(raw: list[Raw]) -> Words:

@@ -213,7 +213,7 @@ def test_any_runway_is_read_digit_by_digit(number: int, side: str) -> None:
         ("when able proceed direct dixie",
          Instruction("direct", position="dixie", condition="when able")),
         ("reduce speed to 180 knots until four mile final",
-         Instruction("speed", speed_kt=180.0, condition="until 4 mile final")),
+         Instruction("speed", speed_kt=180.0, until="until 4 mile final")),
         ("cleared for immediate takeoff runway 19",
          Instruction("cleared_for_takeoff", "19", immediate=True)),
         ("hold short of echo", Instruction("hold_short", hold_short="E")),
@@ -359,7 +359,7 @@ def test_a_call_tells_more_than_instructions() -> None:
         ("climb two four thousand", 0.6),
         ("climb and maintain two four thousand", 0.6),
         ("maintain 24,000 feet", 0.6),
-        ("climb flight level three three zero, correction, two four thousand", 0.6),
+        ("climb flight level three three zero, correction, two four thousand", 0.54),
         ("mumble mumble", 0.0),
     ],
 )

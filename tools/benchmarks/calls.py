@@ -39,7 +39,7 @@ def calls() -> tuple[list[str], tuple[str, ...]]:
         ],
         [Instruction("contact", position="washington centre", frequency_khz=134_325)],
         [Instruction("go_around"), Instruction("altitude", sense="climb", altitude_ft=3000.0)],
-        [Instruction("speed", speed_kt=180.0, condition="until 4 mile final")],
+        [Instruction("speed", speed_kt=180.0, until="until 4 mile final")],
     ]
     said = [
         speak(callsign, instructions, style)

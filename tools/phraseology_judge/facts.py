@@ -162,8 +162,11 @@ def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
     for item in items:
         if item["kind"] == "rejected_takeoff":
             yield Fact("cancel_takeoff", "now"), item["status"]
+            yield Fact("stop", "now"), item["status"]
         if item["kind"] == "hold_position":  # "Stop, hold position" orders one thing.
             yield Fact("stop", "now"), "report"
+        if item["kind"] == "state":  # "Report speed" and "say speed" ask for one thing.
+            yield _fact("report", "now", _words(item)), "report"
         read = VALUES.get(item["kind"])
         if read is None:
             continue
@@ -189,49 +192,70 @@ KIND_OF = {
     "cross": "cross_runway", "cleared_option": "option", "cleared_approach": "approach",
     "vacate": "vacate_runway", "push_back": "pushback", "start_up": "startup",
     "contact": "frequency", "monitor": "frequency", "stand_by": "standby",
+    "hold_at": "hold", "cross_fix": "crossing_restriction",
 }  # fmt: skip
 """Kinds of the judge by the parser's actions, where the words differ."""
-TYPES = {
-    "localizer": "LOC", "localiser": "LOC", "rnav": "RNAV", "visual": "VISUAL", "ils": "ILS",
-    "rnp": "RNP", "vor": "VOR", "gps": "GPS",
-}  # fmt: skip
+TYPES = {"localizer": "LOC", "localizer back course": "LOC BC"}
 
 
 def facts_of_call(call: Call) -> Iterator[tuple[Fact, float]]:
     """Yield the facts that the parser read, each with its confidence."""
     for each in call.instructions:
-        condition = each.condition or "until"
-        status = "now" if condition.startswith("until") else "conditional"
+        status = "conditional" if each.is_conditional else "now"
         yield fact_of(each, status), each.confidence
+    for each in call.expected:
+        yield fact_of(each, "expected"), each.confidence
     if call.wind is not None:
         wind = call.wind
-        values = {
+        blows = {
             "direction_deg": wind.direction_deg, "speed_kt": wind.speed_kt, "gust_kt": wind.gust_kt
         }  # fmt: skip
-        yield _fact("wind", "information", values), call.confidence
+        yield _fact("wind", "information", blows), call.confidence
     if call.pressure_hpa is not None:
-        values = {"hpa": round(call.pressure_hpa, 1)}
-        yield _fact("altimeter", "information", values), call.confidence
+        pressure = {"hpa": round(call.pressure_hpa, 1)}
+        yield _fact("altimeter", "information", pressure), call.confidence
 
 
 def fact_of(said: Instruction, status: str) -> Fact:
     """Return an instruction as a fact."""
     kind = KIND_OF.get(said.action, said.action)
-    if said.action == "heading" and said.position in ("present heading", "runway heading"):
-        return _fact(said.position.replace(" ", "_"), status, {})
-    if said.action == "speed" and said.speed_kt is None:
-        return _fact("resume_speed", status, {"words": ("normal",)})
-    values: dict[str, Any] = {
+    if said.action == "heading" and said.position:
+        if said.position in ("present heading", "runway heading"):
+            return _fact(said.position.replace(" ", "_"), status, {})
+        kind = "vacate_runway"  # "Turn left at K" on the ground (FAA Order JO 7110.65, 3-10-9).
+    if said.action == "speed" and said.named:
+        kind = "named_speed"
+    approach = said.approach or ""
+    of_kinds: dict[str, dict[str, Any]] = {
         "altitude": {
             "altitude_ft": said.altitude_ft,
             "sense": None if said.sense == "maintain" else said.sense,
+            "bound": said.bound,
         },
+        "crossing_restriction": {
+            "words": _tokens(said.position),
+            "bound": said.bound,
+            "altitude_ft": said.altitude_ft,
+            "speed_kt": said.speed_kt,
+        },
+        "climb_via": {"words": _tokens(said.position)},
+        "descend_via": {"words": _tokens(said.position)},
+        "vertical_rate": {"rate": said.rate_fpm, "bound": said.bound},
         "heading": {"heading_deg": said.heading_deg, "turn": said.turn},
-        "speed": {"speed_kt": said.speed_kt},
+        "turn_by": {"degrees": said.turn_deg, "turn": said.turn},
+        "speed": {"speed_kt": said.speed_kt, "bound": said.bound},
+        "named_speed": {"words": _tokens(said.named)},
+        "resume_speed": {"words": _tokens(said.named)},
+        "mach": {"mach": said.mach, "bound": said.bound},
         "direct": {"words": _tokens(said.position), "turn": said.turn},
+        "hold": {"words": _tokens(said.position), "turn": said.turn},
         "frequency": _frequency_read(said),
         "squawk": {"code": said.squawk},
-        "approach": {"type": TYPES.get(said.approach or ""), "runway": said.runway},
+        "approach": {
+            "type": TYPES.get(approach, approach.upper()),
+            "runway": said.runway,
+            "variant": said.variant,
+        },
         "taxi": {
             "runway": said.runway,
             "words": _tokens(said.position),
@@ -240,7 +264,8 @@ def fact_of(said: Instruction, status: str) -> Fact:
         "hold_short": {"point": said.runway or said.hold_short},
         "vacate_runway": {"point": said.position, "turn": said.turn},
         "report": {"words": _tokens(said.position)},
-    }.get(kind, {})
+    }
+    values = of_kinds.get(kind, {})
     if kind in VALUES and not values and VALUES[kind] is not _nothing:
         values = {"runway": said.runway}
     if kind == "report" and values["words"] == ("in", "sight"):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
 from airhilt.messages import Transcript, TransmissionOpened
-from airhilt.phraseology import Action, Call, Instruction
+from airhilt.phraseology import BESIDES, Action, Call, Instruction
 from airhilt.units import SECOND_NS
 
 LIFETIME_S: dict[Action, float] = {
@@ -123,7 +123,7 @@ class Clearances:
         self._silence.take_transcript(transcript)
         if not call.addressed_first:
             self._answered_ns[transcript.frequency_khz] = transcript.t_tx_ns
-        said = tuple(each for each in call.instructions if each.action not in REPORTS)
+        said = tuple(each for each in call.instructions if each.action not in REPORTS | BESIDES)
         callsign = call.match.callsign
         if callsign is None:
             return

@@ -245,7 +245,7 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
                 each.altitude_ft,
                 each.turn,
                 each.heading_deg,
-                each.condition,
+                each.condition or each.until,
             )
             for each in parse_call(clause, callsigns).instructions
         )

@@ -1,0 +1,170 @@
+"""Conditions, and what instructions of one call mean for each other."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from airhilt.phraseology.call import CLEARANCES, Action, Instruction
+from airhilt.phraseology.forms import NO_VALUE, Read
+from airhilt.phraseology.scan import Found, Span
+
+Reads = list[tuple[Read, Found]]
+CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
+"""Actions that may be followed by a condition with "behind"."""
+SEQUENCED: frozenset[Action] = frozenset(
+    {"altitude", "speed", "mach", "heading", "direct", "turn_by"}
+)
+"""Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
+IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
+"""Actions that wait for the take-off that is cleared in the same call."""
+_FOLLOWING = re.compile(
+    r"at pilot discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$"
+)
+"""Conditions that belong to the action right before them if there is one."""
+_FILED = frozenset({"airport", "filed"})
+_AS_FILED = re.compile(r"(?<!\S)cleared to .*(?<!\S)(?:airport|as filed)(?!\S)")
+"""Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
+AIRBORNE = "when airborne"
+DEPARTED = "after departure"
+_EXCLUSIVE = frozenset({"cleared_to_land", "cleared_for_takeoff", "line_up"})
+"""Clearances of which one aircraft gets one at a time, except line-up and take-off."""
+
+
+def attach(conditions: list[Span], reads: Reads, text: str) -> None:
+    """Attach each condition to its action.
+
+    Its action is the next one, or the one before if the condition is a limit ("until"), or stands
+    right behind it ("when ready"), or begins with "behind" at the end of the call.
+    """
+    for span in conditions:
+        words = text[span.start : span.end].strip()
+        before = [i for i, (read, _) in enumerate(reads) if read.start < span.start]
+        after = [i for i, (read, _) in enumerate(reads) if read.start >= span.end]
+        kind = words.split()[0] if words else ""
+        if kind == "until":
+            if before and " " in words:
+                _set(reads, before[-1], until=words)
+        elif kind in ("if", "in") and len(words.split()) > 2:
+            for index in after or before[-1:]:
+                _set(reads, index, condition=words)
+        elif before and _is_of_expected(reads[before[-1]][0], text, span):
+            _set(reads, before[-1], condition=words)
+        elif _FOLLOWING.match(words):
+            is_right_behind = before and not text[reads[before[-1]][0].end : span.start].strip()
+            own = before[-1:] if is_right_behind or not after else after[:1]
+            for index in own:
+                _set(reads, index, condition=words)
+        else:
+            _attach_to_one(words, kind, before, after, reads)
+
+
+def _is_of_expected(read: Read, text: str, span: Span) -> bool:
+    """Return whether a condition stands right behind what is expected: "in ten minutes after"."""
+    between = text[read.end : span.start]
+    return read.is_expected and bool(re.fullmatch(r"(?: in)?(?: [0-9]+ minutes?)? *", between))
+
+
+def _attach_to_one(
+    words: str, kind: str, before: list[int], after: list[int], reads: Reads
+) -> None:
+    is_again = False
+    if kind == "behind":
+        if len(after) > 1:
+            after = [i for i in after if reads[i][0].instruction.action in CONDITIONED] or after
+        is_again = bool(before and reads[before[-1]][0].instruction.condition)
+    if len(words.split()) < 2 and (kind != "behind" or not before or is_again):
+        return
+    is_behind = kind == "behind" and (
+        not after or reads[after[0]][0].instruction.action not in CONDITIONED
+    )
+    if before and (is_behind or not after):
+        _set(reads, before[-1], condition=words)
+    elif after:
+        _set(reads, after[0], condition=words)
+
+
+def _set(
+    reads: Reads, index: int, *, condition: str | None = None, until: str | None = None
+) -> None:
+    read, each = reads[index]
+    told = read.instruction
+    told = replace(told, condition=condition or told.condition, until=until or told.until)
+    reads[index] = read._replace(instruction=told), each
+
+
+def merge_levels(reads: Reads) -> None:
+    """Merge two instructions such as "climb now, maintain flight level 330"."""
+    for index in range(len(reads) - 1, 0, -1):
+        first, second = reads[index - 1][0].instruction, reads[index][0].instruction
+        if (
+            first.action == second.action == "altitude"
+            and first.altitude_ft is None
+            and second.altitude_ft is not None
+            and (second.sense == "maintain" or second.sense == first.sense)
+            and not (reads[index - 1][0].is_expected or reads[index][0].is_expected)
+        ):
+            merged = replace(
+                first,
+                altitude_ft=second.altitude_ft,
+                bound=second.bound,
+                condition=first.condition or second.condition,
+                until=first.until or second.until,
+                immediate=first.immediate or second.immediate,
+                confidence=second.confidence,
+            )
+            read = reads[index - 1][0]._replace(instruction=merged, end=reads[index][0].end)
+            reads[index - 1 : index + 1] = [(read, reads[index - 1][1])]
+
+
+def withdraw(reads: Reads) -> None:
+    """Drop the clearances that the same call cancels."""
+    for cancel, cleared in (
+        ("cancel_takeoff", "cleared_for_takeoff"),
+        ("cancel_landing", "cleared_to_land"),
+        ("cancel_approach", "cleared_approach"),
+    ):
+        cancelled = [read.start for read, _ in reads if read.instruction.action == cancel]
+        if cancelled:
+            reads[:] = [
+                (read, each)
+                for read, each in reads
+                if read.instruction.action != cleared or read.start > cancelled[-1]
+            ]
+
+
+def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
+    """Give conditions to actions that wait for others of the same call, without saying so."""
+    actions = {read.instruction.action for read, _ in reads if not read.is_expected}
+    is_takeoff = "cleared_for_takeoff" in actions
+    is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
+    for index, (read, each) in enumerate(reads):
+        told = read.instruction
+        if told.condition is not None:
+            continue
+        if is_takeoff and told.action in IN_FLIGHT:
+            _set(reads, index, condition=AIRBORNE)
+        elif is_filed and told.action in ("altitude", "contact") and not read.is_expected:
+            _set(reads, index, condition=DEPARTED)
+        elif index and told.action in SEQUENCED and texts[each.first - 1] == "then":
+            _set(reads, index, condition="then")
+
+
+def doubtful(instructions: list[Instruction]) -> list[Instruction]:
+    """Return instructions with low confidence in clearances that exclude each other.
+
+    Nobody lines up, or takes off, and is cleared to land in one call, and nobody is cleared twice
+    for one thing on two runways.
+    """
+    if len(instructions) < 2:
+        return instructions
+    now = [each for each in instructions if each.action in _EXCLUSIVE and each.condition is None]
+    actions = {each.action for each in now}
+    runways = {each.runway for each in now if each.runway}
+    is_doubtful = "cleared_to_land" in actions and (len(actions) > 1 or len(runways) > 1)
+    if not is_doubtful:
+        return instructions
+    return [
+        replace(each, confidence=min(each.confidence, NO_VALUE)) if each in now else each
+        for each in instructions
+    ]

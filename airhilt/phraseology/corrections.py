@@ -1,0 +1,158 @@
+"""Corrections within a call: "correction" and "disregard" (ICAO Annex 10 volume II, 5.2.1.5.8)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from airhilt.phraseology.call import Instruction
+from airhilt.phraseology.content import Content
+from airhilt.phraseology.slots import (
+    FREQUENCY,
+    LEVEL,
+    NAMED_RUNWAY,
+    RUNWAY,
+    designator,
+    frequency_khz,
+    level_confidence,
+    level_ft,
+    speed_confidence,
+)
+from airhilt.phraseology.words import MENDED, Words
+
+_DISREGARDED = re.compile(
+    r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
+    r"|landing|instruction|instructions|all|it))*(?!\S)"
+)
+_LEVEL = r"(?:(?:flight )?level [0-9]{2,3}|[0-9]{1,2} thousand(?: [1-9]00)?(?: feet)?)"
+_NUMBER = r"[0-9]{3,5}(?: knots| feet| degrees)?"
+_SLIP = re.compile(
+    rf"(?:({_LEVEL})|(?<!\S)({_NUMBER})) correction (?=({_LEVEL})|({_NUMBER})(?!\S))"
+)
+_LAST_NUMBER = re.compile(r" ?[0-9]{2,3}$")
+
+
+def without_slips(words: Words) -> Words:
+    """Return words in which a value replaces the one that it corrects.
+
+    ``climb flight level 350 correction 360`` is ``climb flight level 360``.
+    """
+    while "correction" in words.texts:
+        found = _SLIP.search(" ".join(words.texts))
+        if found is None:
+            return words
+        level, _, to_level, to_number = found.groups()
+        start, end = found.span()
+        if level and to_number and not to_level:
+            if "level" not in level or len(to_number) != 3:
+                return words
+            start += level.index("level") + len("level ")
+        elif bool(level) != bool(to_level):
+            return words
+        text = found.string
+        first, last = len(text[:start].split()), len(text[:end].split())
+        size = len((to_level or to_number).split())
+        mended = Words(words.texts[:first], words.confidences[:first])
+        for index in range(last, len(words.texts)):
+            sure = MENDED if index < last + size else 1.0
+            mended.add(words.texts[index], words.confidences[index] * sure)
+        words = mended
+    return words
+
+
+Read = Callable[[Words], Content]
+
+
+class Corrections:
+    """Finds the meaning of words, including those that correct or withdraw others."""
+
+    def __init__(self, words: Words, read: Read) -> None:
+        self._words = words
+        self._read = read
+
+    def read(self) -> Content:
+        """Return the meaning after all corrections."""
+        texts = self._words.texts
+        if "correction" not in texts and "disregard" not in texts:
+            return self._read(self._words)
+        content = Content()
+        begin, marker = 0, ""
+        for at, word in [*enumerate(texts), (len(texts), "")]:
+            if at < len(texts) and word not in ("correction", "disregard"):
+                continue
+            self._take(content, begin, at, marker)
+            begin, marker = at, word
+        return content
+
+    def _take(self, content: Content, begin: int, end: int, marker: str) -> None:
+        """Add the meaning of the words from a marker on."""
+        part = Words(self._words.texts[begin:end], self._words.confidences[begin:end])
+        if marker == "disregard":
+            content.instructions.clear()
+            content.doing.clear()
+            content.traffic.clear()
+            size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
+            if size > 1:
+                part = Words(part.texts[size:], part.confidences[size:])
+        new = self._read(part)
+        content.traffic += new.traffic
+        if marker == "correction" and content.instructions:
+            if _corrects_itself(content.instructions[-1], new):
+                _replace(content, new)
+                return
+            corrected = _corrected(content.instructions[-1], " ".join(part.texts[1:]))
+            if corrected is not None:
+                content.instructions[-1] = corrected
+            elif new.instructions:
+                _replace(content, new)
+                return
+            else:
+                content.instructions.pop()
+                content.doing.pop()
+        content.instructions += new.instructions
+        content.doing += new.doing
+
+
+def _corrects_itself(last: Instruction, new: Content) -> bool:
+    """Return whether "correction" is followed by an instruction, not by a value of the last one."""
+    return any(
+        each.action == last.action or (each.runway and last.runway) for each in new.instructions
+    )
+
+
+def _replace(content: Content, new: Content) -> None:
+    """Replace instructions by those that correct them."""
+    actions = {each.action for each in new.instructions}
+    kept = [i for i, each in enumerate(content.instructions) if each.action not in actions]
+    if len(kept) == len(content.instructions):
+        kept.pop()
+    content.instructions[:] = [*(content.instructions[i] for i in kept), *new.instructions]
+    content.doing[:] = [*(content.doing[i] for i in kept), *new.doing]
+
+
+def _corrected(last: Instruction, text: str) -> Instruction | None:
+    """Return an instruction with its corrected value; None if there is no such value."""
+    confidence = min(last.confidence, MENDED)
+    if last.runway:
+        found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
+        return found and replace(last, runway=designator(*found.groups()), confidence=confidence)
+    number = re.match(r"([0-9]{3})(?!\S)", text)
+    if last.altitude_ft:
+        level = LEVEL.match(text)
+        if level:
+            confidence = min(confidence, level_confidence(level))
+            return replace(last, altitude_ft=level_ft(level), confidence=confidence)
+        if number and last.altitude_ft % 500 == 0 and 10 <= int(number[1]) <= 660:
+            return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=confidence)
+        return None
+    if last.heading_deg and number and 0 < int(number[1]) <= 360:
+        return replace(last, heading_deg=float(number[1]), confidence=confidence)
+    if last.speed_kt and number:
+        confidence = min(confidence, speed_confidence(float(number[1])))
+        return replace(last, speed_kt=float(number[1]), confidence=confidence)
+    frequency = FREQUENCY.match(text)
+    if last.frequency_khz and frequency:
+        khz = frequency_khz(*frequency.groups())
+        return replace(last, frequency_khz=khz, confidence=confidence) if khz else None
+    return None

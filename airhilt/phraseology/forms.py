@@ -1,0 +1,213 @@
+"""Forms of actions: their words, and the pieces that read their details.
+
+The forms of each subject are in a module of its own (`runways`, `ground`, `vertical`, `lateral`,
+`speeds`, `approaches`, `surveillance`, `expectations`). `actions` lists them all.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.slots import (
+    FIX_ENDS,
+    NAMED_RUNWAY,
+    RUNWAY,
+    TAXIWAY,
+    designator,
+    runway_confidence,
+    taxiway,
+)
+
+BARE_RUNWAY = 0.85
+"""Confidence in a runway that is said without the word."""
+NO_RUNWAY = 0.75
+"""Confidence in an action on a runway that is not named."""
+NO_VALUE = 0.6
+"""Confidence in an action whose level, heading or frequency is missing or makes no sense."""
+BARE_VALUE = 0.85
+"""Confidence in a value that is said without its word."""
+LONG_NAME = 0.75
+"""Confidence in a name of a fix of three words, which may have a word that is not its own."""
+
+UNITS = (
+    "tower", "ground", "approach", "departure", "arrival", "centre", "control", "radar",
+    "director", "delivery", "apron", "ramp", "information", "radio",
+)  # fmt: skip
+"""Last words of callsigns of stations (ICAO Annex 10 volume II, 5.2.1.7.1.2)."""
+UNIT = "|".join(UNITS)
+
+
+class Segment(NamedTuple):
+    """The words of an action, and those around it that may hold its runway and its values."""
+
+    found: re.Match[str]
+    text: str
+    """Text of the whole call."""
+    begin: int
+    """Begin of the words before the action that belong to no other action."""
+    limit: int
+    """Begin of the next action."""
+
+    @property
+    def start(self) -> int:
+        """Begin of the action's own words."""
+        return self.found.start()
+
+    @property
+    def after(self) -> str:
+        """The words after the action, up to the next."""
+        return self.text[self.found.end() : self.limit]
+
+    @property
+    def before(self) -> str:
+        """The words before the action that belong to no other action."""
+        return self.text[self.begin : self.start].rstrip()
+
+
+class Read(NamedTuple):
+    """An instruction, with the begin and the end of its words."""
+
+    instruction: Instruction
+    start: int
+    end: int
+    more: tuple[Instruction, ...] = ()
+    """Other instructions of the same words."""
+    is_expected: bool = False
+    """True if the words say what is to be expected."""
+
+
+Builder = Callable[[Segment, Action], Read | None]
+
+
+class Form(NamedTuple):
+    """One form of an action: a pattern of its words, and the function that reads its details."""
+
+    action: Action
+    words: re.Pattern[str]
+    build: Builder
+
+
+Listed = tuple[tuple[str, Action, str, Builder], ...]
+"""Forms by their first words: these, the action, the pattern, and the function."""
+
+_BEFORE = re.compile(
+    rf"(?<!\S)(?P<word>runway )?{RUNWAY}"
+    rf"(?: (?:(?:at|from) (?P<place>{TAXIWAY})|full length))?$"
+)
+_NAMED_BEFORE = re.compile(rf"(?<!\S)runway {RUNWAY}(?: (?:at|from) {TAXIWAY})?$")
+_BARE_AFTER = re.compile(rf" (?:on )?{RUNWAY}")
+_OTHER_RUNWAY = re.compile(
+    r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
+)
+"""Words before a runway that is not that of the action, or after one that cannot be read."""
+POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
+IMMEDIATE = re.compile(r"(?<!\S)(?:immediate(?:ly)?|expedit(?:e|ing)|now)(?!\S)")
+_WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
+_NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
+
+
+def is_immediate(segment: Segment, end: int) -> bool:
+    """Return whether the words of an action, or those right after them, demand it at once."""
+    after = _WITHOUT_DELAY.match(segment.text, end, segment.limit)
+    return bool(after or IMMEDIATE.search(segment.text[segment.start : end]))
+
+
+def on_runway(segment: Segment, action: Action) -> Read | None:
+    """Read an action on a runway, which is named right before it or after it.
+
+    The action is not read if two different runways are named.
+    """
+    inside = NAMED_RUNWAY.search(segment.found[0])
+    before = runway_before(segment)
+    after = _runway_after(segment)
+    named = [_number_and_side(each) for each in (inside, before, after) if each]
+    told = [designator(*each) for each in named]
+    start, end = segment.start, segment.found.end()
+    if before:
+        start = segment.begin + before.start()
+    if after:
+        end += after.end()
+    if len(set(told)) > 1:
+        return None
+    place = before and before["place"]
+    place_after = POSITION.match(segment.text, end, segment.limit)
+    if place_after:
+        place, end = place_after[1], place_after.end()
+    confidences = [runway_confidence(number) for number, _ in named]
+    bare_after = after is not None and after.re is _BARE_AFTER
+    bare_before = before is not None and not before["word"]
+    if (bare_after or bare_before) and len(told) == 1:
+        confidences.append(BARE_RUNWAY)
+    read = Instruction(
+        action,
+        told[0] if told else None,
+        taxiway(place) if place else None,
+        immediate=is_immediate(segment, end),
+        confidence=min(confidences, default=NO_RUNWAY),
+    )
+    return Read(read, start, end)
+
+
+def _number_and_side(found: re.Match[str]) -> tuple[str, str | None]:
+    """Return the number and the side of a runway that was found."""
+    number, side = found.group(2, 3) if found.re is _BEFORE else found.group(1, 2)
+    return number, side
+
+
+def runway_before(segment: Segment) -> re.Match[str] | None:
+    """Return the runway right before an action; without its word only after the callsign."""
+    ahead = segment.before
+    found = _BEFORE.search(ahead)
+    if found is None or found["word"]:
+        return found
+    before = segment.text[: segment.begin + found.start()]
+    return found if before in ("", "| ") or before.endswith(" | ") else None
+
+
+def is_next_runway(segment: Segment) -> bool:
+    """Return whether the runway after an action is right before the next one."""
+    return segment.limit < len(segment.text) and bool(_NAMED_BEFORE.search(segment.after.rstrip()))
+
+
+def _runway_after(segment: Segment) -> re.Match[str] | None:
+    """Return the runway that is named after an action and does not belong to the next one."""
+    bare = _BARE_AFTER.match(segment.after)
+    if bare:
+        return bare
+    named = NAMED_RUNWAY.search(segment.after)
+    if named and _OTHER_RUNWAY.search(segment.after[: named.start()]):
+        return None
+    if named and (NAMED_RUNWAY.search(segment.found[0]) or runway_before(segment)):
+        is_beside = segment.after[: named.start()].strip() in ("", "on")
+        return named if is_beside and not is_next_runway(segment) else None
+    return named
+
+
+def alone(segment: Segment, action: Action) -> Read | None:
+    """Read an action without details."""
+    return Read(Instruction(action), segment.start, segment.found.end())
+
+
+def nothing(segment: Segment, action: Action) -> Read | None:
+    """Read nothing from words that are no instruction, or none that has a name here."""
+    del segment, action
+    return None
+
+
+def fix_of(segment: Segment, name: str = "fix") -> tuple[str | None, float]:
+    """Return the fix that an action names, and the confidence that it is the whole name.
+
+    A fix that the caller knows ends with an underscore (`known_fixes`).
+    """
+    fix = segment.found.groupdict().get(name)
+    if fix is None:
+        return None, 1.0
+    words = fix.replace("_", " ").strip()
+    if "_" in fix:
+        return words, 1.0
+    if _NAME_ENDS_HERE.match(segment.text, segment.found.end(name)) is None:
+        return words, NO_VALUE
+    return words, LONG_NAME if len(words.split()) > 2 else 1.0

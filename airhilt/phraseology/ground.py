@@ -1,0 +1,152 @@
+"""Forms of movement on the ground (FAA Order JO 7110.65, 3-7; ICAO Doc 4444, 12.3.4.4 to 9)."""
+
+from __future__ import annotations
+
+import re
+from typing import cast
+
+from airhilt.phraseology.call import Action, Instruction, Turn
+from airhilt.phraseology.forms import (
+    BARE_VALUE,
+    NO_VALUE,
+    Listed,
+    Read,
+    Segment,
+    alone,
+    is_immediate,
+    nothing,
+    on_runway,
+    runway_before,
+)
+from airhilt.phraseology.slots import (
+    FIX_ENDS,
+    NAMED_RUNWAY,
+    RUNWAY,
+    TAXIWAY,
+    designator,
+    runway_confidence,
+    taxiway,
+)
+
+_VIA = re.compile(rf"(?<!\S)via ((?:(?!q n h)(?:and |taxiway )?{TAXIWAY}(?: |$))+)")
+_GOES_ON = re.compile(
+    rf" ?(?:$|\||#|{FIX_ENDS}(?!\S)|(?:give|pass|without|use|give|back|full)(?!\S))"
+)
+_EACH_TAXIWAY = re.compile(TAXIWAY)
+_PLACE = re.compile(r" (?:to )?(?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)")
+_TAXI_TO = re.compile(
+    r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
+)
+
+
+def proceed(segment: Segment, action: Action) -> Read | None:
+    """Read leave to go on to a runway, or a taxi route."""
+    if NAMED_RUNWAY.search(segment.after):
+        return on_runway(segment, action)
+    return taxi(segment, "taxi") if re.match(r" (?:to|via)(?!\S)", segment.after) else None
+
+
+def taxi(segment: Segment, action: Action) -> Read | None:
+    """Read a taxi clearance: its runway or place, and its route."""
+    after = segment.after
+    runway = re.match(rf"(?: to)?(?: the)?(?: holding (?:point|decimal))? runway {RUNWAY}", after)
+    via = _VIA.search(after)
+    ahead = None if runway or via is None else runway_before(segment)
+    point = re.match(rf" (?:to|at) (?:taxiway |holding (?:point|decimal) )?({TAXIWAY})", after)
+    to = re.split(r" (?:via|and|at|on)(?!\S)", after)[0]
+    place = None if runway or point else _TAXI_TO.match(to)
+    position = taxiway(point[1]) if point else place[1].strip() if place else None
+    taken = max((each.end() for each in (runway, via, point) if each), default=0)
+    number, side = runway.groups() if runway else ahead.group(2, 3) if ahead else (None, None)
+    is_read = bool(number or position or (via and not to.strip()))
+    confidence = runway_confidence(number) if number else 1.0 if is_read else NO_VALUE
+    is_lost = number is None and "runway" in segment.before.split()
+    if is_lost or (taken and _GOES_ON.match(after, taken) is None):
+        confidence = NO_VALUE  # There is a word that may be the rest of the route.
+    read = Instruction(
+        action,
+        designator(number, side) if number else None,
+        position,
+        via=_route(via[1]) if via else (),
+        confidence=confidence,
+    )
+    start = segment.begin + ahead.start() if ahead else segment.start
+    return Read(read, start, segment.found.end() + taken)
+
+
+def route(segment: Segment, action: Action) -> Read | None:
+    """Read a taxi route that is read back without its verb: "runway 27 via A"."""
+    found = segment.found
+    via = _VIA.search(found[0])
+    if via is None:
+        return None
+    confidence = min(BARE_VALUE, runway_confidence(found[1]))
+    read = Instruction(
+        action, designator(found[1], found[2]), via=_route(via[1]), confidence=confidence
+    )
+    return Read(read, segment.start, found.end())
+
+
+def _route(text: str) -> tuple[str, ...]:
+    return tuple(taxiway(each) for each in _EACH_TAXIWAY.findall(text))
+
+
+def vacate(segment: Segment, action: Action) -> Read | None:
+    """Read where to leave a runway."""
+    found = re.match(
+        rf"(?: runway {RUNWAY})?(?: next| first)?(?: to the)?(?: (left|right)(?!\S))?"
+        rf"(?: (?:at |via |on )?(?:taxiway )?({TAXIWAY}))?",
+        segment.after,
+    )
+    number, side, turn, exit_ = found.groups() if found else (None,) * 4
+    read = Instruction(
+        action,
+        designator(number, side) if number else None,
+        taxiway(exit_) if exit_ else None,
+        turn=cast(Turn | None, turn),
+        immediate=is_immediate(segment, segment.found.end()),
+        confidence=runway_confidence(number) if number else 1.0,
+    )
+    return Read(read, segment.start, segment.found.end() + (found.end() if found else 0))
+
+
+def about_other(segment: Segment, action: Action) -> Read | None:
+    """Read an action about another aircraft."""
+    place = _PLACE.match(segment.after)
+    words = place[1].strip() if place else None
+    end = segment.found.end() + (place.end() if place else 0)
+    read = Instruction(action, position=words, confidence=1.0 if words else NO_VALUE)
+    return Read(read, segment.start, end)
+
+
+FORMS: Listed = (
+    ("enter entering join joining make", "proceed",
+     r"(?:(?:enter|join)(?:ing)?|make)(?: the| a)?(?: (?:left|right)(?: hand)?)?"
+     r" (?:downwind|base|crosswind|final|pattern|traffic|360|orbit|turns?|short|straight)",
+     nothing),
+    ("proceed proceeding enter entering", "proceed", r"(?:proceed|enter)(?:ing)?", proceed),
+    ("vacate vacating exit exiting", "vacate", r"(?:vacat(?:e|ing)|exit(?:ing)?)(?: the runway)?",
+     vacate),
+    ("take", "vacate", r"take(?: the)?(?= (?:first|next) (?:left|right))", vacate),
+    ("expedite", "vacate", r"expedite (?:vacating|exiting)(?: the runway)?", vacate),
+    ("expedite", "taxi", r"expedite taxi", nothing),
+    ("turn turning", "vacate", r"turn(?:ing)? off(?: the runway)?", vacate),
+    ("leave", "vacate", r"leave the runway", vacate),
+    ("taxi taxiing drive driving continue", "taxi",
+     r"(?:continue taxi(?= via)|(?<!continue )taxi(?:ing)?|driv(?:e|ing))"
+     r"(?= (?:to|via|at|on|back|across|runway|holding|gate|stand|straight|left|right|into|without"
+     r"|and|with|hold|[0-9]+|\|)(?!\S)|$)",
+     taxi),
+    ("runway", "taxi",
+     rf"(?<!to )(?<!decimal )runway {RUNWAY} via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),
+    ("stop", "stop",
+     r"stop(?! (?:on|at|squawk|over|and|turn|climb|descent|your)(?!\S))(?: immediately)?", alone),
+    ("stopping", "stop", r"stopping", alone),
+    ("pushback push", "push_back", r"push(?:back)? (?:is )?approved", alone),
+    ("startup start", "start_up", r"start(?:up)? (?:is )?approved", alone),
+    ("startup start", "start_up", r"start(?:up)?(?= and push(?:back)? (?:is )?approved)", alone),
+    ("follow", "follow", r"follow(?! me)", about_other),
+    ("give giving", "give_way", r"giv(?:e|ing) way(?: to)?", about_other),
+    ("pass passing", "give_way", r"pass(?:ing)? behind", about_other),
+)  # fmt: skip
+"""Forms of movement on the ground."""

@@ -1,0 +1,128 @@
+"""Forms of headings, directs and holds.
+
+FAA Order JO 7110.65, 5-6-2, 4-4-1, 4-6-1; ICAO Doc 4444, 12.4.1.3, 12.3.2.3, 12.3.3.3.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import cast
+
+from airhilt.phraseology.call import Action, Instruction, Turn
+from airhilt.phraseology.forms import (
+    BARE_VALUE,
+    NO_VALUE,
+    POSITION,
+    Listed,
+    Read,
+    Segment,
+    alone,
+    fix_of,
+    is_immediate,
+    nothing,
+)
+from airhilt.phraseology.slots import FIX, NO_SENSE, taxiway
+
+
+def heading(segment: Segment, action: Action) -> Read | None:
+    """Read a heading, a turn without one, or a heading that is kept."""
+    parts = segment.found.groupdict()
+    number = parts.get("number")
+    has_sense = number is not None and 0 < int(number) <= 360
+    turn = cast(Turn | None, parts.get("turn"))
+    kept = parts.get("kept")
+    at = POSITION.match(segment.after) if turn and number is None else None
+    is_cut = at is not None and segment.after[at.end() : at.end() + 2].strip().isdigit()
+    confidence = 1.0 if has_sense or kept or (at and not is_cut) else NO_VALUE
+    if turn is None and _TURN.search(segment.before):
+        confidence = NO_VALUE  # The side of the turn was not understood.
+    if "bare" in parts:
+        confidence = min(confidence, BARE_VALUE)
+    read = Instruction(
+        action,
+        position=f"{kept} heading" if kept else taxiway(at[1]) if at else None,
+        turn=turn,
+        heading_deg=float(number) if number and has_sense else None,
+        immediate=is_immediate(segment, segment.found.end()),
+        confidence=confidence if has_sense or not number else NO_SENSE,
+    )
+    return Read(read, segment.start, segment.found.end() + (at.end() if at else 0))
+
+
+def turn_by(segment: Segment, action: Action) -> Read | None:
+    """Read a turn by a number of degrees."""
+    degrees = float(segment.found["degrees"])
+    read = Instruction(
+        action,
+        turn=cast(Turn, segment.found["turn"]),
+        turn_deg=degrees,
+        confidence=1.0 if 0.0 < degrees <= 180.0 else NO_SENSE,
+    )
+    return Read(read, segment.start, segment.found.end())
+
+
+def direct(segment: Segment, action: Action) -> Read | None:
+    """Read a fix to go to."""
+    fix, confidence = fix_of(segment)
+    if fix is None:
+        return None
+    turn = cast(Turn | None, segment.found.groupdict().get("turn"))
+    read = Instruction(action, position=fix, turn=turn, confidence=confidence)
+    return Read(read, segment.start, segment.found.end())
+
+
+def hold_at(segment: Segment, action: Action) -> Read | None:
+    """Read a hold at a fix, with the side of its turns."""
+    fix, confidence = fix_of(segment)
+    turn = cast(Turn | None, segment.found["turn"])
+    read = Instruction(action, position=fix, turn=turn, confidence=confidence)
+    return Read(read, segment.start, segment.found.end())
+
+
+_HEADING = (
+    r"(?P<number>[0-9]{3})(?!\S)(?! (?:knots|thousand|feet|miles?|decimal))"
+    r"(?: degrees(?! (?:left|right)))?"
+)
+_TURN = re.compile(r"(?<!\S)turn(?: [a-z]+)?$")
+_COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
+_TURNS = (
+    r"(?: on the [0-9]{1,3} (?:radial|course|bearing))?(?: as published)?"
+    r"(?: (?P<turn>left|right) (?:hand )?turns)?"
+)
+_DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?: to)?"
+
+FORMS: Listed = (
+    ("clear cleared", "direct",
+     rf"clear(?:ed)? (?:to proceed )?direct(?: to)?(?: (?P<fix>{FIX}))?", direct),
+    ("clear cleared", "hold_at",
+     rf"clear(?:ed)? to (?P<fix>{FIX}) hold(?: {_COMPASS})?{_TURNS}", hold_at),
+    ("hold holding", "hold_at",
+     rf"hold(?:ing)?(?: {_COMPASS}(?: of)?| at| over) (?P<fix>(?!position|short|for){FIX}){_TURNS}",
+     hold_at),
+    ("proceed proceeding", "direct", rf"proceed(?:ing)? direct(?: to)?(?: (?P<fix>{FIX}))?",
+     direct),
+    ("maintain maintaining fly flying continue present runway", "heading",
+     r"(?:(?:maintain|fly)(?:ing)? |continue )?(?P<kept>runway|present) heading", heading),
+    ("turn turning", "turn_by",
+     r"turn(?:ing)? (?P<degrees>[0-9]{1,3}) degrees (?:to the )?(?P<turn>left|right)", turn_by),
+    ("turn turning", "turn_by",
+     r"turn(?:ing)? (?P<turn>left|right) (?P<degrees>[0-9]{1,2}) degrees", turn_by),
+    (" ".join(str(degrees) for degrees in range(5, 185, 5)), "turn_by",
+     r"(?P<degrees>[0-9]{1,3}) degrees (?P<turn>left|right)(?! (?:of|for)(?!\S))", turn_by),
+    ("turn turning", "direct",
+     rf"turn(?:ing)? (?P<turn>left|right) {_DIRECT} (?P<fix>{FIX})", direct),
+    ("turn turning", "heading",
+     rf"turn(?:ing)? (?P<turn>left|right)(?! base| downwind| final| crosswind)"
+     rf"(?: now| immediately)?(?: to)?(?: heading)?(?: {_HEADING})?", heading),
+    ("left right", "heading", rf"(?P<turn>left|right)(?: to)? heading {_HEADING}", heading),
+    ("left right", "heading",
+     r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )"
+     rf"(?P<turn>left|right) (?P<bare>){_HEADING}", heading),
+    ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
+    ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),
+    ("heading", "heading", rf"heading {_HEADING}", heading),
+    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own navigation", alone),
+    ("direct", "direct", rf"direct(?: to)?(?: (?P<fix>{FIX}))?", direct),
+    ("intercept", "heading", r"intercept", nothing),
+)  # fmt: skip
+"""Forms of headings, directs and holds."""

@@ -1,0 +1,43 @@
+"""Numbers that were said one after the other, and that a transcript without commas joins."""
+
+from __future__ import annotations
+
+from airhilt.phraseology.slots import SHORTENED
+from airhilt.phraseology.words import Words
+
+DIGITS = {"level": 3, "heading": 3, "squawk": 4, "altimeter": 4, "qnh": 4, "h": 4}
+"""Number of digits after a word; "h" ends a spelled QNH."""
+LEAST_REST = 2
+"""Least number of digits of the second number: a single one may be a slip."""
+
+
+def split_numbers(words: Words) -> Words:
+    """Return words in which a number with more digits than its word allows is two numbers.
+
+    ``level 34010 minutes`` is ``level 340 10 minutes``. The confidence in the first is low, because
+    nobody knows where it ends.
+    """
+    texts = words.texts
+    if DIGITS.keys().isdisjoint(texts) or not any(
+        _rest_of(texts, index) for index in range(1, len(texts))
+    ):
+        return words
+    split = Words()
+    for index, text in enumerate(texts):
+        size = _rest_of(texts, index) if index else 0
+        if size:
+            split.add(text[:size], words.confidences[index] * SHORTENED)
+            text = text[size:]
+        split.add(text, words.confidences[index])
+    return split
+
+
+def _rest_of(texts: list[str], index: int) -> int:
+    """Return the number of digits before the second number; 0 if there is none."""
+    size = DIGITS.get(texts[index - 1], 0)
+    text = texts[index]
+    if not size or not text.isdigit():
+        return 0
+    if size == 4 and text[0] == "9":  # A QNH below 1000 hPa.
+        size = 3 if texts[index - 1] in ("qnh", "h") else size
+    return size if len(text) >= size + LEAST_REST else 0

@@ -1,0 +1,125 @@
+"""Forms of actions on runways (FAA Order JO 7110.65, 3-8 to 3-10; ICAO Doc 4444, 12.3.4)."""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.forms import (
+    NO_RUNWAY,
+    UNIT,
+    Listed,
+    Read,
+    Segment,
+    alone,
+    is_next_runway,
+    on_runway,
+)
+from airhilt.phraseology.slots import RUNWAY, TAXIWAY, designator, runway_confidence, taxiway
+
+ANIMALS = (
+    "deer", "coyote", "fox", "dog", "animal", "wildlife", "geese", "goose", "gull", "gulls",
+    "bird", "birds", "flock",
+)  # fmt: skip
+PLACES = (
+    "park", "valley", "creek", "lake", "river", "island", "hill", "hills", "city", "point",
+    "mountain", "run", "springs", "bay", "harbor", "harbour", "woods", "pass", "field",
+)  # fmt: skip
+"""Words after an animal in the name of a place: Deer Park."""
+_POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
+
+
+def go_around(segment: Segment, action: Action) -> Read | None:
+    """Read an action whose runway is named right after it, if at all."""
+    beside = (
+        None if is_next_runway(segment) else re.match(rf" (?:on )?runway {RUNWAY}", segment.after)
+    )
+    runway = designator(*beside.groups()) if beside else None
+    end = segment.found.end() + (beside.end() if beside else 0)
+    confidence = runway_confidence(beside[1]) if beside else 1.0
+    return Read(Instruction(action, runway, confidence=confidence), segment.start, end)
+
+
+def continue_approach(segment: Segment, action: Action) -> Read | None:
+    """Read "continue approach", whose runway is named before or after it, if at all."""
+    read = on_runway(segment, action)
+    if read is None:
+        return None
+    told = read.instruction
+    confidence = told.confidence if told.runway else 1.0
+    return Read(Instruction(action, told.runway, confidence=confidence), read.start, read.end)
+
+
+def continues(segment: Segment, action: Action) -> Read | None:
+    """Read "continue" beside a runway, which is the approach to it."""
+    read = continue_approach(segment, action)
+    return read if read and read.instruction.runway else None
+
+
+def hold_short(segment: Segment, action: Action) -> Read | None:
+    """Read the runway or the taxiway to hold short of."""
+    point = _POINT.match(segment.after)
+    if point is None:
+        return on_runway(segment, action)
+    held = Instruction(action, hold_short=taxiway(point[1]))
+    return Read(held, segment.start, segment.found.end() + point.end())
+
+
+def wildlife(segment: Segment, action: Action) -> Read | None:
+    """Read a report of wildlife, which counts even without a place."""
+    read = on_runway(segment, action)
+    if read is None:
+        return Read(Instruction(action, confidence=NO_RUNWAY), segment.start, segment.found.end())
+    told = read.instruction
+    confidence = 1.0 if told.runway is None else told.confidence
+    return Read(Instruction(action, told.runway, told.position, confidence=confidence), *read[1:3])
+
+
+_CLEAR = r"clear(?:ed)?"
+_NAMED = r"runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?"
+_INSIDE = rf"(?:{_NAMED} )?"
+_ANIMAL = "|".join(ANIMALS)
+_PLACE = "|".join(PLACES)
+
+FORMS: Listed = (
+    ("clear cleared", "touch_and_go", rf"{_CLEAR} (?:for )?(?:a |the )?touch and go", on_runway),
+    ("clear cleared", "stop_and_go", rf"{_CLEAR} (?:for )?(?:a |the )?stop and go", on_runway),
+    ("clear cleared", "cleared_option", rf"{_CLEAR} (?:for )?(?:the )?option", on_runway),
+    ("clear cleared", "low_approach", rf"{_CLEAR} (?:for )?(?:a |the )?low approach", on_runway),
+    ("clear cleared", "cleared_for_takeoff",
+     rf"{_CLEAR} (?:(?:for|to) )?{_INSIDE}(?:for )?(?:an |the )?(?:immediate )?takeoff",
+     on_runway),
+    ("clear cleared", "cleared_for_takeoff", rf"{_CLEAR} to go(?! (?:around|direct|to))",
+     on_runway),
+    ("clear cleared", "cleared_to_land", rf"{_CLEAR} {_INSIDE}(?:(?:to )?land|for landing)",
+     on_runway),
+    ("clear cleared", "cross", rf"{_CLEAR} across(?= runway| [0-9])", on_runway),
+    ("line lining", "line_up",
+     rf"(?<!the )(?<! a )(?:line|lining) up(?: and wait(?:ing)?)?(?! (?:{UNIT})(?!\S))", on_runway),
+    ("position", "line_up", r"position and hold", on_runway),
+    ("taxi", "line_up", r"taxi into position and hold", on_runway),
+    ("hold holding", "hold_short", r"hold(?:ing)? short(?: of)?", hold_short),
+    ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
+    ("holding", "hold_position", r"holding(?= \||$)", alone),
+    ("hold holding", "hold_position", r"hold(?:ing)? (?:your |my |present )?position", alone),
+    ("cross crossing", "cross", r"cross(?:ing)?(?= runway| [0-9])", on_runway),
+    ("cancel cancelling abort aborting reject rejecting abandon abandoning", "cancel_takeoff",
+     r"(?:cancel|abort|reject|abandon)(?:ling|ing)? (?:your |the |my )?takeoff(?: clearance)?",
+     alone),
+    ("takeoff", "cancel_takeoff", r"takeoff(?: clearance)? (?:is |has been )?cancelled", alone),
+    ("cancel cancelling", "cancel_landing",
+     r"cancel(?:ling)? (?:your |the |my )?landing(?: clearance)?", alone),
+    ("landing", "cancel_landing", r"landing clearance (?:is |has been )?cancelled", alone),
+    ("go going", "go_around", r"go(?:ing)? around", go_around),
+    ("continue continuing", "continue_approach", r"continu(?:e|ing) (?:the |your )?approach",
+     continue_approach),
+    ("continue", "continue_approach",
+     r"continue(?= runway|$| \|| traffic| expect| number| wind)", continues),
+    ("backtrack backtracking", "backtrack", r"backtrack(?:ing)?", on_runway),
+    ("back", "backtrack", r"back taxi(?:ing)?", on_runway),
+    (" ".join(ANIMALS), "wildlife_gone",
+     rf"(?:{_ANIMAL})(?!\S)(?: \S+)*? (?:(?:has|have) left|gone|(?:is|are) clear)", wildlife),
+    (" ".join(ANIMALS), "wildlife",
+     rf"(?:{_ANIMAL})(?!\S)(?! (?:strike|{_PLACE})(?!\S))(?: (?:\S+ )*(?:{_ANIMAL}))?", wildlife),
+)  # fmt: skip
+"""Forms of actions on runways, and of animals on them."""

@@ -1,0 +1,188 @@
+"""The actions in the words of a call, and the words between them about others and of conditions."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
+from airhilt.phraseology.denials import NAME
+from airhilt.phraseology.forms import Form
+from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, TAXIWAY
+from airhilt.phraseology.surveillance import FREQUENCY_FORM
+
+CONDITIONS = frozenset(
+    {"behind", "after", "when", "until", "before", "once", "if", "unless", "upon"}
+)
+"""First words of a condition (ICAO Doc 4444, 12.2.7)."""
+LONGEST_CONDITION = 9
+"""Most words in a condition."""
+LONGEST_STATION = 6
+"""Most words from "contact" to the frequency."""
+RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
+_AHEAD = re.compile(rf"runway {RUNWAY}(?: at \S+)? $")
+_TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
+_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
+_VERB = (
+    r"(?: (?:climb|descend|turn|fly|reduce|increase|slow|contact|monitor|proceed|maintain|speed"
+    r"|hold|cleared|expedite|direct|cross|resume|squawk|heading)(?!\S))"
+)
+_MARKER = r"the (?:outer |middle |inner )?marker"
+_EVENTS = {
+    "at": rf"at (?:pilot discretion|{FIX}(?={_VERB}))",
+    "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
+    "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
+    "reaching": rf"reaching (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
+    "depart": rf"depart {FIX}(?= heading)",
+    "leave": rf"leave {FIX}(?= heading)",
+    "in": r"in the event of (?:a )?missed approach",
+    "when": r"when ready",
+}
+EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
+"""Patterns of conditions that end with their own words, by their first words."""
+MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
+
+
+class Found(NamedTuple):
+    """The words of an action."""
+
+    form: Form
+    match: re.Match[str]
+    first: int
+    """Index of its first word."""
+
+
+class Span(NamedTuple):
+    """Words about traffic, or a condition: no instruction."""
+
+    start: int
+    end: int
+    is_traffic: bool
+
+
+class Scan:
+    """Finds the actions of a call, and the spans of traffic and conditions, in their order."""
+
+    def __init__(self, texts: list[str], text: str, starts: list[int]) -> None:
+        self._texts = texts
+        self._text = text
+        self._starts = starts
+        self.found: list[Found] = []
+        self.spans: list[Span] = []
+        self._open_at: int | None = None
+        """Begin of the traffic or the condition that may still go on."""
+        self._begun = 0
+        """Index of its first word."""
+        self._is_traffic = False
+        free = 0
+        for index, word in enumerate(texts):
+            if starts[index] >= free:
+                free = max(free, self._take(index, word))
+        if self._open_at is not None:
+            self.spans.append(Span(self._open_at, len(text), self._is_traffic))
+
+    def _take(self, index: int, word: str) -> int:
+        """Take a word, and return the end of what begins with it."""
+        start = self._starts[index]
+        event = self._event_at(start, index, word) if word in EVENTS or word.isdigit() else None
+        if event is not None:
+            self._close(start)
+            self.spans.append(Span(start, event.end(), is_traffic=False))
+            return event.end()
+        if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
+            self._open(start, index, is_traffic=True)
+            return 0
+        if word in CONDITIONS and (self._open_at is None or self._is_traffic):
+            self._close(start)
+            self._open(start, index, is_traffic=False)
+            return 0
+        self._close_at(word, start, index)
+        each = _action_at(self._text, start, index, word)
+        if each is None or (self.found and _belongs_to(self.found[-1], each)):
+            return 0
+        return self._take_action(each, word)
+
+    def _take_action(self, each: Found, word: str) -> int:
+        start, index = each.match.start(), each.first
+        if self._open_at is not None:
+            if word.endswith("ing") and index - self._begun <= LONGEST_CONDITION:
+                return each.match.end()
+            if self._texts[index - 1] in CONDITIONS:
+                return 0
+            end = start
+            if self._is_traffic:
+                ahead = _AHEAD.search(self._text[self._open_at : start])
+                is_said = RUNWAY_NEXT.match(self._text, each.match.end())
+                end = self._open_at + ahead.start() if ahead and not is_said else start
+            self._close(end)
+        self.found.append(each)
+        return each.match.end()
+
+    def _event_at(self, start: int, index: int, word: str) -> re.Match[str] | None:
+        """Return the condition that begins with a word and ends with its own words."""
+        if self._open_at is not None and not self._is_traffic:
+            return None
+        if word[0].isdigit():
+            return MILES_BEFORE.match(self._text, start) if word.isdigit() else None
+        pattern = EVENTS.get(word)
+        event = pattern.match(self._text, start) if pattern else None
+        if event is None or word != "at":
+            return event
+        is_taxiway = LETTER_AT.match(event[0]) and self._texts[index - 1 : index] not in (
+            [],
+            [NAME],
+        )
+        return None if is_taxiway else event
+
+    def _open(self, start: int, index: int, *, is_traffic: bool) -> None:
+        self._open_at, self._begun, self._is_traffic = start, index, is_traffic
+
+    def _close(self, end: int) -> None:
+        if self._open_at is not None:
+            self.spans.append(Span(self._open_at, end, self._is_traffic))
+            self._open_at = None
+
+    def _close_at(self, word: str, start: int, index: int) -> None:
+        """Close what is open if it cannot go on with a word."""
+        if self._open_at is None:
+            return
+        if self._is_traffic:
+            if word == NAME:
+                self._close(start)
+            return
+        ends = word in (NAME, "runway") or index - self._begun >= LONGEST_CONDITION
+        if ends and not (word == "runway" and self._texts[index - 1] in ("crossing", "the", "of")):
+            self._close(start)
+
+
+LETTER_AT = re.compile(rf"at {TAXIWAY}(?!\S)")
+"""Pattern of a taxiway, which may also be a fix."""
+
+
+def _is_traffic(texts: list[str], index: int) -> bool:
+    """Return whether the word "traffic" here means aircraft, not a traffic circuit."""
+    return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
+        _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
+    )
+
+
+def _action_at(text: str, start: int, index: int, word: str) -> Found | None:
+    for form in FORMS.get(word, ()):
+        match = form.words.match(text, start)
+        if match:
+            return Found(form, match, index)
+    if word[0].isdigit():
+        for form in NUMBER_FORMS:
+            match = form.words.match(text, start)
+            if match:
+                return Found(form, match, index)
+    return None
+
+
+def _belongs_to(last: Found, each: Found) -> bool:
+    """Return whether a frequency is that of the station to contact."""
+    return (
+        each.form is FREQUENCY_FORM
+        and last.form.action in ("contact", "monitor")
+        and each.first - last.first <= LONGEST_STATION
+    )

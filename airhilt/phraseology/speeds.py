@@ -1,0 +1,96 @@
+"""Forms of speeds (FAA Order JO 7110.65, 5-7-2 to 5-7-4; ICAO Doc 4444, 12.4.1.6)."""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.forms import Form, Listed, Read, Segment, alone
+from airhilt.phraseology.slots import NO_SENSE, SHORTENED, speed_confidence
+from airhilt.phraseology.vertical import bound_after
+
+
+def speed(segment: Segment, action: Action) -> Read | None:
+    """Read a speed in knots; one in feet makes no sense."""
+    parts = segment.found.groupdict()
+    speed_kt = float(parts["number"])
+    bound, end, sure = bound_after(segment.text[: segment.limit], segment.found.end())
+    if parts.get("most"):
+        bound = "or_less"
+    confidence = NO_SENSE if parts.get("feet") else min(sure, speed_confidence(speed_kt))
+    read = Instruction(action, speed_kt=speed_kt, bound=bound, confidence=confidence)
+    return Read(read, segment.start, end)
+
+
+def bare_speed(segment: Segment, action: Action) -> Read | None:
+    """Read a speed without a verb."""
+    read = speed(segment, action)
+    if read is None:
+        return None
+    told = read.instruction
+    sure = min(told.confidence, SHORTENED)
+    told = Instruction(action, speed_kt=told.speed_kt, bound=told.bound, confidence=sure)
+    return read._replace(instruction=told)
+
+
+def named_speed(segment: Segment, action: Action) -> Read | None:
+    """Read a speed that has a name instead of a number."""
+    named = segment.found["named"]
+    return Read(Instruction(action, named=named), segment.start, segment.found.end())
+
+
+def resume(segment: Segment, action: Action) -> Read | None:
+    """Read the end of speed control."""
+    named = segment.found["named"] or "normal"
+    read = Instruction(action, named="normal" if named == "your" else named)
+    return Read(read, segment.start, segment.found.end())
+
+
+def mach(segment: Segment, action: Action) -> Read | None:
+    """Read a Mach number."""
+    digits = segment.found["digits"]
+    bound, end, sure = bound_after(segment.text[: segment.limit], segment.found.end())
+    value = float(f"0.{digits}")
+    confidence = sure if 0.5 <= value <= 0.95 else NO_SENSE
+    return Read(Instruction(action, mach=value, bound=bound, confidence=confidence),
+                segment.start, end)  # fmt: skip
+
+
+_NUMBER = (
+    r"(?P<number>[1-9][0-9]{2}|[6-9][0-9])(?!\S)(?! (?:thousand|degrees|miles?|decimal))"
+    r"(?: knots)?(?P<feet> feet)?"
+)
+_VERB = r"(?:(?:reduc|increas|slow)(?:e|ing)?|maintain(?:ing)?)"
+_NAMED = (
+    r"(?P<named>(?:(?:minimum|maximum|slowest|final) )?(?:minimum|maximum|slowest|final|approach"
+    r"|clean|forward|practical))"
+)
+
+FORMS: Listed = (
+    ("reduce reducing increase increasing slow slowing maintain maintaining", "mach",
+     rf"{_VERB}(?: speed)?(?: to)? mach (?:number )?(?:decimal )?(?P<digits>[0-9]{{2,3}})", mach),
+    ("mach", "mach", r"mach (?:number )?(?:decimal )?(?P<digits>[0-9]{2,3})", mach),
+    ("reduce reducing increase increasing slow slowing maintain maintaining", "speed",
+     rf"{_VERB}(?: your)?(?: speed)?(?: to)?(?: your)? {_NAMED}(?: speed)?", named_speed),
+    ("maintain maintaining", "speed",
+     r"maintain(?:ing)? (?:speed )?(?P<number>[1-9][0-9]{2}|[6-9][0-9])"
+     r"(?: knots| speed|(?= or (?:greater|less)))", speed),
+    ("maintain maintaining", "speed", rf"maintain(?:ing)? speed(?: at| of)? {_NUMBER}", speed),
+    ("maintain maintaining", "speed", r"maintain(?:ing)? (?P<number>[1-3][0-9]0)(?= until| \||$)",
+     bare_speed),
+    ("reduce reducing increase increasing slow slowing", "speed",
+     rf"(?:reduc|increas|slow)(?:e|ing)?(?: your)?(?: speed)?(?: down)?(?: to)? {_NUMBER}", speed),
+    ("do", "speed", rf"do not (?P<most>exceed)(?: speed)? {_NUMBER}", speed),
+    ("speed", "speed", rf"speed(?: to)? {_NUMBER}", speed),
+    ("resume", "resume_speed",
+     r"resume (?P<named>normal|published|your)?(?: )?speed(?: restrictions)?", resume),
+    ("no delete cancel", "no_speed_restrictions",
+     r"(?:no|delete|cancel)(?: a t c| atc)? speed (?:restrictions?|control)", alone),
+)  # fmt: skip
+"""Forms of speeds."""
+KNOTS_FORM = Form(
+    "speed",
+    re.compile(rf"(?<!at )(?<!of )(?<!wind ){_NUMBER.replace('(?: knots)?', ' knots')}(?!\S)"),
+    bare_speed,
+)
+"""Form of a speed without a verb."""

@@ -1,0 +1,149 @@
+"""Forms of frequencies, transponders and reports.
+
+FAA Order JO 7110.65, 2-1-17, 5-2, 5-3, 7-2; ICAO Doc 4444, 12.3.1.4, 12.4.3.
+"""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.forms import (
+    BARE_VALUE,
+    LONG_NAME,
+    NO_VALUE,
+    UNIT,
+    UNITS,
+    Form,
+    Listed,
+    Read,
+    Segment,
+    alone,
+    nothing,
+)
+from airhilt.phraseology.slots import (
+    FIX,
+    FIX_ENDS,
+    FREQUENCY,
+    GROUND_MHZ,
+    LEVEL_WORDS,
+    SHORT_FREQUENCY,
+    SHORTENED,
+    frequency_khz,
+)
+
+VFR_CODE = "1200"
+"""Code of flights under visual rules in the United States (FAA Order JO 7110.65, 5-2-7)."""
+_STATION = rf"(?: (?:[a-z]+ ){{0,3}}?(?:{UNIT})(?!\S))"
+
+
+def squawk(segment: Segment, action: Action) -> Read | None:
+    """Read a transponder code."""
+    parts = segment.found.groupdict()
+    code = parts.get("code") or VFR_CODE
+    if parts.get("thousands"):
+        code = f"{parts['thousands']}000"
+    return Read(Instruction(action, squawk=code), segment.start, segment.found.end())
+
+
+def contact(segment: Segment, action: Action) -> Read | None:
+    """Read a change of frequency: its station, its frequency, or both."""
+    station = segment.found["station"]
+    station = station.strip() if station else None
+    after = segment.after
+    full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
+    short = SHORT_FREQUENCY.search(after) if station and "ground" in station else None
+    khz, confidence, found = None, NO_VALUE, None
+    if full:
+        khz, confidence, found = frequency_khz(full[1], full[2]), 1.0, full
+    elif short:
+        khz, confidence, found = frequency_khz(GROUND_MHZ, short[1]), BARE_VALUE, short
+    elif joined:
+        khz, confidence, found = frequency_khz(joined[1], joined[2]), BARE_VALUE, joined
+    if station is None and khz is None:
+        return None
+    read = Instruction(
+        action,
+        position=station,
+        frequency_khz=khz,
+        confidence=confidence if khz else NO_VALUE,
+    )
+    end = found.end() if found else 0
+    return Read(read, segment.start, segment.found.end() + end)
+
+
+_ON_JOINED = re.compile(r" (?:on |at |frequency )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
+
+
+def frequency(segment: Segment, action: Action) -> Read | None:
+    """Read a frequency that is given or read back, alone or after its station."""
+    khz = frequency_khz(segment.found[1], segment.found[2])
+    if khz is None:
+        return None
+    station = re.search(rf"(?<!\S)(?:[a-z]+ )?(?:{UNIT})(?: on| frequency)?$", segment.before)
+    name = re.sub(r" (?:on|frequency)$", "", station[0]) if station else None
+    read = Instruction(action, position=name, frequency_khz=khz, confidence=BARE_VALUE)
+    return Read(read, segment.begin + station.start() if station else segment.start,
+                segment.found.end())  # fmt: skip
+
+
+def station_frequency(segment: Segment, action: Action) -> Read | None:
+    """Read a station with its frequency, whose decimal point was not said."""
+    found = segment.found
+    mhz, fraction = (GROUND_MHZ, found["fraction"]) if found["fraction"] else found.group(2, 3)
+    khz = frequency_khz(mhz, fraction)
+    if khz is None:
+        return None
+    confidence = BARE_VALUE if found["fraction"] or found["unit"] == "frequency" else SHORTENED
+    read = Instruction(action, position=found["unit"], frequency_khz=khz, confidence=confidence)
+    return Read(read, segment.start, found.end())
+
+
+def report(segment: Segment, action: Action) -> Read | None:
+    """Read what is to be reported, in words."""
+    event = segment.found["event"]
+    what = (event or segment.found["other"]).replace("_", " ").strip()
+    read = Instruction(action, position=what, confidence=1.0 if event else LONG_NAME)
+    return Read(read, segment.start, segment.found.end())
+
+
+_NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
+_EVENT = (
+    rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s))?"
+    rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it) in sight|in sight"
+    rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
+    rf"(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|runway vacated"
+    rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
+    rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
+)
+_OTHER = rf"(?:(?!{FIX_ENDS}(?!\S)|\|)[a-z]+(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
+
+FORMS: Listed = (
+    ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<code>[0-7]{4})", squawk),
+    ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<thousands>[0-7]) thousand", squawk),
+    ("squawk squawking", "squawk", r"squawk(?:ing)? (?:v f r|vfr)", squawk),
+    ("squawk squawking", "ident", r"squawk(?:ing)? ident", alone),
+    ("squawk", "squawk", r"squawk(?: (?:standby|stand by|altitude|charlie|low|normal|mayday))?",
+     nothing),
+    ("ident", "ident", r"ident", alone),
+    ("stop", "squawk", r"stop squawk", nothing),
+    ("contact contacting call", "contact", rf"(?:contact(?:ing)?|call)(?P<station>{_STATION})?",
+     contact),
+    ("over switch switching change changing", "contact",
+     rf"(?:over|switch(?:ing)?|chang(?:e|ing))(?: over)?(?: to)?(?: my| frequency)*"
+     rf"(?P<station>{_STATION})?", contact),
+    ("monitor monitoring", "monitor", rf"monitor(?:ing)?(?P<station>{_STATION})?", contact),
+    (" ".join((*UNITS, "frequency")), "contact",
+     rf"(?P<unit>{UNIT}|frequency)(?: frequency| on| is)* "
+     r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3}))",
+     station_frequency),
+    ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
+    ("maintain", "visual_separation", r"maintain (?:visual|your own|own) separation", alone),
+    ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
+    ("report", "report",
+     rf"(?<!wildlife )(?<!pilot )(?<!bird )(?<!weather )report (?:(?P<event>{_EVENT})"
+     rf"|(?P<other>{_OTHER}))", report),
+)  # fmt: skip
+"""Forms of frequencies, transponders and reports."""
+FREQUENCY_FORM = Form("contact", FREQUENCY, frequency)
+"""Form of a frequency without an action."""
