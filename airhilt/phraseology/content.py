@@ -7,12 +7,13 @@ from dataclasses import dataclass, field, fields, replace
 from itertools import accumulate
 
 from airhilt.phraseology.bare_values import bare_values
-from airhilt.phraseology.call import Instruction
+from airhilt.phraseology.call import CLEARANCES, Instruction
 from airhilt.phraseology.conditions import Reads, attach, merge_levels, put_in_order, withdraw
 from airhilt.phraseology.denials import NAME, is_meant
-from airhilt.phraseology.forms import Segment
+from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.scan import Found, Scan, Span
-from airhilt.phraseology.slots import PRESSURE
+from airhilt.phraseology.slots import PRESSURE, SHORTENED
+from airhilt.phraseology.vocabulary import has_unknown_side
 from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
@@ -62,12 +63,21 @@ def content_of(words: Words) -> Content:
         behind = words.confidences[after_action : bisect_right(starts, read.end - 1)]
         heard = min(action, default=1.0), min([*before, *behind], default=1.0)
         for told in (read.instruction, *read.more):
+            if _is_doubtful(told, plain, read, texts[max(each.first - 1, 0)]):
+                told = replace(told, confidence=min(told.confidence, SHORTENED))
             instruction = told if heard == CLEAR else _heard(told, *heard)
             if read.is_expected:
                 content.expected.append(instruction)
             else:
                 _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
     return content
+
+
+def _is_doubtful(told: Instruction, text: str, read: Read, before: str) -> bool:
+    """Return whether a side of a runway, or the "are" of a question, may have been lost."""
+    if told.runway is not None and has_unknown_side(text, read.start, read.end):
+        return True
+    return told.action in CLEARANCES and before in ("we", "i")
 
 
 def _heard(told: Instruction, action: float, details: float) -> Instruction:

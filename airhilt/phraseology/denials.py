@@ -32,7 +32,8 @@ OTHERS = frozenset({"is", "was", "were", "are", "be", "has", "have", "been"})
 SOMEBODY = frozenset(
     {"aircraft", "airplane", "aeroplane", "jet", "helicopter", "vehicle", "vehicles", "truck",
      "car", "tug", "somebody", "someone", "company", "boeing", "airbus", "cessna", "piper",
-     "citation", "learjet", "gulfstream", "embraer", "bombardier", "heavy", "he", "she", "they"}
+     "citation", "learjet", "gulfstream", "embraer", "bombardier", "heavy", "he", "she", "they",
+     "passes", "passed"}
 )  # fmt: skip
 """Words right before the clearance of another: "vehicle crossing runway 01"."""
 SPOKEN_OF = frozenset({"follow", "following", "behind", "after", "traffic", "number"})

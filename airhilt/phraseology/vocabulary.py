@@ -1,0 +1,48 @@
+"""The words of the grammar, and runways that a word unknown to it follows."""
+
+from __future__ import annotations
+
+import re
+
+from airhilt.phraseology import denials
+from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
+from airhilt.phraseology.alphabet import LETTERS
+from airhilt.phraseology.numbers import DIGITS, TEENS, TENS
+from airhilt.phraseology.scan import CONDITIONS, EVENTS
+from airhilt.phraseology.slots import FIX_ENDS, RUNWAY
+from airhilt.phraseology.words import UNITS
+
+COURTESIES = frozenset(
+    {"thanks", "thank", "you", "sir", "madam", "please", "bye", "good", "day", "morning",
+     "afternoon", "evening", "night", "i", "my", "affirm", "wilco", "roger"}
+)  # fmt: skip
+"""Words beside the phraseology that may follow anything."""
+_PATTERNS = [
+    *(form.words.pattern for forms in FORMS.values() for form in forms),
+    *(form.words.pattern for form in NUMBER_FORMS),
+    *(event.pattern for event in EVENTS.values()),
+    FIX_ENDS,
+]
+WORDS = frozenset(
+    {*re.findall(r"[a-z]+", " ".join(_PATTERNS)), *LETTERS, *DIGITS, *TEENS, *TENS, *UNITS,
+     *CONDITIONS, *COURTESIES, *denials.DENIALS, *denials.OPEN, *denials.SOMEBODY,
+     *denials.OTHERS, *denials.BETWEEN, *denials.SPOKEN_OF, *denials.AFTERWARDS, "departing",
+     "winds", "surface"}
+)  # fmt: skip
+"""Words that the grammar knows."""
+_APART = re.compile(r"(?:(?<= and)|(?<= the)) (?:left|right|centre)(?! (?:heading|turn|[0-9])|\S)")
+"""Pattern of a side that one small word separates from its runway."""
+_RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY} (?P<next>[a-z]+)")
+
+
+def has_unknown_side(text: str, start: int, end: int) -> bool:
+    """Return whether a runway among some words has no side, and a word after it is unknown.
+
+    That word may be the side, misheard: "runway 15 rime" may have been "runway 15 right".
+    """
+    for found in _RUNWAY.finditer(text, start):
+        if found.start() >= end:
+            return False
+        if found[2] is None and (found["next"] not in WORDS or _APART.match(text, found.end())):
+            return True
+    return False
