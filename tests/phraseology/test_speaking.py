@@ -127,7 +127,7 @@ channels = st.integers(4720, 5479).map(lambda n: n * 25) | st.sampled_from(
     [118_005, 118_010, 132_515]
 )
 bounds = st.sampled_from([None, "or_more", "or_less"])
-fixes = st.sampled_from(["dixie", "deer park", "clear lake", "cross city", "9 mile", "line creek"])
+fixes = st.sampled_from(["dixie", "deer park", "2 rivers", "cross city", "9 mile", "line creek"])
 stations = st.sampled_from(["tower", "ground", "washington centre", "potomac approach"])
 
 
