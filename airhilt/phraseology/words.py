@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.phraseology.alphabet import LETTER_VARIANTS
+from airhilt.phraseology.mending import mend_by_sound
 from airhilt.phraseology.numbers import DIGITS, SOUNDS, TEENS, TENS
 
 MENDED = 0.9
@@ -132,7 +133,9 @@ def words_of(text: str, confidences: Sequence[float] | None = None) -> Words:
     ValueError
         The number of confidences is not that of the words.
     """
-    return _join(_mend(_split(text, confidences)))
+    words = _join(_mend(_split(text, confidences)))
+    mend_by_sound(words.texts, words.confidences)
+    return words
 
 
 def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
