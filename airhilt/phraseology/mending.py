@@ -104,7 +104,7 @@ def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
     """Replace the words that fit as others that sound like them, in place."""
     for at, word in enumerate(texts):
         found = candidates(word)
-        if found and at > 0:
+        if found and at > 0 and not _is_operators(word, texts[at + 1 : at + 2]):
             before, after = " ".join(texts[max(at - 6, 0) : at]), " ".join(texts[at + 1 : at + 7])
             target = next((each for each in found if _fits(each, before, after)), None)
             if target is not None:
@@ -112,6 +112,11 @@ def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
                 confidences[at] *= FITTED
     if "cleared" in texts:
         _mend_ils(texts, confidences)
+
+
+def _is_operators(word: str, following: list[str]) -> bool:
+    """Return whether a word may end the name of an operator in a callsign."""
+    return word in _NAMES and bool(following) and following[0][0].isdigit()
 
 
 def _fits(target: str, before: str, after: str) -> bool:

@@ -104,3 +104,7 @@ def test_sound_alikes_never_make_a_clearance_that_was_not_given(
         for each in call.instructions
         if each.action in CLEARANCES and call.confidence >= TAU_ASR
     ]
+
+
+def test_the_name_of_an_operator_before_its_number_stays() -> None:
+    assert tokens("cargo king one zero zero, climb")[:3] == ["cargo", "king", "100"]
