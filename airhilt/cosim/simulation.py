@@ -7,6 +7,7 @@ Data flows one way: actors, sensors, workers, advisories, crews.
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
@@ -88,8 +89,22 @@ def run(
     KeyboardInterrupt
         Likewise.
     """
-    observer = observer or Observer()
-    options, recorded = options or Options(), recorded or Recorded()
+    given = options or Options(), observer or Observer(), recorded or Recorded()
+    try:
+        return _run(scenario, *given, workers, keeper)
+    finally:
+        if scenario.cameras:
+            gc.collect()  # Callbacks of a run and the run refer to each other; they hold pictures.
+
+
+def _run(
+    scenario: Scenario,
+    options: Options,
+    observer: Observer,
+    recorded: Recorded,
+    workers: Sequence[Worker],
+    keeper: RendererKeeper | None,
+) -> Result:
     with ExitStack() as stack:
         link = stack.enter_context(
             started_renderer(scenario, options, recorded, bool(workers), keeper)

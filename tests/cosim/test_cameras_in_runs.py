@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import signal
@@ -11,6 +12,7 @@ from typing import Any
 import pytest
 
 from airhilt import load
+from airhilt.assistant.vision.kept_pixels import KeptPixels
 from airhilt.cosim import cameras as vision
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
@@ -20,6 +22,7 @@ from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
 from airhilt.record import Logged, read_log
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.frame import Frame
 from airhilt.units import SECOND_NS
 
 SEEN = Options(renderer="embree", speech=False, latency="fixed")
@@ -72,6 +75,18 @@ def test_each_picture_is_looked_at_and_told_as_late_as_the_detector_is(
     assert {(each.camera, each.seq) for each in seen} <= {(f.camera, f.seq) for f in frames}
     assert len(seen) > 25
     assert states_of_vision(log) == [("on", "")]
+
+
+def test_a_run_leaves_no_picture_in_memory(short: Scenario, tmp_path: Path) -> None:
+    brief = short.model_copy(update={"duration_s": 0.5})
+    gc.collect()
+    gc.disable()
+    try:
+        log_of(brief, tmp_path / "run")
+        left = [each for each in gc.get_objects() if isinstance(each, Frame | KeptPixels)]
+    finally:
+        gc.enable()
+    assert not left
 
 
 def test_nobody_is_seen_in_the_fog_that_is_asked_for_and_a_replay_has_it(
