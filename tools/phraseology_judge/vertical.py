@@ -91,9 +91,12 @@ def expected_level(s: Scene) -> Exchange:
     minutes = s.say.count(s.pick(5, 10))
     when = s.pick("ten minutes after departure", f"in {minutes} minutes", f"at {s.fix()}", "")
     verb = s.pick("climb to ", "descent to ", "")
-    item = Item("altitude", value, unit, "expected", begins=when or None)
+    manner = {"climb to ": "climb", "descent to ": "descend"}.get(verb)
+    item = Item("altitude", value, unit, "expected", manner, when or None)
+    bare = Item("altitude", value, unit, "expected", begins=when or None)
     text = f"expect {verb}{words} {when}".strip()
-    return exchange(s.source("4-3-2", "12.3.1.2"), text, item, text, f"we'll expect {words}")
+    short = (f"we'll expect {words}", bare)
+    return exchange(s.source("4-3-2", "12.3.1.2"), text, item, text, short)
 
 
 def crossing(s: Scene) -> Exchange:
