@@ -7,7 +7,7 @@ import re
 from airhilt.phraseology.alphabet import LETTER_OF, LETTERS
 from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.forms import BARE_VALUE, Listed, Read, Segment, alone, on_runway
-from airhilt.phraseology.slots import NAMED_RUNWAY, RUNWAY, designator, runway_confidence
+from airhilt.phraseology.slots import NAMED_RUNWAY, RUNWAY, SHORTENED, designator, runway_confidence
 
 KINDS: dict[str, str] = {
     "i l s": "ils", "ils": "ils", "visual": "visual", "r nav": "rnav", "rnav": "rnav",
@@ -57,6 +57,8 @@ def _named(found: re.Match[str], runway: str | None, confidence: float) -> Instr
     if parts.get("back"):
         kind = "localizer back course"
     letter = LETTER_OF.get(variant, variant.upper()) if variant else None
+    if kind is None:
+        confidence = min(confidence, SHORTENED)
     return Instruction(
         "cleared_approach", runway, approach=kind, variant=letter, confidence=confidence
     )
@@ -78,7 +80,7 @@ FORMS: Listed = (
      r"cancel(?:ling)? (?:your |the )?approach(?: clearance)?",
      alone),
     ("approach", "cancel_approach", r"approach clearance (?:is )?cancelled", alone),
-    ("missed", "missed_approach", r"missed approach", alone),
+    ("missed", "missed_approach", r"(?<!of )(?<!of a )missed approach", alone),
     ("execute executing", "missed_approach", r"execut(?:e|ing) (?:the )?missed(?: approach)?",
      alone),
     ("on", "missed_approach", r"on the missed", alone),

@@ -151,8 +151,9 @@ class Call:
 
     @property
     def altitude(self) -> Instruction | None:
-        """First instruction to climb, to descend or to maintain a level."""
-        return next((each for each in self.instructions if each.action == "altitude"), None)
+        """First instruction to climb, to descend or to maintain a level that is in effect now."""
+        now = (each for each in self.instructions if not each.is_conditional)
+        return next((each for each in now if each.action == "altitude"), None)
 
     @property
     def sense(self) -> Sense | None:

@@ -23,7 +23,7 @@ _FOLLOWING = re.compile(
 )
 """Conditions that belong to the action right before them if there is one."""
 _FILED = frozenset({"airport", "filed"})
-_AS_FILED = re.compile(r"(?<!\S)cleared to .*(?<!\S)(?:airport|as filed)(?!\S)")
+_AS_FILED = re.compile(r"(?<!\S)(?:as filed|cleared to .* airport)(?!\S)")
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
 AIRBORNE = "when airborne"
 DEPARTED = "after departure"
@@ -45,7 +45,7 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
         if kind == "until":
             if before and " " in words:
                 _set(reads, before[-1], until=words)
-        elif kind in ("if", "in") and len(words.split()) > 2:
+        elif kind in ("if", "event") and len(words.split()) > 2:
             for index in after or before[-1:]:
                 _set(reads, index, condition=words)
         elif before and _is_of_expected(reads[before[-1]][0], text, span):

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, fields, replace
 from itertools import accumulate
 
 from airhilt.phraseology.bare_values import bare_values
-from airhilt.phraseology.call import CLEARANCES, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
 from airhilt.phraseology.conditions import Reads, attach, merge_levels, put_in_order, withdraw
 from airhilt.phraseology.denials import NAME, is_meant
 from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import PRESSURE, SHORTENED
-from airhilt.phraseology.vocabulary import has_unknown_side
+from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
@@ -63,7 +63,7 @@ def content_of(words: Words) -> Content:
         behind = words.confidences[after_action : bisect_right(starts, read.end - 1)]
         heard = min(action, default=1.0), min([*before, *behind], default=1.0)
         for told in (read.instruction, *read.more):
-            if _is_doubtful(told, plain, read, texts[max(each.first - 1, 0)]):
+            if _is_doubtful(told, plain, read, each):
                 told = replace(told, confidence=min(told.confidence, SHORTENED))
             instruction = told if heard == CLEAR else _heard(told, *heard)
             if read.is_expected:
@@ -73,11 +73,20 @@ def content_of(words: Words) -> Content:
     return content
 
 
-def _is_doubtful(told: Instruction, text: str, read: Read, before: str) -> bool:
-    """Return whether a side of a runway, or the "are" of a question, may have been lost."""
+def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
+    """Return whether words may be missing that change what an instruction means.
+
+    They are the side of a runway, the "are" of a question, and a condition of which one unknown
+    word is left: "super able climb" may have been "when able climb".
+    """
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
-    return told.action in CLEARANCES and before in ("we", "i")
+    before = text[: min(read.start, each.match.start())].split()[-2:]
+    if not before or told.action in REPORTS:
+        return False
+    if told.action in CLEARANCES and before[-1] in ("we", "i"):
+        return True
+    return is_unknown(before[-1]) or (before[-1] == "and" and is_unknown(before[0]))
 
 
 def _heard(told: Instruction, action: float, details: float) -> Instruction:

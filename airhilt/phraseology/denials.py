@@ -16,8 +16,7 @@ OPEN = frozenset(
      "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
      "confirm", "confirming", "verify", "except", "like", "want", "possible", "possibly",
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
-     "need", "intend", "planning", "chance", "assigned", "ready",
-     "expects"}
+     "need", "intend", "planning", "chance", "assigned", "expects"}
 )  # fmt: skip
 """Words before an action that is asked for, asked about, or only expected."""
 ASKED = frozenset(
@@ -114,6 +113,8 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
         last == "negative"
         or (last in SOMEBODY and first > floor and not SPOKEN_OF.intersection(words[floor:first]))
         or last == "to"
+        or last == "ready"
+        or (before[:1] == ("ready",) and last.isdigit())
         or (is_cleared and last in OTHERS and before not in OWN)
         or is_cancelled
         or (AFTERWARDS.intersection(ends[:1]) and ends[1:] != ["contact"])

@@ -49,7 +49,7 @@ def proceed(segment: Segment, action: Action) -> Read | None:
 def taxi(segment: Segment, action: Action) -> Read | None:
     """Read a taxi clearance: its runway or place, and its route."""
     after = segment.after
-    runway = re.match(rf"(?: to)?(?: the)?(?: holding (?:point|decimal))? runway {RUNWAY}", after)
+    runway = re.match(rf"(?: to)?(?: the)?(?: holding(?: point| decimal)?)? runway {RUNWAY}", after)
     via = _VIA.search(after)
     ahead = None if runway or via is None else runway_before(segment)
     point = re.match(rf" (?:to|at) (?:taxiway |holding (?:point|decimal) )?({TAXIWAY})", after)
@@ -61,8 +61,9 @@ def taxi(segment: Segment, action: Action) -> Read | None:
     is_read = bool(number or position or (via and not to.strip()))
     confidence = runway_confidence(number) if number else 1.0 if is_read else NO_VALUE
     is_lost = number is None and "runway" in segment.before.split()
-    if is_lost or (taken and _GOES_ON.match(after, taken) is None):
-        confidence = NO_VALUE  # There is a word that may be the rest of the route.
+    is_request = number is not None and via is None and not after.startswith(" to")
+    if is_lost or is_request or (taken and _GOES_ON.match(after, taken) is None):
+        confidence = NO_VALUE  # A word may be missing, or be the rest of the route.
     read = Instruction(
         action,
         designator(number, side) if number else None,
@@ -138,9 +139,11 @@ FORMS: Listed = (
      r"|and|with|hold|[0-9]+|\|)(?!\S)|$)",
      taxi),
     ("runway", "taxi",
-     rf"(?<!to )(?<!decimal )runway {RUNWAY} via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),
+     rf"(?<!to )(?<!taxi )(?<!decimal )runway {RUNWAY}"
+     rf" via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),
     ("stop", "stop",
-     r"stop(?! (?:on|at|squawk|over|and|turn|climb|descent|your)(?!\S))(?: immediately)?", alone),
+     r"(?<!cleared )stop(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading)(?!\S))"
+     r"(?: immediately)?", alone),
     ("stopping", "stop", r"stopping", alone),
     ("pushback push", "push_back", r"push(?:back)? (?:is )?approved", alone),
     ("startup start", "start_up", r"start(?:up)? (?:is )?approved", alone),

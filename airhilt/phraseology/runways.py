@@ -46,7 +46,8 @@ def continue_approach(segment: Segment, action: Action) -> Read | None:
     if read is None:
         return None
     told = read.instruction
-    confidence = told.confidence if told.runway else 1.0
+    is_lost = told.runway is None and "runway" in segment.before.split()
+    confidence = told.confidence if told.runway else NO_RUNWAY if is_lost else 1.0
     return Read(Instruction(action, told.runway, confidence=confidence), read.start, read.end)
 
 

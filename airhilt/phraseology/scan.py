@@ -35,7 +35,7 @@ _EVENTS = {
     "reaching": rf"reaching (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
     "depart": rf"depart {FIX}(?= heading)",
     "leave": rf"leave {FIX}(?= heading)",
-    "in": r"in the event of (?:a )?missed approach",
+    "event": rf"event of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
     "when": r"when ready",
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}

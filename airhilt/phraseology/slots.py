@@ -47,7 +47,7 @@ NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
 
 _LETTER = "|".join(LETTERS)
 TAXIWAY = rf"(?:(?:{_LETTER}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
-_NO_RATE = r"(?!(?: feet)? (?:per minute|min)(?!\S))"
+_NO_RATE = r"(?!(?: [a-z]+)? (?:per minute|min)(?!\S))"
 _ANY_LEVEL = (
     r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"
     rf"|(?<!\S)([0-9]{{1,2}}) thousand(?: ([1-9])00)?(?!\S){_NO_RATE}(?: feet)?"
@@ -85,7 +85,7 @@ FIX_ENDS = (
     r"|negative|unable|intercept|join|continue|make|go|line|taxi|cancel|delete|amend|depart|leave"
     r"|in|position|flight|left turns|right turns|outbound|inbound|approach|approved|identified"
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
-    r"|number|squawking|below|above|remain|circle|change)"
+    r"|number|squawking|below|above|remain|circle|change|published|enter)"
 )
 """Words that end the name of a fix."""
 _NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"
@@ -96,6 +96,8 @@ FIX = (
     rf"(?: (?!{FIX_ENDS}(?!\S))[a-z]+(?!\S)){{0,2}})"
 )
 """Pattern of the name of a fix or navaid: one the caller knows, or up to three words."""
+DIGITS_GO_ON = re.compile(r" [a-z]+ [0-9]{1,2}(?!\S)")
+"""A word and digits after a frequency: one of its digits was not understood."""
 FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9]) decimal ([0-9]{1,3})(?!\S)")
 SHORT_FREQUENCY = re.compile(r"(?<!\S)(?:on )?decimal ([0-9]{1,3})(?!\S)")
 WIND = re.compile(

@@ -36,7 +36,9 @@ def bare_speed(segment: Segment, action: Action) -> Read | None:
 def named_speed(segment: Segment, action: Action) -> Read | None:
     """Read a speed that has a name instead of a number."""
     named = segment.found["named"]
-    return Read(Instruction(action, named=named), segment.start, segment.found.end())
+    confidence = 1.0 if " " in named else SHORTENED
+    read = Instruction(action, named=named, confidence=confidence)
+    return Read(read, segment.start, segment.found.end())
 
 
 def resume(segment: Segment, action: Action) -> Read | None:

@@ -22,6 +22,7 @@ from airhilt.phraseology.forms import (
     nothing,
 )
 from airhilt.phraseology.slots import (
+    DIGITS_GO_ON,
     FIX,
     FIX_ENDS,
     FREQUENCY,
@@ -55,7 +56,9 @@ def contact(segment: Segment, action: Action) -> Read | None:
     short = SHORT_FREQUENCY.search(after) if station and "ground" in station else None
     khz, confidence, found = None, NO_VALUE, None
     if full:
-        khz, confidence, found = frequency_khz(full[1], full[2]), 1.0, full
+        is_cut = DIGITS_GO_ON.match(after, full.end())
+        confidence = NO_VALUE if is_cut else 1.0
+        khz, found = frequency_khz(full[1], full[2]), full
     elif short:
         khz, confidence, found = frequency_khz(GROUND_MHZ, short[1]), BARE_VALUE, short
     elif joined:
@@ -82,7 +85,9 @@ def frequency(segment: Segment, action: Action) -> Read | None:
         return None
     station = re.search(rf"(?<!\S)(?:[a-z]+ )?(?:{UNIT})(?: on| frequency)?$", segment.before)
     name = re.sub(r" (?:on|frequency)$", "", station[0]) if station else None
-    read = Instruction(action, position=name, frequency_khz=khz, confidence=BARE_VALUE)
+    is_cut = DIGITS_GO_ON.match(segment.text, segment.found.end())
+    confidence = NO_VALUE if is_cut else BARE_VALUE
+    read = Instruction(action, position=name, frequency_khz=khz, confidence=confidence)
     return Read(read, segment.begin + station.start() if station else segment.start,
                 segment.found.end())  # fmt: skip
 

@@ -179,9 +179,11 @@ FORMS: Listed = (
      rf"descend(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:star|arrival)|(?= except| \||$))",
      via_procedure),
     ("climb climbing descend descending maintain", "altitude",
-     r"(?:climb|descend|maintain)(?:ing)?(?: to)?(?: and maintain)?(?: a)? block", nothing),
-    ("climb climbing descend descending", "altitude",
-     r"(?:climb|descend)(?:ing)?(?! rate)(?! via)(?: to)?(?: and maintain(?:ing)?| maintain)?"
+     r"(?:climb|descend|maintain)(?:ing)?(?: to)?(?: (?:and )?maintain(?:ing)?)?(?: a)? block",
+     nothing),
+    ("climb climbing climbed descend descending descended descent", "altitude",
+     r"(?:climb(?:ing|ed)?|descend(?:ing|ed)?|descent(?= and maintain| to))(?! rate)(?! via)"
+     r"(?: to)?(?: and maintain(?:ing)?| maintain)?"
      rf"{_OR}",
      altitude),
     ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)", altitude),

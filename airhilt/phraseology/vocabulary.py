@@ -14,7 +14,8 @@ from airhilt.phraseology.words import UNITS
 
 COURTESIES = frozenset(
     {"thanks", "thank", "you", "sir", "madam", "please", "bye", "good", "day", "morning",
-     "afternoon", "evening", "night", "i", "my", "affirm", "wilco", "roger"}
+     "afternoon", "evening", "night", "i", "my", "affirm", "wilco", "roger", "hello",
+     "hi", "sorry", "okay", "ok", "alright", "welcome", "well", "all"}
 )  # fmt: skip
 """Words beside the phraseology that may follow anything."""
 _PATTERNS = [
@@ -33,6 +34,11 @@ WORDS = frozenset(
 _APART = re.compile(r"(?:(?<= and)|(?<= the)) (?:left|right|centre)(?! (?:heading|turn|[0-9])|\S)")
 """Pattern of a side that one small word separates from its runway."""
 _RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY} (?P<next>[a-z]+)")
+
+
+def is_unknown(word: str) -> bool:
+    """Return whether a word is none of the grammar, the callsign or a number."""
+    return word.isalpha() and word not in WORDS
 
 
 def has_unknown_side(text: str, start: int, end: int) -> bool:

@@ -161,6 +161,9 @@ def _numbers(instruction: Instruction) -> tuple[float | None, ...]:
         instruction.altitude_ft,
         instruction.heading_deg,
         instruction.speed_kt,
+        instruction.mach,
+        instruction.rate_fpm,
+        instruction.turn_deg,
         instruction.frequency_khz,
     )
 
@@ -176,10 +179,12 @@ def commands_of(
     """Return the commands that instructions give, as far as there is a command for each.
 
     Instructions with a condition give none: their words do not say when it is met. A level that
-    comes with a takeoff or a go-around is the level that it climbs to.
+    comes with a takeoff or a go-around is the level that it climbs to. A level to cross a fix at,
+    or not to pass, is no level to fly to.
     """
-    now = [instruction for instruction in instructions if instruction.condition is None]
-    level_ft = next((one.altitude_ft for one in now if one.altitude_ft is not None), None)
+    now = [instruction for instruction in instructions if not instruction.is_conditional]
+    levels = (one for one in now if one.action == "altitude" and one.bound is None)
+    level_ft = next((one.altitude_ft for one in levels if one.altitude_ft is not None), None)
     climbs = [one for one in now if one.action in ("cleared_for_takeoff", "go_around")]
     found = [
         _command_of(instruction, bound_runway, level_ft)

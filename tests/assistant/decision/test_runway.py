@@ -617,6 +617,19 @@ def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdraw
     assert list(clearances.discrepancies(24 * SECOND_NS)) == []
 
 
+def test_what_is_said_besides_leaves_a_clearance_in_force() -> None:
+    clearances = Clearances(Guard())
+    heard("American one two three, runway one niner, cleared to land.", 0, 5, clearances)
+    heard("American one two three, ident, maintain visual separation.", 10, 13, clearances)
+    assert in_force(clearances, 14) == [("AAL123", "cleared_to_land", "19")]
+
+
+def test_a_clearance_to_be_expected_is_not_in_force() -> None:
+    clearances = Clearances(Guard())
+    heard("American one two three, expect departure runway one niner.", 0, 5, clearances)
+    assert in_force(clearances, 6) == []
+
+
 def test_a_readback_long_after_its_instruction_belongs_to_something_else() -> None:
     clearances = Clearances(Guard())
     heard(CLEARED[1], 0, 5, clearances)

@@ -206,3 +206,25 @@ def test_what_is_said_twice_is_done_once() -> None:
 def test_what_holds_on_a_condition_is_not_done_at_once() -> None:
     said = [Instruction("line_up", "01", condition="behind the landing cessna")]
     assert commands_of(said, None) == ()
+
+
+def test_what_holds_until_an_event_is_done_at_once() -> None:
+    (command,) = commands_of(
+        [Instruction("speed", speed_kt=180.0, until="until established")], None
+    )
+    assert (command.action, command.cas_kt) == ("speed", 180.0)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        Instruction("cross_fix", position="lander", altitude_ft=5000.0, speed_kt=250.0),
+        Instruction("altitude", sense="maintain", altitude_ft=5000.0, bound="or_less"),
+        Instruction("hold_at", position="deer park"),
+        Instruction("descend_via", position="hasty 2"),
+        Instruction("turn_by", turn="left", turn_deg=20.0),
+        Instruction("heading", heading_deg=270.0, condition="when airborne"),
+    ],
+)
+def test_what_has_no_command_is_not_done_as_another(said: Instruction) -> None:
+    assert commands_of([said], None) == ()
