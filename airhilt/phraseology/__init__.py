@@ -23,6 +23,8 @@ from airhilt.phraseology.call import (
 from airhilt.phraseology.callsigns import CallsignMatch, Candidate
 from airhilt.phraseology.numbers import DIGITS, Style
 from airhilt.phraseology.parse import parse_call
+from airhilt.phraseology.readbacks import ItemReadBack, compare_readback
+from airhilt.phraseology.speakers import Speaker, Spoken
 from airhilt.phraseology.telephony import AIRLINES, TELEPHONY, Airline
 from airhilt.phraseology.words import tokens
 
@@ -42,11 +44,15 @@ __all__ = [
     "CallsignMatch",
     "Candidate",
     "Instruction",
+    "ItemReadBack",
     "Kind",
     "Sense",
+    "Speaker",
+    "Spoken",
     "Style",
     "Turn",
     "Wind",
+    "compare_readback",
     "parse_call",
     "tokens",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from airhilt.phraseology.call import Instruction, Turn
-from airhilt.phraseology.denials import NAME
+from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.slots import LEVEL as _LEVEL
 from airhilt.phraseology.slots import (
     SHORTENED,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from airhilt.phraseology.callsigns import NOBODY, CallsignMatch
+from airhilt.phraseology.speakers import Spoken, speaker_of
 
 Action = Literal[
     "cleared_to_land", "cleared_for_takeoff", "line_up", "hold_short", "hold_position", "cross",
@@ -143,6 +144,13 @@ class Call:
     """Altimeter setting."""
     confidence: float = 0.0
     """Confidence in [0, 1] that all of it is right; see docs/phraseology.md."""
+    text: str = field(default="", compare=False)
+    """Its words, with ``|`` for its callsign."""
+
+    @property
+    def spoken(self) -> Spoken:
+        """Who speaks by the words, a pilot or a controller, and the confidence in that."""
+        return speaker_of(self.text)
 
     @property
     def callsign(self) -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -148,7 +149,10 @@ class Roster:
                 if word[0].isdigit() and at > start:
                     break
                 name += word
-                for signs, callsign, worth in self._named(name):
+                named: Sequence[tuple[str, str, float]] = self.by_name.get(name, ())
+                if name in MAKERS:
+                    named = (*named, *self.by_name.get(MAKER, ()))
+                for signs, callsign, worth in named:
                     hit = read(words, start, at + 1, signs, callsign, worth)
                     if hit:
                         hits.append(hit)
@@ -156,13 +160,6 @@ class Roster:
                         score = ONLY_NAME * (1.0 + similarity(words[at + 1], signs))
                         near.append(Hit(start, at + 2, min(score, 0.59), callsign))
         return hits, near
-
-    def _named(self, name: str) -> list[tuple[str, str, float]]:
-        """Return signs, callsign and score of the callsigns that begin with a name."""
-        named = self.by_name.get(name)
-        if name not in MAKERS:
-            return named or []
-        return [*(named or ()), *self.by_name.get(MAKER, ())]
 
 
 def _after_opening(words: list[str]) -> tuple[int, ...]:

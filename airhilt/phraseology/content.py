@@ -9,8 +9,9 @@ from itertools import accumulate
 from airhilt.phraseology.bare_values import bare_values
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
 from airhilt.phraseology.conditions import Reads, attach, merge_levels, put_in_order, withdraw
-from airhilt.phraseology.denials import NAME, is_meant
+from airhilt.phraseology.denials import is_meant
 from airhilt.phraseology.forms import Read, Segment
+from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
+from airhilt.phraseology.hits import NAME
 
-NAME = "|"
-"""Placeholder for the callsign of the call."""
 DENIALS = frozenset(
     {"no", "not", "never", "without", "unable", "neither", "nor", "cancelled", "refuse", "do",
      "cancel", "cancelling", "ignore"}

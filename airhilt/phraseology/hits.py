@@ -10,6 +10,8 @@ from airhilt.phraseology.numbers import SOUNDS
 from airhilt.phraseology.spoken_forms import ABBREVIATED
 from airhilt.phraseology.words import UNITS
 
+NAME = "|"
+"""Placeholder for the callsign of the call."""
 WAKE = frozenset({"heavy", "super"})
 """Words after the callsign of a large aircraft (ICAO Doc 4444, 4.9.2; FAA Order JO 7110.65,
 2-4-15)."""

@@ -67,15 +67,18 @@ FITS = (
 )
 """Places of words. A place names all other words of the phrase, so that no ordinary word becomes
 an instruction."""
-_FITS = tuple(
-    (
-        fit.word,
-        re.compile(rf"(?:^|.* ){fit.before}$" if fit.before else ""),
-        re.compile(fit.after),
-    )
-    for fit in FITS
-)
 _TARGETS = tuple(dict.fromkeys(fit.word for fit in FITS))
+_FITS = {
+    target: tuple(
+        (
+            re.compile(rf"(?:^|.* ){fit.before}$" if fit.before else ""),
+            re.compile(fit.after),
+        )
+        for fit in FITS
+        if fit.word == target
+    )
+    for target in _TARGETS
+}
 _INFLECTED = re.compile("(?:ed|d|s|ing)$")
 _ILS = "YElEs"
 """Sounds of the letters I L S."""
@@ -120,9 +123,12 @@ def _is_operators(word: str, following: list[str]) -> bool:
 
 
 def _fits(target: str, before: str, after: str) -> bool:
-    return any(
-        word == target and left.match(before) and right.match(after) for word, left, right in _FITS
-    )
+    return any(left.match(before) and right.match(after) for left, right in _FITS[target])
+
+
+@lru_cache(maxsize=1024)
+def _sounds_like_ils(first: str, second: str) -> bool:
+    return alike(sounds_of(first) + sounds_of(second), _ILS) >= LEAST_ALIKE
 
 
 def _mend_ils(texts: list[str], confidences: list[float]) -> None:
@@ -131,9 +137,8 @@ def _mend_ils(texts: list[str], confidences: list[float]) -> None:
         pair = texts[at : at + 2]
         if not all(each.isalpha() for each in pair) or "ils" in pair or "".join(pair) == "ils":
             continue
-        said = "".join(map(sounds_of, pair))
         before, after = " ".join(texts[max(at - 3, 0) : at]), " ".join(texts[at + 2 : at + 5])
-        if alike(said, _ILS) >= LEAST_ALIKE and _fits("ils", before, after):
+        if _fits("ils", before, after) and _sounds_like_ils(*pair):
             confidences[at : at + 2] = [min(confidences[at : at + 2]) * FITTED]
             texts[at : at + 2] = ["ils"]
             return

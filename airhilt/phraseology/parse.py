@@ -16,9 +16,8 @@ from airhilt.phraseology.callsigns import Naming, roster_of
 from airhilt.phraseology.conditions import doubtful
 from airhilt.phraseology.content import Content, content_of
 from airhilt.phraseology.corrections import Corrections, without_slips
-from airhilt.phraseology.denials import NAME
 from airhilt.phraseology.fixes import with_fixes
-from airhilt.phraseology.hits import Hit
+from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.scan import CONDITIONS
 from airhilt.phraseology.slots import LEVEL, NO_SENSE, pressure_of, wind_of
@@ -143,6 +142,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         wind=wind_of(text) if "wind" in present else None,
         pressure_hpa=pressure_of(text) if present & {"altimeter", "qnh", "q"} else None,
         confidence=min(parts),
+        text=text,
     )
 
 

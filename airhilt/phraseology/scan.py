@@ -6,8 +6,8 @@ import re
 from typing import NamedTuple
 
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
-from airhilt.phraseology.denials import NAME
 from airhilt.phraseology.forms import Form
+from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, TAXIWAY
 from airhilt.phraseology.surveillance import FREQUENCY_FORM
 
