@@ -21,7 +21,7 @@ TEENS = {
 TENS = {"twenty": "two", "thirty": "three"}
 """No runway has a number above 36."""
 SPOKEN_DIGITS = {"oh": "zero", "o": "zero", **{word: word for word in DIGITS}} | {
-    word: word for word in ("niner", "tree", "fife")
+    word: word for word in ("niner", "tree", "fower", "fife")
 }
 SIDES = {
     "l": "left", "left": "left",

@@ -38,6 +38,7 @@ def test_a_runway_is_written_one_way(text: str) -> None:
         ("runway thirty", "runway three zero"),
         ("runway oh one", "runway zero one"),
         ("runway one niner", "runway one niner"),
+        ("runway fower left", "runway fower left"),
         ("runway 22 write", "runway two two right"),
         ("hold short runway 4L at 3", "hold short runway four left at 3"),
         ("runway 19 1 mile final", "runway one nine 1 mile final"),

@@ -395,3 +395,22 @@ def test_confidence_is_within_zero_and_one_and_no_more_than_that_of_the_words(
 ) -> None:
     call = parse_call(" ".join(words), KNOWN, [sure] * len(words))
     assert 0.0 <= call.confidence <= sure or not words
+
+
+def test_the_pronunciations_of_icao_are_digits_in_every_value() -> None:
+    known = ("DAL345", "N9345F")
+    text = (
+        "delta tree fower fife, descend to tree tousand fower hundred feet, turn right heading zero"
+        " fower fife, squawk fower tree fife two, contact tower one one eight dayseemal tree fife,"
+        " Q N H niner niner fife, runway tree fower left, wind tree fower zero degrees fife knots"
+    )
+    call = parse_call(text, known)
+    assert call.callsign == "DAL345"
+    found = {each.action: each for each in call.instructions}
+    assert found["altitude"].altitude_ft == 3400.0
+    assert found["heading"].heading_deg == 45.0
+    assert found["squawk"].squawk == "4352"
+    assert found["contact"].frequency_khz == 118_350
+    assert call.pressure_hpa == 995.0
+    assert call.wind == Wind(direction_deg=340.0, speed_kt=5.0)
+    assert parse_call("november niner tree fower fife foxtrot", known).callsign == "N9345F"
