@@ -74,6 +74,8 @@ class Roster:
     by_name: dict[str, list[tuple[str, str, float]]] = field(default_factory=dict)
     """Signs after the name, callsign and score, by name."""
     known: list[Known] = field(default_factory=list)
+    beginnings: set[str] = field(default_factory=set)
+    """First letters, of any number, of the names."""
 
     def naming(self, words: list[str], *, is_written: bool = False) -> Naming:
         """Return the callsigns that a call names.
@@ -149,6 +151,8 @@ class Roster:
                 if word[0].isdigit() and at > start:
                     break
                 name += word
+                if name not in self.beginnings:
+                    break
                 named: Sequence[tuple[str, str, float]] = self.by_name.get(name, ())
                 if name in MAKERS:
                     named = (*named, *self.by_name.get(MAKER, ()))
@@ -203,4 +207,6 @@ def roster_of(callsigns: tuple[str, ...]) -> Roster:
             names = () if is_aircraft else tuple(each.name for each in said)
             first = callsign[0] if is_aircraft else ""
             roster.known.append(Known(callsign, names, said[0].signs, first))
+    named = {*roster.by_name, *(MAKERS if MAKER in roster.by_name else ())}
+    roster.beginnings.update(name[:end] for name in named for end in range(1, len(name) + 1))
     return roster

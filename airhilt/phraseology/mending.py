@@ -134,6 +134,8 @@ def _sounds_like_ils(first: str, second: str) -> bool:
 def _mend_ils(texts: list[str], confidences: list[float]) -> None:
     """Replace two words that sound like the letters I L S, as in "cleared a less approach"."""
     for at in range(texts.index("cleared") + 1, len(texts) - 2):
+        if texts[at + 2] not in ("approach", "runway"):
+            continue
         pair = texts[at : at + 2]
         if not all(each.isalpha() for each in pair) or "ils" in pair or "".join(pair) == "ils":
             continue
