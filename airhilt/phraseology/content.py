@@ -82,7 +82,7 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     """
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
-    before = text[: min(read.start, each.match.start())].split()[-2:]
+    before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
         return False
     if told.action in CLEARANCES and before[-1] in ("we", "i"):
