@@ -18,6 +18,12 @@ SEQUENCED: frozenset[Action] = frozenset(
 """Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
 IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
 """Actions that wait for the take-off that is cleared in the same call."""
+WITHDRAWN: dict[Action, Action] = {
+    "cancel_takeoff": "cleared_for_takeoff",
+    "cancel_landing": "cleared_to_land",
+    "cancel_approach": "cleared_approach",
+}
+"""Clearances by the actions that cancel them."""
 _FOLLOWING = re.compile(
     r"at pilot discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$"
 )
@@ -119,18 +125,16 @@ def merge_levels(reads: Reads) -> None:
 
 def withdraw(reads: Reads) -> None:
     """Drop the clearances that the same call cancels."""
-    for cancel, cleared in (
-        ("cancel_takeoff", "cleared_for_takeoff"),
-        ("cancel_landing", "cleared_to_land"),
-        ("cancel_approach", "cleared_approach"),
-    ):
+    actions = {read.instruction.action for read, _ in reads}
+    for cancel, cleared in WITHDRAWN.items():
+        if cancel not in actions:
+            continue
         cancelled = [read.start for read, _ in reads if read.instruction.action == cancel]
-        if cancelled:
-            reads[:] = [
-                (read, each)
-                for read, each in reads
-                if read.instruction.action != cleared or read.start > cancelled[-1]
-            ]
+        reads[:] = [
+            (read, each)
+            for read, each in reads
+            if read.instruction.action != cleared or read.start > cancelled[-1]
+        ]
 
 
 def put_in_order(reads: Reads, texts: list[str], text: str) -> None:

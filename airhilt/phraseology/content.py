@@ -109,12 +109,13 @@ def _bare(
     told: list[Instruction] = []
     at = 0
     for start, end in [*sorted(taken), (len(text), len(text))]:
+        gap = text[at:start].strip(" |")
+        if not gap:
+            at = max(at, end)
+            continue
         between = words.confidences[bisect_right(starts, at - 1) : bisect_right(starts, start - 1)]
         heard = min(between, default=1.0)
-        told += (
-            _heard(each, heard, heard)
-            for each in bare_values(PRESSURE.sub("", text[at:start]).split())
-        )
+        told += (_heard(each, heard, heard) for each in bare_values(PRESSURE.sub("", gap).split()))
         at = max(at, end)
     return told
 
