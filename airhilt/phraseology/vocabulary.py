@@ -31,9 +31,12 @@ WORDS = frozenset(
      "winds", "surface"}
 )  # fmt: skip
 """Words that the grammar knows."""
-_APART = re.compile(r"(?:(?<= and)|(?<= the)) (?:left|right|centre)(?! (?:heading|turn|[0-9])|\S)")
-"""Pattern of a side that one small word separates from its runway."""
-_RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY} (?P<next>[a-z]+)")
+_RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}(?= [a-z])")
+_SMALL = COURTESIES | {"and", "the", "a"}
+"""Words that may be put in between a runway and its side."""
+_SIDES = frozenset({"left", "right", "centre"})
+_FARTHEST = 4
+"""Number of words behind a runway among which its side is looked for."""
 
 
 def is_unknown(word: str) -> bool:
@@ -49,6 +52,16 @@ def has_unknown_side(text: str, start: int, end: int) -> bool:
     for found in _RUNWAY.finditer(text, start):
         if found.start() >= end:
             return False
-        if found[2] is None and (found["next"] not in WORDS or _APART.match(text, found.end())):
+        if found[2] is None and _side_follows(text[found.end() :].split(maxsplit=_FARTHEST)):
             return True
+    return False
+
+
+def _side_follows(words: list[str]) -> bool:
+    """Return whether a side, or an unknown word that may be one, follows a runway."""
+    for word in words[:_FARTHEST]:
+        if word in _SIDES or is_unknown(word):
+            return True
+        if word not in _SMALL:
+            return False
     return False
