@@ -37,7 +37,8 @@ SPELLINGS: dict[str, tuple[str, ...]] = {
     "centerline": ("centreline",),
     "plough": ("plow",), "snowplow": ("snow", "plow"), "snowplough": ("snow", "plow"),
     "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
-    "tousand": ("thousand",), "dayseemal": ("decimal",), "ft": ("feet",),
+    "tousand": ("thousand",), "dayseemal": ("decimal",),
+    "ft": ("feet",),
     "rwy": ("runway",), "hdg": ("heading",),
 }  # fmt: skip
 """Other spellings of words, with the same confidence."""
