@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from airhilt.errors import AirhiltError, shown
 from airhilt.library import nearest
@@ -27,7 +28,7 @@ KINDS = ("aircraft", "backgrounds", "detections", "pictures", "rays", "voices")
 ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial|pcm)")
 """Name of an entry, of one that is being written, and of an entry of versions up to 0.5."""
 GROWTH = 0.05
-"""Part of the limit that a process may write before it looks at the size again."""
+"""Part of the limit that is written, by all processes together, between two looks at the size."""
 _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
@@ -80,7 +81,6 @@ class CacheFolder:
         self._base = base or cache_folder()
         self._folder = self._base / kind
         self._limit_bytes = cache_limit_bytes() if limit_bytes is None else limit_bytes
-        self._written_bytes = self._limit_bytes  # Whatever is written first is looked at.
 
     def get(self, key: str, make: Callable[[], bytes]) -> bytes:
         """Return the content of an entry, made if it is not there.
@@ -101,9 +101,9 @@ class CacheFolder:
     def _write(self, path: Path, content: bytes) -> None:
         with suppress(OSError):
             _replace(path, hashlib.sha256(content).digest() + content)
-            self._written_bytes += len(content)
-            if self._written_bytes > GROWTH * self._limit_bytes:
-                self._written_bytes = 0
+            # A look takes seconds where there are many small entries. It is left to some of those
+            # who write, chosen by names, which are evenly spread: the more often, the more it is.
+            if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
                 _shrink(self._base, self._limit_bytes)
 
 
@@ -150,11 +150,10 @@ def write_problem(base: Path) -> str:
     return ""
 
 
-@dataclass(frozen=True)
-class _File:
+class _File(NamedTuple):
     """An entry's file."""
 
-    path: Path
+    path: str
     size_bytes: int
     used_ns: int
 
@@ -173,7 +172,7 @@ def _entries(folder: Path) -> Iterator[_File]:
             with suppress(OSError):  # Another process has deleted it.
                 if ENTRY.fullmatch(each.name) and each.is_file(follow_symlinks=False):
                     stat = each.stat(follow_symlinks=False)
-                    yield _File(Path(each.path), stat.st_size, stat.st_mtime_ns)
+                    yield _File(each.path, stat.st_size, stat.st_mtime_ns)
 
 
 def _usage(kind: str, files: Iterator[_File] | list[_File]) -> Usage:
@@ -183,19 +182,29 @@ def _usage(kind: str, files: Iterator[_File] | list[_File]) -> Usage:
 
 def _shrink(base: Path, limit_bytes: int) -> None:
     """Delete the least recently used entries of all kinds until the rest is within the limit."""
-    files = [file for kind in _kinds(base) for file in _entries(base / kind)]
-    excess = sum(file.size_bytes for file in files) - limit_bytes
-    for file in sorted(files, key=lambda file: file.used_ns):
-        if excess <= 0:
-            return
-        if _delete(file.path):
-            excess -= file.size_bytes
+    import numpy as np
+
+    pairs = ((file.used_ns, file.size_bytes) for file in _all_entries(base))
+    used_ns, sizes = np.fromiter(pairs, dtype=(np.int64, 2)).T  # There may be a million.
+    excess = int(sizes.sum()) - limit_bytes
+    if excess <= 0:
+        return
+    order = np.argsort(used_ns)
+    last = order[np.searchsorted(np.cumsum(sizes[order]), excess)]
+    for file in _all_entries(base):
+        if file.used_ns <= used_ns[last]:
+            _delete(file.path)
 
 
-def _delete(path: Path) -> bool:
+def _all_entries(base: Path) -> Iterator[_File]:
+    for kind in _kinds(base):
+        yield from _entries(base / kind)
+
+
+def _delete(path: str) -> bool:
     """Return whether a file is gone."""
     with suppress(OSError):
-        path.unlink(missing_ok=True)
+        Path(path).unlink(missing_ok=True)
         return True
     return False
 

@@ -112,6 +112,9 @@ class ChildProcess:
         Ended
             The process has ended.
         """
+        if self._is_asked:  # The answer that is still owed would be taken for the one to this.
+            self._process.kill()
+            raise Ended(self._how_it_ended())
         self._was_asked = self._is_asked = True
         try:
             self._questions.write(json.dumps(question).encode() + b"\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 PARTIAL = ".partial"
@@ -34,8 +35,12 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
+@cache
 def source_sha256(*paths: Path) -> str:
-    """Return the SHA-256 of Python files, and of those below folders: it changes with the code."""
+    """Return the SHA-256 of Python files, and of those below folders: it changes with the code.
+
+    A process reads them once: what is edited while it lives is not what it runs.
+    """
     digest = hashlib.sha256()
     for path in paths:
         for file in sorted(path.rglob("*.py")) if path.is_dir() else [path]:

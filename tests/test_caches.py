@@ -103,6 +103,17 @@ def test_a_process_that_writes_on_and_on_stays_within_the_limit(tmp_path: Path) 
     assert sum(path.stat().st_size for path in entries(tmp_path)) <= 10_500
 
 
+def test_processes_that_write_little_seldom_look_at_all_entries(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A look takes seconds where there are a million entries, and each run writes some."""
+    looks: list[Path] = []
+    monkeypatch.setattr("airhilt.caches._shrink", lambda base, _: looks.append(base))
+    for n in range(200):
+        CacheFolder("pictures", tmp_path, limit_bytes=1_000_000).get(f"key {n}", Made(bytes(2_500)))
+    assert 2 <= len(looks) <= 30, "ten for each time that 5 % of the limit are written"
+
+
 def test_what_is_larger_than_the_limit_is_not_kept_and_pushes_nothing_out(tmp_path: Path) -> None:
     CacheFolder("voices", tmp_path, limit_bytes=1_000).get("small", Made(bytes(500)))
     CacheFolder("voices", tmp_path, limit_bytes=1_000).get("large", Made(bytes(1_000)))

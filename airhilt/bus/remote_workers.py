@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from airhilt.bus.multipart import pack, unpack
 from airhilt.bus.session import Bus
-from airhilt.errors import WorkerError, first_problem
+from airhilt.errors import RendererError, WorkerError, first_problem
 from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
@@ -60,7 +60,11 @@ class RemoteWorker:
         return None
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:
-        """Send a grant."""
+        """Send a grant; a picture that cannot be drawn any more counts as the worker's loss."""
+        try:
+            payload = pack(item.payload for item in inputs)
+        except RendererError as error:
+            return RemoteStep(self, seq, None, f"worker {self.name!r} cannot be called: {error}")
         grant = Grant(
             t_ns=t_ns,
             seq=seq,
@@ -76,12 +80,12 @@ class RemoteWorker:
         )
         replies = self._bus.session.get(
             f"{self._key}/step",
-            payload=pack(item.payload for item in inputs),
+            payload=payload,
             attachment=grant.model_dump_json().encode(),
             timeout=self._timeout_s,
             consolidation=zenoh.ConsolidationMode.NONE,
         )
-        return RemoteStep(self, seq, replies)
+        return RemoteStep(self, seq, replies, "")
 
     def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
         """Wait for the reply to a grant, and check it.
@@ -140,12 +144,15 @@ class RemoteWorker:
 
 @dataclass(frozen=True, slots=True)
 class RemoteStep:
-    """A grant whose reply has not come yet."""
+    """A grant whose reply has not come yet, or that could not be sent."""
 
     worker: RemoteWorker
     seq: int
-    replies: zenoh.Handler[zenoh.Reply]
+    replies: zenoh.Handler[zenoh.Reply] | None
+    failure: str
 
     def result(self) -> Reply:
         """Wait for the reply; see `RemoteWorker.receive`."""
+        if self.replies is None:
+            raise WorkerLost(self.failure)
         return self.worker.receive(self.seq, self.replies)

@@ -7,12 +7,13 @@ import re
 import socket
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import zenoh
 
 from airhilt.deferred import Payload
-from airhilt.errors import BusError
+from airhilt.errors import BusError, RendererError
 
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
@@ -128,7 +129,8 @@ class Bus:
     def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
         """Publish to other processes under a key relative to the run.
 
-        A deferred payload is made only if somebody has subscribed to the key.
+        A deferred payload is made only if somebody has subscribed to the key. One that cannot be
+        made is not published: whoever should have made it tells that.
         """
         publisher = self._publishers.get(key)
         if publisher is None:
@@ -138,7 +140,8 @@ class Bus:
             self._publishers[key] = publisher
         # The status is an object that Zenoh's stubs call a bool.
         if isinstance(payload, bytes) or publisher.matching_status.matching:  # type: ignore[attr-defined]
-            publisher.put(bytes(payload), attachment=attachment)
+            with suppress(RendererError):
+                publisher.put(bytes(payload), attachment=attachment)
 
     def keep(self, key: str, payload: bytes) -> None:
         """Publish, and answer later queries on the key with the payload kept last."""

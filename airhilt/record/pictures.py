@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
 from airhilt.deferred import Payload
-from airhilt.errors import disk_failed
+from airhilt.errors import RendererError, disk_failed
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import (
@@ -232,10 +232,14 @@ class KeyPictures:
     def _write(self, occasion: Occasion, picture: Picture) -> None:
         from PIL import Image
 
+        try:
+            pixels = bytes(picture.pixels)
+        except RendererError:  # It cannot be drawn any more, which the cameras tell themselves.
+            return
         self._written.add(occasion)
         header = picture.header
         size = header.view.width_px, header.view.height_px
-        image = Image.frombuffer("RGB", size, bytes(picture.pixels))
+        image = Image.frombuffer("RGB", size, pixels)
         if occasion == "start" and size[0] > START_WIDTH_PX:
             image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
         path = PictureName(occasion, header.camera, header.seq).path(self._folder)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from airhilt.deferred import Payload
-from airhilt.errors import RunFolderError, VideoError, disk_failed, first_line
+from airhilt.errors import RendererError, RunFolderError, VideoError, disk_failed, first_line
 from airhilt.messages import (
     CONTROLLER,
     Advisory,
@@ -170,7 +170,7 @@ class VideoRecorder:
         """Give up a camera's video when it cannot go on; what was written of it stays."""
         try:
             yield
-        except VideoError as error:
+        except (VideoError, RendererError) as error:
             self._failed.add(name)
             video = self._videos.pop(name, None)
             if video is not None:

@@ -66,6 +66,10 @@ class DeferredInput(Input):
         """Number of bytes that the payload has, or will have."""
         return len(self._deferred)
 
+    def __reduce__(self) -> tuple[type[Input], tuple[Any, ...]]:
+        """Return what a copy in another process is made of: an input that has its payload."""
+        return Input, (self.key, self.t_in_ns, self.payload, self.attachment, self.begun_ns)
+
     def __getattr__(self, name: str) -> bytes:
         if name != "payload":
             raise AttributeError(name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import queue
 import re
 import time
 from contextlib import closing
@@ -10,8 +11,11 @@ from typing import Never
 import pytest
 import zenoh
 
+from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, connect_client, free_endpoint
-from airhilt.errors import BusError
+from airhilt.deferred import DeferredBytes
+from airhilt.errors import BusError, RendererError
+from airhilt.sim.worker import Input, WorkerLost
 from resources import held, linux_only
 
 NO_MEMORY = "Unable to create POSIX shm segment: OS error 30 at /build/zenoh-shm/src/segment.rs:85."
@@ -78,3 +82,36 @@ def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
     closed = [use(f"run-{number}") for number in range(5)]
     assert held() == before
     assert len(closed) == 5
+
+
+def test_a_subscriber_gets_what_is_made_for_it_and_not_what_cannot_be_made() -> None:
+    def fail() -> Never:
+        raise RendererError("it has ended")
+
+    heard: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    with closing(Bus("run")) as bus, connect_client(bus.endpoint, 5.0) as client:
+        client.declare_subscriber(
+            f"{bus.prefix}/camera", lambda sample: heard.put(sample.payload.to_bytes())
+        )
+        bus.put("camera", b"")
+        deadline = time.monotonic() + 5.0
+        while not bus._publishers["camera"].matching_status.matching:  # type: ignore[attr-defined]
+            assert time.monotonic() < deadline, "Zenoh knows of no subscriber"
+            time.sleep(0.01)
+        bus.put("camera", DeferredBytes(1, fail))
+        bus.put("camera", DeferredBytes(2, lambda: b"ok"))
+        received = [heard.get(timeout=5.0)]
+        if received == [b""]:  # It was there before the first message.
+            received = [heard.get(timeout=5.0)]
+    assert received == [b"ok"]
+
+
+def test_a_worker_is_not_called_with_a_picture_that_cannot_be_drawn() -> None:
+    def fail() -> Never:
+        raise RendererError("it has ended")
+
+    picture = Input.of("camera/tower/frame", 0, DeferredBytes(1, fail))
+    with closing(Bus("run")) as bus:
+        step = RemoteWorker(bus, "vision", 1.0).dispatch(0, 0, [picture])
+        with pytest.raises(WorkerLost, match="it has ended"):
+            step.result()

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import signal
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +14,12 @@ import pytest
 
 from airhilt import load
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
+from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError
-from airhilt.messages import InputSpec, WorkerDescription
+from airhilt.messages import InputSpec, Status, WorkerDescription
 from airhilt.options import Options
+from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.renderer_process import RendererProcess
@@ -103,11 +108,39 @@ class Watching:
         return Step()
 
 
+def test_a_killed_renderer_costs_pictures_that_others_have_drawn_and_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All is known, so it is missed only when somebody reads the pixels of a key picture."""
+    log_of(tmp_path / "first", share_pictures=True)
+    views = RendererProcess.views
+
+    def killed(process: RendererProcess, *asked: Any) -> Any:
+        with suppress(ProcessLookupError):
+            os.kill(process.process_id, signal.SIGKILL)
+        return views(process, *asked)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(RendererProcess, "views", killed)
+        log_of(tmp_path / "second", share_pictures=True)
+    assert RunFolder(tmp_path / "second").info().phase == "finished"
+    *_, state = states_of_vision(tmp_path / "second")
+    assert state.state == "lost"
+    assert "signal 9" in state.cause
+    assert not (tmp_path / "second" / "pictures").exists()
+    assert replay(tmp_path / "second").identical
+
+
+def states_of_vision(out: Path) -> list[Status]:
+    log = read_log(out / "log.mcap")
+    return [Status.model_validate_json(each.data) for each in log if each.key == "status/vision"]
+
+
 @pytest.mark.slow
 def test_runs_that_go_apart_have_the_logs_that_each_has_alone(tmp_path: Path) -> None:
-    """The intruder is met otherwise with each assistant, and with none."""
+    """The intruder is met otherwise with each assistant."""
     scenario = load("s02c_intruder_headon")
-    for assistant in ("reference", "paper", "none"):
+    for assistant in ("reference", "paper"):
         options = SEEN.model_copy(update={"assistant": assistant, "camera_rate": "adaptive"})
         for shares in (False, True):
             out = tmp_path / f"{assistant}-{shares}"
@@ -115,6 +148,13 @@ def test_runs_that_go_apart_have_the_logs_that_each_has_alone(tmp_path: Path) ->
         alone, shared = (tmp_path / f"{assistant}-{shares}" for shares in (False, True))
         assert (shared / "log.mcap").read_bytes() == (alone / "log.mcap").read_bytes()
         assert key_pictures(shared) == key_pictures(alone)
+    one, other = (headers(tmp_path / f"{assistant}-True") for assistant in ("reference", "paper"))
+    assert one[:100] == other[:100]
+    assert one[-1] != other[-1]
+
+
+def headers(out: Path) -> list[bytes]:
+    return [each.data for each in read_log(out / "log.mcap") if each.key.endswith("/frame")]
 
 
 def test_measured_latencies_of_vision_cannot_be_shared(tmp_path: Path) -> None:

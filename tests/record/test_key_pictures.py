@@ -8,10 +8,22 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError
 from airhilt.messages import CameraFrame, Message, SightingTruth
 from airhilt.record.pictures import KeyPictures, Picture, PictureName, WaitingPictures
-from sightings import advisory, found, frame, pixels, seen, sighting, time_ns, truth, vision
+from sightings import (
+    advisory,
+    found,
+    frame,
+    pixels,
+    seen,
+    sighting,
+    time_ns,
+    truth,
+    undrawn,
+    vision,
+)
 
 FULL = Path("/dev/full")
 LEFT, RIGHT = (40.0, 30.0, 60.0, 36.0), (100.0, 30.0, 130.0, 40.0)
@@ -32,7 +44,7 @@ class Run:
         )
         self.take(vision("on"))
 
-    def take(self, message: Message, payload: bytes = b"") -> Run:
+    def take(self, message: Message, payload: Payload = b"") -> Run:
         self.pictures.take("", message, payload)
         return self
 
@@ -164,6 +176,16 @@ def test_a_full_disk_is_named_once_with_the_file(run: Run) -> None:
     assert not (run.folder / "first_warning-tower-1.png").is_symlink(), "no half a file stays"
     run.pictures.close()
     assert run.seq_of("closest_approach") is None
+
+
+def test_a_picture_that_cannot_be_drawn_any_more_is_left_out(run: Run) -> None:
+    run.take(truth(0, sighting(LEFT))).take(frame(0), undrawn((160, 90)))
+    run.closest = 0
+    run.take(advisory(0, "WARNING"))
+    run.pictures.close()
+    assert run.kept() == set()
+    run.shoot(1, sighting(LEFT)).take(seen(1, found(LEFT)))
+    assert run.kept() == {("first_detection", "tower", 1)}
 
 
 def test_pictures_do_not_wait_where_nobody_looks(run: Run) -> None:

@@ -14,13 +14,14 @@ pytest.importorskip("av")
 
 import av
 
+from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, VideoError
 from airhilt.messages import Advisory, Message
 from airhilt.record.overlay import COLOURS, SEVERITY_COLOURS, Overlay, clock
 from airhilt.record.pictures import Picture
 from airhilt.record.video import VideoRecorder, require_video
 from airhilt.units import SECOND_NS
-from sightings import advisory, found, frame, info, pixels, seen, time_ns, vision
+from sightings import advisory, found, frame, info, pixels, seen, time_ns, undrawn, vision
 
 FULL = Path("/dev/full")
 SIZE = (320, 180)
@@ -41,7 +42,7 @@ class Film:
         for camera in cameras or ("tower",):
             self.take(info(camera, size))
 
-    def take(self, message: Message, payload: bytes = b"") -> Film:
+    def take(self, message: Message, payload: Payload = b"") -> Film:
         self.recorder.take("", message, payload)
         return self
 
@@ -267,6 +268,14 @@ def test_a_video_that_ffmpeg_refuses_costs_that_video_and_is_told_once(
     (told,) = film.told
     assert "no more video of camera tower" in told
     assert str(error) in told
+
+
+def test_a_picture_that_cannot_be_drawn_any_more_ends_the_video_and_is_told(film: Film) -> None:
+    film.shoot(0, 1).take(seen(1))
+    film.take(frame(2, "tower", None, SIZE), undrawn(SIZE)).take(seen(2))
+    film.shoot(3)
+    assert film.told == ["no more video of camera tower: it has ended"]
+    assert len(film.frames()) == 2
 
 
 def test_a_video_that_cannot_be_finished_is_told(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -10,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from airhilt.deferred import DeferredBytes
 from airhilt.errors import WorkerError
 from airhilt.sim import (
     Director,
@@ -403,3 +406,10 @@ def test_a_step_without_outputs_leaves_a_worker_free_at_once() -> None:
         (100, 0), (200, 400_000_000), (400_000_200, 0),
     ]  # fmt: skip
     assert bench.out == [(400_000_200, b"loud")]
+
+
+def test_an_input_whose_payload_is_made_later_can_be_sent_to_another_process() -> None:
+    item = Input.of("camera/tower/frame", 5, DeferredBytes(6, lambda: b"pixels"), {"seq": 1})
+    for copied in (copy.copy(item), pickle.loads(pickle.dumps(item))):
+        assert (copied.payload, copied.size) == (b"pixels", 6)
+        assert (copied.key, copied.t_in_ns, copied.attachment) == (item.key, 5, {"seq": 1})

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from airhilt.deferred import DeferredBytes
+from airhilt.errors import RendererError
 from airhilt.messages import (
     Advisory,
     Box,
@@ -62,6 +64,15 @@ def truth(seq: int, *sightings: SightingTruth, camera: str = "tower") -> CameraT
 
 def pixels(level: int = 128, size: tuple[int, int] = (WIDTH, HEIGHT)) -> bytes:
     return np.full((size[1], size[0], 3), level, np.uint8).tobytes()
+
+
+def undrawn(size: tuple[int, int]) -> DeferredBytes:
+    """Pixels that the renderer was to draw later, and that has died."""
+
+    def fail() -> bytes:
+        raise RendererError("it has ended")
+
+    return DeferredBytes(3 * size[0] * size[1], fail)
 
 
 def frame(

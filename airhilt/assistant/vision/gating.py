@@ -79,7 +79,7 @@ class Gate:
     Parameters
     ----------
     looks
-        Looks that runs share, for pictures with a SHA-256; None if each is taken anew.
+        Looks that runs share, of pictures with a SHA-256; None if each is taken anew.
     """
 
     def __init__(self, detector: Detector, looks: Looks | None = None) -> None:
@@ -118,7 +118,7 @@ class Gate:
             pixels, part = tile.of(picture.read()), _part(shot, tile)
             return self._anew(part, pixels) if last is None else self._again(last, part, pixels)
 
-        if self._looks is None:
+        if self._looks is None or not picture.sha256:
             look = take()
         else:
             look = self._looks.get(history, tile, picture.shape, take)

@@ -17,6 +17,7 @@ from typing import Any
 
 from airhilt.caches import CacheFolder
 from airhilt.deferred import DeferredBytes
+from airhilt.errors import RendererError
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Prospect
 from airhilt.sensors.cameras.pictures import CameraPicture, DrawnPictures
@@ -42,11 +43,17 @@ class SharedPictures:
         self._drawn = DrawnPictures(process)
         self._folder = CacheFolder("pictures")
         self._states: dict[str, Any] = dict.fromkeys(process.states, CameraState().to_json())
+        self._failure = ""
+        """Reason why pixels that somebody wanted to read could not be drawn."""
 
     def take(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> list[CameraPicture]:
-        """Take the pictures; it raises what `RendererProcess.shoot` does."""
+        """Take the pictures; it raises what `RendererProcess.shoot` does.
+
+        So it does, though it may know them, when the pixels of earlier ones could not be drawn.
+        """
+        self._require_renderer()
         views = self._process.views(names, bodies)
         before = dict(self._states)
         drawn: dict[str, CameraPicture] = {}
@@ -77,7 +84,8 @@ class SharedPictures:
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
-        """Return what pictures would show; it raises what `RendererProcess.prospects` does."""
+        """Return what pictures would show; it raises what `take` does."""
+        self._require_renderer()
         views = self._process.views(names, bodies)
 
         def look() -> dict[str, bool]:
@@ -114,6 +122,20 @@ class SharedPictures:
         return found
 
     def _pixels(self, name: str, bodies: Sequence[BodyState], t_ns: int, state: Any) -> bytes:
-        """Return the pixels of a picture that another run has drawn."""
+        """Return the pixels of a picture that another run has drawn.
+
+        Raises
+        ------
+        RendererError
+            They cannot be drawn; those who read them go on without, and the next `take` says why.
+        """
         self._process.states[name] = state
-        return bytes(self._drawn.take([name], bodies, t_ns)[0].pixels)
+        try:
+            return bytes(self._drawn.take([name], bodies, t_ns)[0].pixels)
+        except RendererError as error:
+            self._failure = str(error)
+            raise
+
+    def _require_renderer(self) -> None:
+        if self._failure:
+            raise RendererError(self._failure)

@@ -108,6 +108,13 @@ def test_another_look_is_taken(pictures: Sequence[Picture], detector: Counting) 
     assert detector.asked > 0
 
 
+def test_pictures_without_a_sha256_are_not_taken_for_one_another() -> None:
+    for scene in SCENES[:2]:
+        detector = Counting()
+        Gate(detector, SharedLooks(detector)).look(Shot("tower", 0), scene)
+        assert detector.asked == 1
+
+
 def test_a_damaged_look_is_taken_again(cache: Path) -> None:
     first = looks_at(SCENES[:1], Counting())
     (entry,) = cache.iterdir()

@@ -96,6 +96,24 @@ def test_a_process_that_owes_an_answer_is_replaced(
     assert keeper.link() is not link
 
 
+def test_the_answer_to_a_question_that_was_interrupted_is_not_taken_for_another(
+    keeper: RendererKeeper, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run that is interrupted still reads pixels, of its key pictures."""
+    link = keeper.link()
+
+    def interrupted(*_: Any) -> Any:
+        raise KeyboardInterrupt
+
+    with RendererProcess(meeting(CLEAR), renderer="embree", link=link) as process:
+        with monkeypatch.context() as patch:
+            patch.setattr(link, "_line", interrupted)
+            with pytest.raises(KeyboardInterrupt):
+                process.shoot([NOSE], bodies(0), 0)
+        with pytest.raises(RendererError, match="has ended"):
+            process.shoot([NOSE], bodies(5), 5)
+
+
 def test_a_scene_that_cannot_be_opened_does_not_end_the_process(keeper: RendererKeeper) -> None:
     link = keeper.link()
     with pytest.raises(RendererError, match="no renderer named"):
