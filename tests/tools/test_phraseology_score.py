@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+import phraseology_judge
 from phraseology_judge.score import Score, score
 
 ROSTER = ["DAL456", "UAL12", "N172SP"]
@@ -62,3 +65,11 @@ def test_a_wrong_callsign_is_wrong_and_confident() -> None:
 def test_kinds_out_of_scope_are_listed_and_not_missed() -> None:
     counts = scored("delta four five six information bravo", item("atis", "B"))
     assert (counts.items, counts.out_of_scope["atis"]) == (0, 1)
+
+
+def test_of_calls_as_people_make_them_no_clearance_is_invented_with_confidence() -> None:
+    corpus = Path(phraseology_judge.__file__).parent / "colloquial.jsonl"
+    counts = score(json.loads(line) for line in corpus.read_text().splitlines())
+    assert counts.calls == 200
+    assert counts.wrong_callsigns == 0
+    assert counts.invented_and_confident == 0
