@@ -47,7 +47,7 @@ def is_unknown(word: str) -> bool:
 def has_unknown_side(text: str, start: int, end: int) -> bool:
     """Return whether a runway among some words has no side, and a word after it is unknown.
 
-    That word may be the side, misheard: "runway 15 rime" may have been "runway 15 right".
+    The unknown word may be the side, misheard: "runway 15 rime" may have been "runway 15 right".
     """
     for found in _RUNWAY.finditer(text, start):
         if found.start() >= end:

@@ -218,14 +218,7 @@ def facts_of_call(call: Call) -> Iterator[tuple[Fact, float]]:
 
 def fact_of(said: Instruction, status: str) -> Fact:
     """Return an instruction as a fact."""
-    kind = KIND_OF.get(said.action, said.action)
-    if said.action == "heading" and said.position:
-        if said.position in ("present heading", "runway heading"):
-            return _fact(said.position.replace(" ", "_"), status, {})
-        kind = "vacate_runway"  # "Turn left at K" on the ground (FAA Order JO 7110.65, 3-10-9).
-    if said.action == "speed" and said.named:
-        kind = "named_speed"
-    approach = said.approach or ""
+    kind, approach = _kind_of(said), said.approach or ""
     of_kinds: dict[str, dict[str, Any]] = {
         "altitude": {
             "altitude_ft": said.altitude_ft,
@@ -271,6 +264,17 @@ def fact_of(said: Instruction, status: str) -> Fact:
     if kind == "report" and values["words"] == ("in", "sight"):
         values["words"] = ("traffic", "in", "sight")
     return _fact(kind, status, values)
+
+
+def _kind_of(said: Instruction) -> str:
+    """Return the judge's kind of an instruction."""
+    if said.action == "heading" and said.position:
+        if said.position in ("present heading", "runway heading"):
+            return said.position.replace(" ", "_")
+        return "vacate_runway"  # "Turn left at K" on the ground (FAA Order JO 7110.65, 3-10-9).
+    if said.action == "speed" and said.named:
+        return "named_speed"
+    return KIND_OF.get(said.action, said.action)
 
 
 def _frequency_read(said: Instruction) -> dict[str, Any]:
