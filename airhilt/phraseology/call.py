@@ -122,7 +122,7 @@ class Call:
     instructions: tuple[Instruction, ...] = ()
     """Instructions in effect now or under a condition."""
     expected: tuple[Instruction, ...] = ()
-    """What the call says is to be expected. Nothing of it is an instruction."""
+    """Contents that the call says are to be expected. Nothing of it is an instruction."""
     distress: bool = False
     """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False
@@ -149,7 +149,7 @@ class Call:
 
     @property
     def spoken(self) -> Spoken:
-        """Who speaks by the words, a pilot or a controller, and the confidence in that."""
+        """Speaker by the words, a pilot or a controller, and the confidence in that."""
         return speaker_of(self.text)
 
     @property

@@ -211,7 +211,7 @@ def _after_value(words: list[str], run: Run, known: Known) -> Hit | None:
 
 
 class _Name(NamedTuple):
-    """What stands before the signs."""
+    """Words before the signs."""
 
     likeness: float
     """Likeness with a name of the callsign by its spelling, 0 to 1."""

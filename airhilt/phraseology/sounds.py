@@ -1,4 +1,4 @@
-"""How alike two words sound.
+"""Likeness of the sounds of two words.
 
 Words of the phraseology have their phonemes in ``phonemes.csv``, which ``tools/phoneme_table.py``
 makes from the CMU Pronouncing Dictionary. Other words get theirs by spelling rules. The distance is

@@ -1,4 +1,4 @@
-"""Who speaks, a pilot or a controller, by the words of a call and their order.
+"""Speaker of a call, a pilot or a controller, by its words and their order.
 
 A controller begins with the callsign of whom is called; a pilot begins with the name of the unit,
 and ends a readback with the own callsign (ICAO Annex 10 volume II, 5.2.1.7.3.2.3 and 5.2.1.9.2.2;
@@ -49,7 +49,7 @@ _SIGNS = tuple(
 
 
 class Spoken(NamedTuple):
-    """Who speaks, and how likely that is."""
+    """Speaker of a call, with the likelihood of that."""
 
     speaker: Speaker
     confidence: float

@@ -1,4 +1,4 @@
-"""Who speaks is told by words and order, and a readback is compared item by item."""
+"""The speaker is told by words and order, and a readback is compared item by item."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a Whisper learns from: the tokens that faster-whisper asks for, and calls on the air."""
+"""Examples for a Whisper: the tokens that faster-whisper asks for, and calls on the air."""
 
 from __future__ import annotations
 

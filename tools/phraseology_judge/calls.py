@@ -145,7 +145,7 @@ PILOTS: dict[Saying, int] = {
     pilots.weather: 2,
     pilots.acknowledgement: 5,
 }
-"""What pilots say unasked, with the weights."""
+"""Calls that pilots make unasked, with their weights."""
 TOGETHER: tuple[tuple[Instruction, ...], ...] = (
     (lateral.turn, vertical.climb_or_descend, speeds.speed, surveillance.traffic),
     (surveillance.radar_contact, vertical.climb_or_descend, lateral.turn, lateral.direct),

@@ -1,4 +1,4 @@
-"""What pilots say unasked: first calls, reports, requests, emergencies.
+"""Calls that pilots make unasked: first calls, reports, requests, emergencies.
 
 FAA AIM 4-2-3 ("Contact procedures"), 5-3-1, 5-3-3, 6-3-1; ICAO Doc 4444 12.3 (phrases marked with
 an asterisk), Doc 9432 chapters 4 to 9.

@@ -1,4 +1,4 @@
-"""What earlier pictures of a camera leave behind for the next one.
+"""State that earlier pictures of a camera leave behind for the next one.
 
 A picture is determined by the scene, the bodies, the time, and this. So a renderer that is given
 the state of a camera draws its next picture as the renderer would that has drawn all before.

@@ -67,7 +67,7 @@ class PictureSource(Protocol):
 
 
 class FrameSource(Protocol):
-    """What draws, such as `airhilt.sensors.cameras.renderer_process.RendererProcess`."""
+    """Source of drawn pictures: `airhilt.sensors.cameras.renderer_process.RendererProcess`."""
 
     @property
     def own_aircraft(self) -> Mapping[str, Mask]: ...  # noqa: D102

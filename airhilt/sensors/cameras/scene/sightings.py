@@ -1,4 +1,4 @@
-"""What is true of the bodies in a picture."""
+"""Truth about the bodies in a picture."""
 
 from __future__ import annotations
 
