@@ -45,7 +45,7 @@ class ChildProcess:
     pass_fds
         Further descriptors that it inherits.
     environment
-        Variables that it has besides those of this process.
+        Variables that it has besides those of this process; None for one that it does not have.
 
     Raises
     ------
@@ -58,7 +58,7 @@ class ChildProcess:
         command: Sequence[str],
         arguments: Sequence[str] = (),
         pass_fds: Sequence[int] = (),
-        environment: Mapping[str, str] | None = None,
+        environment: Mapping[str, str | None] | None = None,
     ) -> None:
         self._printed = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115
         questions, ask = os.pipe()
@@ -201,7 +201,14 @@ def command_of(module: str) -> tuple[str, ...]:
     return (sys.executable, "-P", "-m", module)
 
 
-def environment_with(more: Mapping[str, str]) -> dict[str, str]:
-    """Return the environment of the other side, which imports from where this one does."""
+def environment_with(more: Mapping[str, str | None]) -> dict[str, str]:
+    """Return the environment of the other side, which imports from where this one does.
+
+    Parameters
+    ----------
+    more
+        Variables that take the place of this process's; None leaves one out.
+    """
     places = [str(Path(place).absolute()) for place in sys.path]
-    return {**os.environ, **more, "PYTHONPATH": os.pathsep.join(places)}
+    own = {**os.environ, **more, "PYTHONPATH": os.pathsep.join(places)}
+    return {name: value for name, value in own.items() if value is not None}

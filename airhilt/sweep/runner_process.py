@@ -16,6 +16,9 @@ from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
 COMMAND = command_of("airhilt.sweep.runner")
+ENVIRONMENT = {"MALLOC_TRIM_THRESHOLD_": None}
+"""Environment of a runner. Dask gives its workers this variable, with which the C library asks the
+system for the memory of each array anew: two fifths of what it costs to draw pictures."""
 STARTING_S = 120.0
 """Time that a runner has to start, in s."""
 WATCH_S = 0.5
@@ -115,7 +118,7 @@ class RunnerProcess:
         self._child.close()
 
     def _start(self) -> tuple[ChildProcess, Environment]:
-        child = ChildProcess(COMMAND, [self._renderer])
+        child = ChildProcess(COMMAND, [self._renderer], environment=ENVIRONMENT)
         try:
             return child, Environment.model_validate(child.answer(STARTING_S))
         except (Ended, NoAnswer) as problem:
