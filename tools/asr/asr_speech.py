@@ -1,12 +1,14 @@
-"""Speaks the texts of `asr_corpus` with many voices, for training and testing recognisers.
+"""Speaks the texts of `asr_corpus` with a synthesiser, for training and testing recognisers.
 
 A shard is two files: `NAME.npy`, all samples one after another (int16, 16 kHz), and `NAME.jsonl`,
-one line an utterance with its text, voice and length.
+one line an utterance with its text, callsign, voice, rate and length. NAME begins with the
+synthesiser, and with the choice of voices unless that is ``seen``.
 
     python tools/asr/asr_speech.py build/asr espeak --count 30000 --seed 1
-    python tools/asr/asr_speech.py build/asr flite --count 6000 --seed 2
-    python tools/asr/asr_speech.py build/asr espeak-unseen --count 600 --seed 3
-    python tools/asr/asr_speech.py build/asr flite-unseen --count 600 --seed 4
+    python tools/asr/asr_speech.py build/asr espeak --voices unseen --count 600 --seed 3
+    python tools/asr/asr_speech.py build/asr flite --voices all --count 6000 --seed 2
+
+Several runs with other seeds may work at the same time.
 """
 
 from __future__ import annotations
@@ -14,62 +16,61 @@ from __future__ import annotations
 import argparse
 import json
 import random
-import subprocess
-import tempfile
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import wavfile
-from scipy.signal import resample_poly
 
-from airhilt.audio.pcm import SAMPLE_RATE_HZ
-from airhilt.voices.engine import VoiceSpec
-from airhilt.voices.engines.espeak import ACCENTS, Espeak
+from airhilt.errors import SpeechError
 from asr_corpus import Talk
+from synthesisers import FAMILY, synthesiser
+from synthesisers.synthesiser import Synthesiser, Voice, speak
 
 SHARD = 2_000
-UNSEEN_TIMBRES = ("f3 m2 m4 Mike linda Gene adam ed steph2 victor anika john").split()
-"""Timbres of espeak-ng that no training utterance has."""
-TIMBRES = (
-    "m1 m3 m5 m6 m7 m8 f1 f2 f4 f5 Alex Alicia Andrea Andy Annie Denis Diogo Gene2 Henrique "
-    "Hugo Jacky Lee Marco Mario Michael Nguyen Reed announcer antonio aunty belinda benjamin "
-    "boris caleb david edward edward2 grandma grandpa gustave ian iven iven2 iven3 klatt klatt2 "
-    "klatt3 klatt4 marcelo max michel miguel mike2 norbert pablo paul pedro quincy rob robert "
-    "sandro shelby steph steph3 travis zac"
-).split()
-FLITE = ["slt", "rms", "kal16", "kal"]
-FLITE_UNSEEN = ["awb"]
+WORDS_PER_MINUTE = (120.0, 220.0)
+"""Range of the rates of calls, each drawn evenly."""
+SALAD = 0.06
+"""Share of calls without sense."""
 
 
 def speech(
-    engine: str, count: int, seed: int
-) -> Iterator[tuple[dict[str, str | None], NDArray[np.int16]]]:
-    """Yield text, callsign and voice, and the samples."""
+    made_by: Synthesiser, voices: Sequence[Voice], count: int, seed: int
+) -> Iterator[tuple[dict[str, Any], NDArray[np.int16]]]:
+    """Yield what a shard says of each call, and its samples; the voices take turns."""
     rng = random.Random(seed)
     talk = Talk(rng)
-    words = sorted({word for _ in range(40_000) for word in talk.call().split()})
-    espeak = Espeak()
-    timbres = UNSEEN_TIMBRES if engine.endswith("unseen") else TIMBRES
+    talker = made_by.create()
+    turn: list[Voice] = []
     for _ in range(count):
-        is_salad = rng.random() < 0.06
-        text = talk.salad(words) if is_salad else talk.call()
-        about = {"text": text, "callsign": None if is_salad else talk.callsign_of_call}
+        is_salad = rng.random() < SALAD
+        text = talk.salad(_words()) if is_salad else talk.call()
         spoken = _with_pauses(text, rng)
-        if engine.startswith("espeak"):
-            voice = VoiceSpec(
-                f"{rng.choice(ACCENTS)}+{rng.choice(timbres)}",
-                rate=rng.uniform(0.75, 1.45),
-                pitch=rng.uniform(0.5, 1.5),
-            )
-            samples = espeak.synthesise(spoken, voice)
-            pcm = (np.clip(samples, -1.0, 1.0) * 32767).astype(np.int16)
-            yield about | {"voice": voice.name}, pcm
-        else:
-            name = rng.choice(FLITE_UNSEEN if engine.endswith("unseen") else FLITE)
-            pcm = _flite(spoken, name, rng.uniform(0.72, 1.25))
-            yield about | {"voice": f"flite-{name}"}, pcm
+        turn = turn or rng.sample(voices, len(voices))
+        voice = turn.pop()
+        rate = round(rng.uniform(*WORDS_PER_MINUTE), 1)
+        pitch = round(rng.uniform(*made_by.pitches), 3)
+        about = {
+            "text": text,
+            "callsign": None if is_salad else talk.callsign_of_call,
+            "engine": made_by.name,
+            "voice": voice.name,
+            "speaker": voice.speaker,
+            "lineage": voice.lineage,
+            "words_per_minute": rate,
+            "pitch": pitch,
+        }
+        yield about, speak(talker, voice, spoken, rate, pitch)
+
+
+@cache
+def _words() -> list[str]:
+    """Return nearly all words of the corpus."""
+    talk = Talk(random.Random(0))
+    return sorted({word for _ in range(40_000) for word in talk.call().split()})
 
 
 def _with_pauses(text: str, rng: random.Random) -> str:
@@ -78,44 +79,56 @@ def _with_pauses(text: str, rng: random.Random) -> str:
     return f"{' '.join(words).rstrip(',')}."
 
 
-def _flite(text: str, voice: str, stretch: float) -> NDArray[np.int16]:
-    with tempfile.NamedTemporaryFile(suffix=".wav") as spoken:
-        subprocess.run(
-            ["flite", "-voice", voice, "--setf", f"duration_stretch={stretch:.2f}",
-             "-t", text, "-o", spoken.name],
-            check=True,
-        )  # fmt: skip
-        rate, samples = wavfile.read(spoken.name)
-    if rate == SAMPLE_RATE_HZ:
-        return np.asarray(samples, np.int16)
-    return np.asarray(
-        np.clip(resample_poly(samples.astype(np.float32), SAMPLE_RATE_HZ, rate), -32767, 32767),
-        np.int16,
-    )
+def stem(name: str, voices: str) -> str:
+    """Return how the names of shards begin."""
+    if voices == "seen":
+        return name
+    return f"{name}-{voices if '+' not in voices and ',' not in voices else 'chosen'}"
+
+
+def write(folder: Path, name: str, count: int, seed: int, voices: str) -> None:
+    """Write the shards of a synthesiser.
+
+    Raises
+    ------
+    SpeechError
+        There is no such synthesiser or voice, or it fails.
+    """
+    made_by = synthesiser(name)
+    utterances = speech(made_by, made_by.choose(voices), count, seed)
+    folder.mkdir(parents=True, exist_ok=True)
+    for shard in range(-(-count // SHARD)):
+        lines, samples = [], []
+        for _ in range(min(SHARD, count - shard * SHARD)):
+            about, pcm = next(utterances)
+            lines.append(json.dumps(about | {"samples": len(pcm)}))
+            samples.append(pcm)
+        path = folder / f"{stem(name, voices)}-{seed}-{shard:03d}"
+        np.save(path.with_suffix(".tmp.npy"), np.concatenate(samples))
+        path.with_suffix(".jsonl").write_text("\n".join(lines) + "\n")
+        path.with_suffix(".tmp.npy").rename(path.with_suffix(".npy"))
+        print(f"{path.name}: {len(lines)} utterances", flush=True)
 
 
 def main() -> None:
     """Write the shards."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    engines = ["espeak", "flite", "espeak-unseen", "flite-unseen"]
-    parser.add_argument("engine", choices=engines)
-    parser.add_argument("--count", type=int, default=2_000)
-    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("synthesiser", help=f"one of {', '.join(FAMILY.names())}")
+    parser.add_argument("--count", type=int, default=2_000, help="number of calls")
+    parser.add_argument("--seed", type=int, default=0, help="seed of all that is drawn")
+    parser.add_argument(
+        "--voices",
+        default="seen",
+        help="seen: that the model that ships was trained on (default); unseen: that it was not; "
+        "all: both; test-only: those whose licence allows no training; or names between commas",
+    )
     given = parser.parse_args()
-    given.folder.mkdir(parents=True, exist_ok=True)
-    utterances = speech(given.engine, given.count, given.seed)
-    for shard in range(-(-given.count // SHARD)):
-        lines, samples = [], []
-        for _ in range(min(SHARD, given.count - shard * SHARD)):
-            about, pcm = next(utterances)
-            lines.append(json.dumps(about | {"samples": len(pcm)}))
-            samples.append(pcm)
-        name = f"{given.engine}-{given.seed}-{shard:03d}"
-        np.save(given.folder / f"{name}.tmp.npy", np.concatenate(samples))
-        (given.folder / f"{name}.jsonl").write_text("\n".join(lines) + "\n")
-        (given.folder / f"{name}.tmp.npy").rename(given.folder / f"{name}.npy")
-        print(f"{name}: {len(lines)} utterances", flush=True)
+    try:
+        write(given.folder, given.synthesiser, given.count, given.seed, given.voices)
+    except SpeechError as error:
+        print(f"asr_speech.py: {error}", file=sys.stderr)
+        sys.exit(2)
 
 
 if __name__ == "__main__":
