@@ -1,79 +1,92 @@
 """Made-up calls on aeronautical frequencies: texts for training and testing speech.
 
 `Talk` draws calls with all that varies in them: who, where, which numbers, in which phraseology.
-The forms are in ``asr_forms.txt``. Texts are lower-case words without punctuation, as a
-transcript has them.
+The forms are in ``asr_forms.txt``, plain English is in ``asr_english.txt``. Texts are lower-case
+words without punctuation except the apostrophe, as a transcript has them.
 """
 
 from __future__ import annotations
 
-import csv
 import random
 import re
+from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 
+from asr_callsigns import Callsigns
+from asr_names import Names
+from asr_said import Said, style_of
+from asr_values import Values
+
 HERE = Path(__file__).parent
-TELEPHONY = HERE.parents[1] / "airhilt" / "phraseology" / "telephony.csv"
-FORMS = HERE / "asr_forms.txt"
-
-DIGITS = "zero one two three four five six seven eight nine".split()
-TEENS = "ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen".split()
-TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()
-LETTERS = (
-    "alfa bravo charlie delta echo foxtrot golf hotel india juliett kilo lima mike november "
-    "oscar papa quebec romeo sierra tango uniform victor whiskey xray yankee zulu"
+FORMS = (HERE / "asr_forms.txt", HERE / "asr_english.txt")
+UNITS = (
+    "tower tower tower ground ground approach approach departure departure center centre control "
+    "control radar director delivery information radio arrival final apron ramp clearance unicom"
 ).split()
-MAKERS = (
-    "cessna|piper|cirrus|beech|bonanza|cherokee|skyhawk|diamond|mooney|citation|learjet|"
-    "gulfstream|king air|november|helicopter"
-).split("|")
-COMMON = "AAL DAL UAL SWA JBU BAW DLH AFR KLM RPA SKW ASA FDX UPS ACA EJA SWR RYR".split()
-PLACES = (
-    "washington|potomac|kennedy|newark|boston|chicago|atlanta|denver|seattle|miami|dallas|"
-    "houston|oakland|san francisco|norcal|socal|los angeles|phoenix|memphis|minneapolis|"
-    "cleveland|indianapolis|jacksonville|new york|amsterdam|schiphol|london|heathrow|gatwick|"
-    "manchester|scottish|paris|frankfurt|munich|langen|zurich|geneva|vienna|madrid|barcelona|"
-    "lisbon|rome|milano|copenhagen|stockholm|oslo|helsinki|warsaw|prague|budapest|athens|"
-    "istanbul|dubai|tokyo|haneda|narita|osaka|singapore|sydney|melbourne|shannon|dublin|"
-    "brussels|rhein|maastricht|reykjavik|toronto|montreal|vancouver|gander|moncton"
-).split("|")
-UNITS = "tower ground approach departure center centre control radar director delivery".split()
-VEHICLES = (
-    "ops|ops|follow me|fire truck|snow plow|sweeper|tug|car|security|maintenance|inspector|"
-    "rescue|truck|checker|leader|bird control"
-).split("|")
 TYPES = (
-    "boeing|airbus|cessna|piper|citation|learjet|gulfstream|embraer|bombardier|dash eight|"
-    "regional jet|heavy boeing|seven thirty seven|triple seven|seven four seven|"
-    "seven fifty seven|three twenty|three thirty|skyhawk|helicopter|twin cessna"
+    "boeing|airbus|cessna|piper|citation|learjet|gulfstream|embraer|bombardier|dash eight|a t r|"
+    "regional jet|heavy boeing|seven thirty seven|triple seven|seven four seven|seven eight seven|"
+    "seven fifty seven|three twenty|three thirty|skyhawk|helicopter|twin cessna|heavy|seven six "
+    "seven|seven three seven|boeing seven three seven|boeing seven seventy seven|dreamliner|"
+    "airbus three twenty|airbus a three eighty|three fifty|three nineteen|three twenty one|"
+    "a three twenty|neo|max|crj|c r j|r j|erj|e jet|embraer one seventy five|king air|pilatus|"
+    "caravan|cirrus|challenger|falcon|phenom|md eleven|m d eleven|super|company|company traffic|"
+    "cherokee|bonanza|baron|glider|ultralight|experimental|warbird|twin|jet|hawker|saab|fokker|"
+    "blackhawk|chinook|hercules|c one thirty|fighter|flight of two|light aircraft|business jet|"
+    "robinson|diamond|balloon|drone|tug|truck|vehicle|sweeper|snow plow|follow me"
 ).split("|")
-ANIMALS = "deer|coyote|fox|dog|geese|birds|gulls|flock of birds|flock of geese|animal".split("|")
+ANIMALS = (
+    "deer|deer|coyote|coyotes|fox|dog|dogs|geese|birds|gulls|flock of birds|flock of geese|animal|"
+    "a deer|a fox|a dog|a coyote|seagulls|hawk|large bird|large birds|flock of starlings|pigeons|"
+    "rabbit|hare|turtle|cow|sheep|moose|bear|wild boar|vulture|eagle|crows|herons|cat|several deer"
+).split("|")
 POINTS = "north south east west northeast northwest southeast southwest".split()
+GREETINGS = (
+    "good morning|good afternoon|good evening|good day|hello|hi|morning|afternoon|evening|hey|"
+    "bonjour|guten tag|buenos dias|buongiorno|hello again|happy new year|greetings|gruezi|moin"
+).split("|")
+FAREWELLS = (
+    "good day|bye|bye bye|have a good one|have a good flight|see you|so long|thanks|thank you|"
+    "good night|have a nice day|ciao|cheers|safe flight|take care|thanks for the help|see ya|"
+    "thank you sir|thank you maam|au revoir|auf wiedersehen|adios|tschuss|have a good night"
+).split("|")
+FILLERS = "uh uh uh um um er ah uhm hmm erm and so okay well like".split()
+TURNS = (
+    "correction|correction|negative|i say again|break|break break|disregard|correction i say again|"
+    "sorry|no|disregard that|rather|make that|excuse me|actually"
+).split("|")
 
+LONGEST = 45
+"""Most words of a call before its hesitations."""
+_WEIGHT = re.compile(r"([0-9]+): ")
 _CHOICE = re.compile(r"\(([^()]*)\)")
 _VARIABLE = re.compile(r"\{(\w+)\}")
 
 
-def airlines() -> dict[str, str]:
-    """Return the spoken names of airlines by their ICAO designator."""
-    with TELEPHONY.open(encoding="utf-8", newline="") as stream:
-        return {row["designator"]: row["telephony"] for row in csv.DictReader(stream)}
-
-
+@lru_cache(maxsize=1)
 def forms() -> dict[str, list[str]]:
-    """Return the forms of calls by their kind."""
+    """Return the forms of calls by their kind, each as often as its weight."""
     found: dict[str, list[str]] = {}
     kind = ""
-    for line in FORMS.read_text(encoding="utf-8").splitlines():
-        if line.startswith("["):
-            kind = line.strip("[]")
-        elif line and not line.startswith("#"):
-            found.setdefault(kind, []).append(line)
+    for path in FORMS:
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if line.startswith("["):
+                kind = line.strip("[]")
+            elif line and not line.startswith("#"):
+                weight = _WEIGHT.match(line)
+                form = line[weight.end() :] if weight else line
+                found.setdefault(kind, []).extend([form] * (int(weight[1]) if weight else 1))
     return found
 
 
 class Talk:
     """Draws calls.
+
+    Parameters
+    ----------
+    held_out
+        True for the names of places and fixes that no training text has.
 
     Attributes
     ----------
@@ -81,194 +94,75 @@ class Talk:
         Callsign of the last `call`, as on a flight strip; None if it names nobody.
     """
 
-    def __init__(self, rng: random.Random) -> None:
+    def __init__(self, rng: random.Random, *, held_out: bool = False) -> None:
         self.callsign_of_call: str | None = None
         self._rng = rng
-        self._airlines = airlines()
-        self._designators = sorted(self._airlines)
+        self._values = values = Values(rng)
+        self._names = names = Names(rng, held_out=held_out)
+        self._callsigns = Callsigns(rng, values)
+        self._said = Said(rng, names)
+        self._who = self.callsign()
         self._forms = forms()
-        self._last: str | None = None
-
-    # --- numbers ---------------------------------------------------------------------------
-
-    def digit(self, digit: int | str) -> str:
-        """Return one digit, as some say it."""
-        word = DIGITS[int(digit)]
-        if word == "nine" and self._rng.random() < 0.6:
-            return "niner"
-        if word == "three" and self._rng.random() < 0.08:
-            return "tree"
-        if word == "five" and self._rng.random() < 0.08:
-            return "fife"
-        return word
-
-    def digits(self, number: int | str) -> str:
-        """Return a number digit by digit."""
-        return " ".join(self.digit(digit) for digit in str(number))
-
-    def group(self, number: int) -> str:
-        """Return a number up to 9999 in group form: twelve thirty four."""
-        if number < 10:
-            return self.digit(number)
-        if number < 20:
-            return TEENS[number - 10]
-        if number < 100:
-            ones = f" {self.digit(number % 10)}" if number % 10 else ""
-            return TENS[number // 10 - 2] + ones
-        head, rest = divmod(number, 100)
-        if rest == 0:
-            return f"{self.group(head)} hundred"
-        tail = f"zero {self.digit(rest)}" if rest < 10 else self.group(rest)
-        return f"{self.group(head)} {tail}"
+        self._variables: dict[str, Callable[[], str]] = {
+            "callsign": self.callsign, "station": self.station, "procedure": self.procedure,
+            "airway": self.airway, "spelledfix": self.spelled_fix,
+            "who": lambda: self._who,
+            "place": names.place, "fix": names.fix, "waypoint": names.waypoint,
+            "unit": lambda: rng.choice(UNITS),
+            "type": lambda: rng.choice(TYPES),
+            "animal": lambda: rng.choice(ANIMALS),
+            "point": lambda: rng.choice(POINTS),
+            "digits3": lambda: values.digits(rng.randint(10, 410)),
+            "number2": lambda: values.number(rng.randint(2, 99)),
+            "said_instruction": lambda: self._spoken(readback=False),
+            "said_readback": lambda: self._spoken(readback=True),
+        }  # fmt: skip
 
     # --- what varies in a form -------------------------------------------------------------
 
     def callsign(self) -> str:
         """Return how somebody is called."""
-        rng, kind = self._rng, self._rng.random()
-        if kind < 0.74:
-            return self._flight()
-        if kind < 0.90:
-            return self._registration()
-        self._last = None
-        return f"{rng.choice(VEHICLES)} {self.digits(rng.randint(1, 30))}"
-
-    def _flight(self) -> str:
-        rng = self._rng
-        designator = rng.choice(COMMON if rng.random() < 0.22 else self._designators)
-        number = rng.choice((rng.randint(1, 99), rng.randint(100, 999), rng.randint(1000, 9999)))
-        spoken = self.digits(number) if rng.random() < 0.55 else self.group(number)
-        self._last = f"{designator}{number}"
-        if rng.random() < 0.06:
-            letter = rng.choice(LETTERS)
-            spoken = f"{self.digits(number % 1000)} {letter}"
-            self._last = f"{designator}{number % 1000}{letter[0].upper()}"
-        heavy = rng.choice((" heavy", " super")) if rng.random() < 0.06 else ""
-        return f"{self._airlines[designator]} {spoken}{heavy}"
-
-    def _registration(self) -> str:
-        rng = self._rng
-        maker = rng.choice(MAKERS)
-        if rng.random() < 0.25:
-            self._last = None
-            return " ".join((maker, *rng.choices(LETTERS, k=rng.choice((2, 3, 4)))))
-        number, letters = rng.randint(1, 999), rng.choices(LETTERS, k=rng.choice((1, 2, 2)))
-        self._last = f"N{number}{''.join(letter[0].upper() for letter in letters)}"
-        return " ".join((maker, self.digits(number), *letters))
+        return self._callsigns.draw()
 
     def station(self) -> str:
         """Return a controller's position."""
         unit = self._rng.choice(UNITS)
-        return unit if self._rng.random() < 0.25 else f"{self._rng.choice(PLACES)} {unit}"
+        return unit if self._rng.random() < 0.25 else f"{self._names.place()} {unit}"
 
-    def unit(self) -> str:
-        """Return a position without its place."""
-        return self._rng.choice(UNITS)
+    def procedure(self) -> str:
+        """Return a standard departure or arrival (ICAO Annex 11, appendix 3)."""
+        number = self._values.digit(self._rng.randint(1, 9))
+        letter = f" {self._values.letter()}" if self._values.style == "icao" else ""
+        name = self._names.fix() if self._rng.random() < 0.6 else self._names.place()
+        return f"{name} {number}{letter}"
 
-    def runway(self) -> str:
-        """Return a runway, with its word most of the time."""
-        number = self._rng.randint(1, 36)
-        spoken = self.digits(f"{number:02d}" if self._rng.random() < 0.7 else number)
-        side = self._rng.choice((" left", " right", " center")) if self._rng.random() < 0.35 else ""
-        prefix = "runway " if self._rng.random() < 0.93 else ""
-        return f"{prefix}{spoken}{side}"
+    def airway(self) -> str:
+        """Return an airway."""
+        letter = self._rng.choice(("j", "q", "v", "t", "victor", "lima", "mike", "uniform lima"))
+        return f"{letter} {self._values.number(self._rng.randint(1, 999))}"
 
-    def letter(self) -> str:
-        """Return a letter's word."""
-        return self._rng.choice(LETTERS)
+    def spelled_fix(self) -> str:
+        """Return a fix with its letters."""
+        name = self._names.fix()
+        return f"{name} {self._rng.choice(('', 'that is', 'spelled'))} {self._values.spelled(name)}"
 
-    def taxiway(self) -> str:
-        """Return a taxiway."""
-        name = self._rng.choice(LETTERS)
-        return f"{name} {self.digit(self._rng.randint(1, 9))}" if self._rng.random() < 0.3 else name
-
-    def level(self) -> str:
-        """Return a level or an altitude."""
-        rng = self._rng
-        if rng.random() < 0.5:
-            return f"flight level {self.digits(rng.randint(6, 45) * 10 + rng.choice((0, 0, 0, 5)))}"
-        thousands = rng.randint(1, 17)
-        spoken = self.digits(thousands) if rng.random() < 0.7 else self.group(thousands)
-        hundreds = f" {self.digit(rng.randint(1, 9))} hundred" if rng.random() < 0.3 else ""
-        feet = " feet" if rng.random() < 0.2 else ""
-        return f"{spoken} thousand{hundreds}{feet}"
-
-    def heading(self) -> str:
-        """Return a heading."""
-        return self.digits(f"{self._rng.randint(1, 72) * 5:03d}")
-
-    def frequency(self) -> str:
-        """Return a frequency."""
-        rng = self._rng
-        tail = rng.choice((0, 25, 5, 50, 75, 1, 3, 9, 15, 35, 65, 8, 7))
-        point = rng.choice(("point", "decimal"))
-        return f"{self.digits(rng.randint(118, 136))} {point} {self.digits(tail)}"
-
-    def squawk(self) -> str:
-        """Return a transponder code."""
-        return self.digits("".join(str(self._rng.randint(0, 7)) for _ in range(4)))
-
-    def speed(self) -> str:
-        """Return a speed in knots."""
-        return self.digits(self._rng.randint(12, 32) * 10)
-
-    def tens(self) -> str:
-        """Return an angle in degrees."""
-        return self.digits(self._rng.randint(1, 9) * 10)
-
-    def miles(self) -> str:
-        """Return a short distance."""
-        return self.digits(self._rng.randint(1, 9))
-
-    def clock(self) -> str:
-        """Return a direction on the clock."""
-        return self.group(self._rng.randint(1, 12))
-
-    def wind(self) -> str:
-        """Return the wind."""
-        rng = self._rng
-        if rng.random() < 0.1:
-            return "wind calm"
-        gust = f" gust {self.digits(rng.randint(12, 35))}" if rng.random() < 0.2 else ""
-        form = rng.choice(("wind {} at {}", "wind {} degrees {} knots", "winds {} at {}"))
-        return form.format(self.heading(), self.digits(rng.randint(3, 30))) + gust
-
-    def altimeter(self) -> str:
-        """Return an altimeter setting."""
-        rng = self._rng
-        if rng.random() < 0.5:
-            return f"altimeter {self.digits(rng.randint(2900, 3080))}"
-        return f"q n h {self.digits(rng.randint(975, 1040))}"
-
-    def type(self) -> str:
-        """Return a type of aircraft."""
-        return self._rng.choice(TYPES)
-
-    def animal(self) -> str:
-        """Return an animal."""
-        return self._rng.choice(ANIMALS)
-
-    def point(self) -> str:
-        """Return a point of the compass."""
-        return self._rng.choice(POINTS)
+    def _spoken(self, *, readback: bool) -> str:
+        return self._said.instruction(style=style_of(self._values.style), readback=readback)
 
     # --- whole calls -----------------------------------------------------------------------
 
-    def instruction(self) -> str:
-        """Return one instruction, as it is given or read back."""
-        return self._say("instruction")
-
-    def traffic(self) -> str:
-        """Return traffic information."""
-        return self._say("traffic")
-
-    def _say(self, kind: str) -> str:
+    def say(self, kind: str) -> str:
         """Return a form of a kind with its choices made and its variables drawn."""
         form = self._rng.choice(self._forms[kind])
         while "(" in form:
             form = _CHOICE.sub(lambda choice: self._rng.choice(choice[1].split("|")), form)
-        said = _VARIABLE.sub(lambda name: str(getattr(self, name[1])()), form)
-        return " ".join(said.split())
+        return " ".join(_VARIABLE.sub(lambda name: self._drawn(name[1]), form).split())
+
+    def _drawn(self, name: str) -> str:
+        if name in self._forms:
+            return self.say(name)
+        draw = self._variables.get(name)
+        return draw() if draw else str(getattr(self._values, name)())
 
     def salad(self, words: list[str]) -> str:
         """Return words that make no sense together."""
@@ -277,31 +171,67 @@ class Talk:
     def call(self) -> str:
         """Return a call of any kind."""
         rng, kind = self._rng, self._rng.random()
-        who, callsign = self.callsign(), self._last
-        count = rng.choices((1, 2, 3), (0.55, 0.35, 0.1))[0]
-        what = " ".join(self.instruction() for _ in range(count))
-        if kind < 0.36:
-            station = self.station() if rng.random() < 0.3 else ""
-            extra = self.traffic() if rng.random() < 0.25 else ""
-            parts = [who, station, what, extra]
-        elif kind < 0.60:
-            parts = [rng.choice(("", "", "roger", "okay", "uh")), what, who]
-        elif kind < 0.68:
-            parts = [who, self.traffic()]
-        elif kind < 0.80:
-            first = rng.choice((f"{self.station()} {who}", who, f"tower {who}", "tower"))
-            parts = [first, self._say("report")]
-        elif kind < 0.86:
-            parts = [self._say("report"), who]
-        elif kind < 0.90:
-            turn = rng.choice(("correction", "negative", "i say again", "break", "disregard"))
-            parts = [who, self.instruction(), turn, self.instruction()]
-        elif kind < 0.94:
-            parts = [self._say("advisory")]
-        elif kind < 0.97:
-            parts = [what]
-        else:
-            parts = [self.station(), who]
-        text = " ".join(" ".join(parts).split())
+        self._values.begin()
+        who = self._who = self._callsigns.draw()
+        callsign = self._callsigns.strip
+        text = " ".join(" ".join(self._parts(kind, who)).split())
+        while len(text.split()) > LONGEST:
+            text = " ".join(" ".join(self._parts(kind, who)).split())
         self.callsign_of_call = callsign if who in text else None
-        return text
+        return self._hesitating(text) if rng.random() < 0.16 else text
+
+    def _parts(self, kind: float, who: str) -> list[str]:
+        """Return the parts of a call of a kind in [0, 1), by or to somebody."""
+        rng = self._rng
+        if kind < 0.33:
+            station = self.station() if rng.random() < 0.2 else ""
+            extra = self.say("traffic") if rng.random() < 0.2 else ""
+            return [who, station, self._greeting(0.06), self._several("instruction"), extra]
+        if kind < 0.56:
+            first = rng.choice(("", "", "", "roger", "okay", "and", "copy", "wilco", "alright"))
+            return [first, self._several("readback"), who, self._farewell(0.08)]
+        if kind < 0.63:
+            return [who, self.say("traffic")]
+        if kind < 0.75:
+            station = self.station()
+            first = rng.choice(
+                (f"{station} {who}", f"{station} {who}", who, f"tower {who}", "tower")
+            )
+            return [first, self._greeting(0.2), self.say("report")]
+        if kind < 0.81:
+            return [self.say("report"), who, self._farewell(0.08)]
+        if kind < 0.85:
+            return [who, self.say("instruction"), rng.choice(TURNS), self.say("instruction")]
+        if kind < 0.885:
+            return [self.say("advisory")]
+        if kind < 0.91:
+            return [self._several("instruction")]
+        if kind < 0.93:
+            return [rng.choice((f"{self.station()} {who}", f"{who} {self.station()}", who)),
+                    self._greeting(0.4)]  # fmt: skip
+        if kind < 0.955:
+            return [self.say("atis")]
+        return [who if rng.random() < 0.15 else "", self.say("english")]
+
+    def _several(self, kind: str) -> str:
+        count = self._rng.choices((1, 2, 3), (0.66, 0.29, 0.05))[0]
+        return " ".join(self.say(kind) for _ in range(count))
+
+    def _greeting(self, share: float) -> str:
+        return self._rng.choice(GREETINGS) if self._rng.random() < share else ""
+
+    def _farewell(self, share: float) -> str:
+        return self._rng.choice(FAREWELLS) if self._rng.random() < share else ""
+
+    def _hesitating(self, text: str) -> str:
+        """Return a call with a filler, or with words that are said again."""
+        rng, words = self._rng, text.split()
+        for _ in range(rng.choice((1, 1, 2))):
+            at = rng.randrange(len(words) + 1)
+            if rng.random() < 0.7:
+                words.insert(at, rng.choice(FILLERS))
+            else:
+                begin = max(0, at - rng.randint(1, 3))
+                filler = [rng.choice(FILLERS)] if rng.random() < 0.4 else []
+                words[at:at] = [*filler, *words[begin:at]]
+        return " ".join(words)
