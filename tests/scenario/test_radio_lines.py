@@ -85,13 +85,23 @@ def test_a_line_answers_one_before_it_on_its_frequency() -> None:
     ("field", "value"),
     [
         ("snr_db", 100.0), ("snr_db", "loud"), ("topology", "serial"), ("readbacks", "none"),
-        ("words_per_minute", 5.0),
+        ("words_per_minute", 5.0), ("wet", 1.5), ("stations", {"AAL123": {"snr_db": 100.0}}),
     ],
 )  # fmt: skip
-def test_settings_of_the_radio_have_limits(field: str, value: float | str) -> None:
+def test_settings_of_the_radio_have_limits(field: str, value: Any) -> None:
     document = changed()
     document["radio"][field] = value
     assert f"radio/{field}" in complaint(document)
+
+
+def test_the_radio_of_a_station_belongs_to_somebody_in_the_scenario() -> None:
+    document = changed(clearance={"snr_db": 3.0, "wet": 0.5})
+    document["radio"]["stations"] = {"AAL123": {"snr_db": 5.0}, "Washington Tower": {"wet": 0.2}}
+    radio = load_text(json.dumps(document), "test.json").radio
+    assert (radio.lines[0].snr_db, radio.stations["Washington Tower"].wet) == (3.0, 0.2)
+    document["radio"]["stations"] = {"AAL124": {"snr_db": 5.0}}
+    message = complaint(document)
+    assert "radio/stations/AAL124: no actor or unit 'AAL124'; did you mean 'AAL123'" in message
 
 
 def test_a_microphone_sticks_on_a_frequency() -> None:

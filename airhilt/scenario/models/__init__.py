@@ -56,7 +56,7 @@ from airhilt.scenario.models.failures import (
 )
 from airhilt.scenario.models.perturbations import Normal, Perturbation, Uniform
 from airhilt.scenario.models.radar import Radar
-from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, Topology
+from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, StationRadio, Topology
 from airhilt.scenario.models.scenario import Scenario
 from airhilt.scenario.models.scene import AirportScene, EnRouteScene, Scene
 from airhilt.scenario.models.surface import SurfaceSurveillance
@@ -122,6 +122,7 @@ __all__ = [
     "SeparationBelow",
     "SpeedAbove",
     "Standing",
+    "StationRadio",
     "StuckMicrophone",
     "SurfaceSurveillance",
     "ThresholdWithin",

@@ -24,7 +24,30 @@ class ScriptedCommand(Model):
     when: Condition | None = None
 
 
-class RadioLine(Model):
+class ReceptionSettings(Model):
+    """Reception of calls: their noise, and the part of the radio channel in their sound."""
+
+    snr_db: float | None = Field(
+        default=None,
+        ge=-30.0,
+        le=60.0,
+        description="SNR of what is received; null: that of the next wider settings, in the order "
+        "line, station, radio; null in the radio too: nobody mishears",
+    )
+    wet: float | None = Field(
+        default=None,
+        ge=0.0,
+        le=1.0,
+        description="part of the radio channel in the sound; the rest is the voice as it was "
+        "spoken; null: that of the next wider settings, and at last that of the profile",
+    )
+
+
+class StationRadio(ReceptionSettings):
+    """Transmitter of an actor or a unit: the reception of its calls."""
+
+
+class RadioLine(ReceptionSettings):
     """One call on a frequency. If the frequency is busy, the call waits until it is free."""
 
     id: Identifier
@@ -49,7 +72,7 @@ class RadioLine(Model):
 Topology = Literal["parallel", "asr_first", "gated_fusion"]
 
 
-class Radio(Model):
+class Radio(ReceptionSettings):
     """Radio calls in the order of time, and how well people hear each other."""
 
     controller: str = Field(default="Centre", description="name of the unit that listens")
@@ -57,11 +80,10 @@ class Radio(Model):
     words_per_minute: float = Field(
         default=160.0, ge=60.0, le=400.0, description="speaking rate of calls without sound"
     )
-    snr_db: float | None = Field(
-        default=None,
-        ge=-30.0,
-        le=60.0,
-        description="SNR of what is received; null: nobody mishears",
+    stations: dict[str, StationRadio] = Field(
+        default={},
+        description="reception of the calls of single speakers, by callsign or by the unit's name",
+        examples=[{"AAL123": {"snr_db": 5.0, "wet": 0.7}}],
     )
     squelch_db: float = Field(
         default=-10.0, ge=-30.0, le=60.0, description="SNR below which receivers stay silent"

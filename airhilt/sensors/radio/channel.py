@@ -68,6 +68,7 @@ class Channel(Protocol):
         rng: np.random.Generator,
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",
+        wet: float | None = None,
     ) -> Audio:
         """Return the received audio of ``speech``; it is at least as long.
 
@@ -79,6 +80,9 @@ class Channel(Protocol):
             Transmissions at the same time.
         background
             Noise around the speaker.
+        wet
+            Part of the channel in the sound; the rest is the voice as it was spoken. None: that of
+            the channel.
         """
         ...
 
@@ -107,6 +111,7 @@ class VhfChannel:
         rng: np.random.Generator,
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",
+        wet: float | None = None,
     ) -> Audio:
         """Return the received audio: the call, noise, and the squelch tail."""
         profile = self._profile
@@ -119,10 +124,7 @@ class VhfChannel:
             loudness = LEVEL_RMS * 10.0 ** (-(20.0 if snr_db is None else max(snr_db, 0.0)) / 40.0)
             burst = _band(rng.standard_normal(tail, np.float32), profile)
             heard = np.concatenate([heard, loudness * burst])
-        if profile.wet < 1.0:
-            dry = np.zeros_like(heard)
-            dry[: len(speech)] = _level(speech)[0]
-            heard = profile.wet * heard + (1.0 - profile.wet) * dry
+        heard = with_voice(heard, speech, profile.wet if wet is None else wet)
         return np.asarray(np.clip(heard, -1.0, 1.0), np.float32)
 
     def parts(
@@ -202,6 +204,21 @@ class VhfChannel:
             detected = _band(audio * np.float32(LEVEL_RMS / MODULATION), self._profile)
             placed[begin:end] = detected - signal[begin:end]
         return placed
+
+
+def with_voice(heard: Audio, speech: Audio, wet: float) -> Audio:
+    """Return what is heard of a channel, mixed with the voice as it was spoken.
+
+    Parameters
+    ----------
+    wet
+        Part of the channel, in [0, 1]; the rest is the voice, at the usual level.
+    """
+    if wet == 1.0:
+        return heard
+    dry = np.zeros_like(heard)
+    dry[: len(speech)] = _level(speech)[0]
+    return wet * heard + (1.0 - wet) * dry
 
 
 def active(speech: Audio) -> NDArray[np.bool_]:

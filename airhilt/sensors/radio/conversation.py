@@ -221,6 +221,7 @@ class RadioConversation:
             call.addressed,
             call.said,
             None if replied_to is None else replied_to.id,
+            None if scripted is None else scripted.declared.id,
             listens_first=again > 0 or scripted is None or scripted.listens_first,
         )
         self._on_air[utterance.id] = self._said[utterance.id] = call

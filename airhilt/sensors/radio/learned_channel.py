@@ -17,7 +17,14 @@ from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
 from airhilt.onnx import open_network
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import LEVEL_RMS, BackgroundNoise, Other, VhfChannel, active
+from airhilt.sensors.radio.channel import (
+    LEVEL_RMS,
+    BackgroundNoise,
+    Other,
+    VhfChannel,
+    active,
+    with_voice,
+)
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
 TRIAL_SAMPLES = (1_600, 2_311)
@@ -53,11 +60,13 @@ class LearnedChannel:
         rng: np.random.Generator,
         others: Sequence[Other] = (),
         background: BackgroundNoise = "none",  # noqa: ARG002
+        wet: float | None = None,
     ) -> Audio:
         """Return the received audio of ``speech``; the model has a background of its own."""
         noise = self._vhf.parts(speech, snr_db, rng).noise
         signal = self._signal(np.asarray(speech, np.float32))
         heard = signal + noise + self._vhf.interference(signal, others, rng)
+        heard = with_voice(heard, np.asarray(speech, np.float32), 1.0 if wet is None else wet)
         return np.asarray(np.clip(heard, -1.0, 1.0), np.float32)
 
     def _signal(self, speech: Audio) -> Audio:

@@ -12,6 +12,7 @@ from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
@@ -63,6 +64,7 @@ class Listeners:
     ) -> None:
         self._director = director
         self._radio = radio
+        self._receptions = Receptions(radio)
         self._stations = stations
         self._hearing = hearing
         self._reaches = reaches
@@ -85,7 +87,8 @@ class Listeners:
         if listener in call.deaf or not self._reaches(on_air, listener):
             self._understand(call, said, listener, NOTHING, "")
             return
-        heard = self._hearing.listen(said.id, listener, said.text, self._radio.snr_db)
+        snr_db = self._receptions.of(said).snr_db
+        heard = self._hearing.listen(said.id, listener, said.text, snr_db)
         match heard.outcome:
             case "understood":
                 understanding = AS_SAID

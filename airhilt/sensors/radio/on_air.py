@@ -21,6 +21,8 @@ class Utterance:
     text: str
     """Empty if nothing is said, or nobody knows what."""
     in_reply_to: str | None = None
+    line: str | None = None
+    """Id of the line of the script that it says; None if it is not in the script."""
     listens_first: bool = True
     """False: it is said even if the frequency is busy."""
     speech: Audio | None = field(default=None, compare=False)

@@ -13,11 +13,11 @@ from airhilt.messages import (
     TransmissionClosed,
     TransmissionOpened,
 )
-from airhilt.scenario.models import Radio
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.received_audio import Chunk, ReceivedAudio
+from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.units import SECOND_NS
@@ -32,7 +32,7 @@ class RadioReceiver:
     def __init__(
         self,
         director: Director,
-        radio: Radio,
+        receptions: Receptions,
         stations: Stations,
         backend: RadioBackend,
         publish: Publish,
@@ -41,8 +41,7 @@ class RadioReceiver:
         self._stations = stations
         self._backend = backend
         self._publish = publish
-        self._snr_db = radio.snr_db
-        self.squelch_opens = radio.snr_db is None or radio.snr_db >= radio.squelch_db
+        self._receptions = receptions
         self._streams: dict[OnAir, ReceivedAudio] = {}
         """Audio of the transmissions that are being streamed."""
 
@@ -91,7 +90,8 @@ class RadioReceiver:
         return True
 
     def _receives(self, on_air: OnAir) -> bool:
-        return self.squelch_opens and self._stations.received(on_air.utterance.speaker)
+        said = on_air.utterance
+        return self._receptions.opens_squelch(said) and self._stations.received(said.speaker)
 
     def _audio_of(self, on_air: OnAir) -> ReceivedAudio:
         background = self._stations.background_of(on_air.utterance.speaker)
@@ -141,7 +141,7 @@ class RadioReceiver:
                 t_end_ns=self._director.now_ns,
                 samples=audio.samples,
                 sha256=_sha256(audio.pcm),
-                snr_db=self._snr_db,
+                snr_db=self._receptions.of(on_air.utterance).snr_db,
                 is_complete=is_complete,
             )
         )
@@ -161,7 +161,7 @@ class RadioReceiver:
             t_tx_ns=on_air.t_tx_ns,
             t_end_ns=on_air.t_end_ns,
             keyed_by=self._stations.keyed_by(on_air.utterance.speaker),
-            snr_db=self._snr_db,
+            snr_db=self._receptions.of(on_air.utterance).snr_db,
             samples=len(pcm) // SAMPLE_BYTES,
             sha256=_sha256(pcm),
         )

@@ -14,6 +14,7 @@ from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.receiver import RadioReceiver
+from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director
 
@@ -57,11 +58,11 @@ class Transmissions:
         self._director = director
         self._controller = radio.controller
         self._roster = roster
-        self._snr_db = radio.snr_db
+        self._receptions = Receptions(radio)
         self._stations = stations
         self._backend = backend
         self._publish = publish
-        self._receiver = RadioReceiver(director, radio, stations, backend, publish)
+        self._receiver = RadioReceiver(director, self._receptions, stations, backend, publish)
         self._began = began
         self._arbiter = FrequencyArbiter(
             director,
@@ -92,7 +93,7 @@ class Transmissions:
         """Return whether a transmission reaches a listener, and no other at the same time."""
         audible = self._stations.audible
         return (
-            self._receiver.squelch_opens
+            self._receptions.opens_squelch(on_air.utterance)
             and audible(on_air.utterance.speaker, listener)
             and not any(audible(other.utterance.speaker, listener) for other in on_air.overlapping)
         )
@@ -125,6 +126,6 @@ class Transmissions:
             t_end_ns=on_air.t_end_ns,
             in_reply_to=said.in_reply_to,
             blocked_by=tuple(other.utterance.id for other in mixed_with),
-            snr_db=self._snr_db,
+            snr_db=self._receptions.of(said).snr_db,
         )
         self._publish(f"truth/radio/{said.id}", truth)

@@ -1,4 +1,4 @@
-"""Checks of radio lines: their ids, their frequencies, and what they answer."""
+"""Checks of radio lines: their ids, frequencies, answers, and stations."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.messages import ASSISTANT
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.problems import Problem
 from airhilt.scenario.vhf_channels import channel_spacing_khz
@@ -18,7 +19,7 @@ GENERATED_ID = re.compile(
 
 
 def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
-    """Yield lines with reserved ids, no VHF channel, or answers to no line before them."""
+    """Yield lines with reserved ids, no VHF channel, or no line to answer, and unknown stations."""
     line_ids = [line.id for line in scenario.radio.lines]
     frequencies: dict[str, int] = {}
     for index, line in enumerate(scenario.radio.lines):
@@ -44,3 +45,15 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
                 f"{line.frequency_khz} kHz",
             )
         frequencies[line.id] = line.frequency_khz
+    yield from _unknown_stations(scenario)
+
+
+def _unknown_stations(scenario: Scenario) -> Iterator[Problem]:
+    """Yield the stations of speakers that are not in the scenario."""
+    units = [name for line in scenario.radio.lines for name in (line.speaker, line.to) if name]
+    callsigns = [actor.callsign for actor in scenario.actors]
+    known = dict.fromkeys([*callsigns, *units, scenario.radio.controller, ASSISTANT])
+    for name in scenario.radio.stations:
+        if name not in known:
+            tail = library.nearest(name, list(known))
+            yield Problem(f"radio/stations/{name}", f"no actor or unit {name!r}{tail}")

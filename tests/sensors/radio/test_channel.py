@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.errors import SpeechError
+from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
@@ -197,7 +198,7 @@ def test_a_carrier_may_last_long_or_for_a_sample() -> None:
 
 
 def test_two_that_block_each_other_whistle_alike_whichever_is_received() -> None:
-    spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), seed=5)
+    spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), 5, Radio())
 
     def whistle_hz(said: OnAir, over: OnAir) -> float:
         heard = from_pcm(spoken.receive(said, (over,), "none", 0, said.t_end_ns))
@@ -232,6 +233,15 @@ def test_a_call_ends_with_the_squelch_tail() -> None:
     heard = VhfChannel(PROFILES["vhf"]).transmit(said, 10.0, np.random.default_rng(0))
     assert len(heard) == len(said) + round(0.12 * SAMPLE_RATE_HZ)
     assert power(heard[len(said) :]) > 0.0
+
+
+def test_a_call_may_have_another_share_of_the_channel_than_its_profile() -> None:
+    channel, said = VhfChannel(PROFILES["vhf"]), speech()
+    wet = channel.transmit(said, 0.0, np.random.default_rng(0))
+    half = channel.transmit(said, 0.0, np.random.default_rng(0), wet=0.5)[: len(said)]
+    dry = channel.transmit(said, 0.0, np.random.default_rng(0), wet=0.0)[: len(said)]
+    assert np.corrcoef(dry, said)[0, 1] > 0.999
+    assert np.allclose(half, 0.5 * wet[: len(said)] + 0.5 * dry, atol=1e-6)
 
 
 def test_a_wired_line_leaves_the_voice_nearly_as_it_was() -> None:

@@ -47,6 +47,11 @@ def test_noise_is_at_the_ratio_asked_for(snr_db: float) -> None:
     assert measured_db == pytest.approx(snr_db, abs=0.5)
 
 
+def test_the_voice_itself_may_be_mixed_in() -> None:
+    dry = echo().transmit(speech(), 0.0, np.random.default_rng(0), wet=0.0)
+    assert np.corrcoef(dry, speech())[0, 1] > 0.999
+
+
 def test_the_same_seed_gives_the_same_bytes() -> None:
     first, second = (echo().transmit(speech(), 5.0, np.random.default_rng(3)) for _ in range(2))
     assert first.tobytes() == second.tobytes()

@@ -39,6 +39,7 @@ from airhilt.voices.engine import VoiceSpec
 
 SEED = 7
 SNR_DB = 10.0
+RADIO = Radio(snr_db=SNR_DB)
 KHZ = 118_300
 
 M = TypeVar("M", bound=Message)
@@ -79,22 +80,22 @@ class Everywhere:
         return "tower" if name == "Tower" else "cockpit"
 
 
-def audio_radio(profile: str = "vhf") -> AudioRadio:
-    return AudioRadio(Buzzing(), VhfChannel(PROFILES[profile]), SEED, SNR_DB)
+def audio_radio(profile: str = "vhf", radio: Radio = RADIO) -> AudioRadio:
+    return AudioRadio(Buzzing(), VhfChannel(PROFILES[profile]), SEED, radio)
 
 
 class Air:
     """The transmissions of a run, and what was published of them."""
 
-    def __init__(self, backend: RadioBackend | None = None) -> None:
+    def __init__(self, backend: RadioBackend | None = None, radio: Radio = RADIO) -> None:
         self.director = Director(Virtual())
         self.stations = Everywhere()
         self.published: list[tuple[str, Message, bytes]] = []
         self.transmissions = Transmissions(
             self.director,
-            Radio(snr_db=SNR_DB),
+            radio,
             cast(Stations, self.stations),
-            backend or audio_radio(),
+            backend or audio_radio(radio=radio),
             self.publish,
             began=lambda said: None,
             ended=lambda ended: None,
@@ -235,6 +236,38 @@ def test_the_whole_is_what_the_channel_makes_of_the_whole_call(profile: str) -> 
     check_stream(air, "call")
 
 
+def test_a_call_has_the_reception_of_its_line_then_of_its_speaker_then_of_the_radio() -> None:
+    radio = Radio.model_validate({
+        "snr_db": 20.0, "stations": {"AAL123": {"snr_db": 5.0, "wet": 0.5}},
+        "lines": [{"id": "weak", "speaker": "AAL123", "frequency_khz": KHZ, "text": "x",
+                   "snr_db": -3.0}],
+    })  # fmt: skip
+    air = Air(radio=radio)
+    air.say(1.0, "weak", 1.0, speaker="AAL123", line="weak")
+    air.say(10.0, "another", 1.0, speaker="AAL123")
+    air.say(20.0, "other", 1.0, speaker="UAL7")
+    air.run()
+    ratios = {name: air.truth(name).snr_db for name in ("weak", "another", "other")}
+    assert ratios == {"weak": -3.0, "another": 5.0, "other": 20.0}
+    assert {name: air.whole(name)[0].snr_db for name in ratios} == ratios
+    assert {name: air.closed(name).snr_db for name in ratios} == ratios
+    voices = Buzzing()
+    speech = voices.synthesise("x" * 10, voices.voice_of("AAL123"))
+    rng = stream(SEED, "channel/weak")
+    heard = VhfChannel(PROFILES["vhf"]).transmit(speech, -3.0, rng, (), "cockpit", 0.5)
+    assert air.whole("weak")[1] == to_pcm(heard)
+
+
+def test_one_station_below_the_squelch_is_not_received_and_others_are() -> None:
+    radio = Radio.model_validate({"snr_db": 20.0, "stations": {"AAL123": {"snr_db": -20.0}}})
+    air = Air(radio=radio)
+    air.say(1.0, "weak", 1.0, speaker="AAL123")
+    air.say(10.0, "strong", 1.0, speaker="UAL7")
+    air.run()
+    assert air.of(Transmission, "weak") == []
+    assert air.whole("strong")[0].snr_db == 20.0
+
+
 def test_what_was_given_out_does_not_tell_of_a_call_that_comes_over_it_later() -> None:
     alone, together = Air(), Air()
     for air in (alone, together):
@@ -332,7 +365,7 @@ class Failing(AudioRadio):
     """A radio whose channel fails once a time has come."""
 
     def __init__(self, at_s: float) -> None:
-        super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, SNR_DB)
+        super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, RADIO)
         self._at_ns = seconds_to_ns(at_s)
 
     def receive(self, on_air: OnAir, *rest: Any) -> bytes:

@@ -6,8 +6,10 @@ import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
+from airhilt.scenario.models import Radio
 from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
 from airhilt.sensors.radio.on_air import OnAir
+from airhilt.sensors.radio.reception import Receptions
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.voices.engine import TtsEngine
@@ -27,13 +29,11 @@ class AudioRadio:
 
     has_sound = True
 
-    def __init__(
-        self, voices: TtsEngine, channel: Channel, seed: int, snr_db: float | None = None
-    ) -> None:
+    def __init__(self, voices: TtsEngine, channel: Channel, seed: int, radio: Radio) -> None:
         self._voices = voices
         self._channel = channel
         self._seed = seed
-        self._snr_db = snr_db
+        self._receptions = Receptions(radio)
 
     def speak(self, speaker: str, text: str) -> tuple[Audio, float]:
         """Return a text in the voice of a speaker, and its duration in s.
@@ -70,12 +70,14 @@ class AudioRadio:
             for other in mixed_with
             if not other.has_ended(first_ns)
         ]
+        reception = self._receptions.of(on_air.utterance)
         heard = self._channel.transmit(
             piece,
-            self._snr_db,
+            reception.snr_db,
             stream(self._seed, draws),
             [other for other in others if len(other.speech)],
             background,
+            reception.wet,
         )
         if not is_over:
             heard = heard[: len(piece)]  # The squelch tail is still to come.

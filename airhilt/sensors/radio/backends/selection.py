@@ -32,7 +32,7 @@ def select_backend(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
     from airhilt.voices.engines import tts_engine
 
     channel = select_channel(radio.profile or DEFAULT_PROFILE)
-    return AudioRadio(tts_engine(tts), channel, seed, radio.snr_db)
+    return AudioRadio(tts_engine(tts), channel, seed, radio)
 
 
 def select_channel(profile: str) -> Channel:
