@@ -14,24 +14,21 @@ from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 from synthesisers.synthesiser import InstalledFile, Synthesiser, Voice
 
-FOLDER = Path("/usr/share/festival/voices/english")
+VOICES = Path("/usr/share/festival/voices")
 OWN_PITCH_HZ = 105.0
 """`target_f0_mean` of these voices (kal_diphone.scm, ked_diphone.scm, rab_diphone.scm)."""
 _DONE = "airhilt: done"
-_SPEAK = """(begin
+_SPEAK = """
  (voice_{voice})
  (Parameter.set 'Duration_Stretch {stretch:.4f})
  (set! int_lr_params (cons (list 'target_f0_mean {pitch_hz:.2f}) (cdr int_lr_params)))
- (set! said (utt.synth (Utterance Text "{text}")))
- (utt.wave.resample said 185.0)
+ (set! said (utt.synth (Utterance Text {text})))
  (utt.save.wave said "{path}" 'riff)
- (format t "{done}\\n")
- (fflush nil))
 """
 
 
-class Festival:
-    """Speaks with one process of Festival, in which each call sets all that it needs."""
+class FestivalProcess:
+    """A process of Festival, which does what it is asked to and stays."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(
@@ -43,29 +40,18 @@ class Festival:
         )
         finalize(self, _end, self._process)
 
-    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
-        """Return the text as speech."""
-        if '"' in text or "\\" in text:
-            raise SpeechError(f"synthesiser festival: {text!r}; expected no quotes or backslashes")
-        with tempfile.TemporaryDirectory(prefix="airhilt-festival-") as folder:
-            path = Path(folder) / "speech.wav"
-            expression = _SPEAK.format(
-                voice=voice.name,
-                stretch=1.0 / voice.rate,
-                pitch_hz=OWN_PITCH_HZ * voice.pitch,
-                text=text,
-                path=path,
-                done=_DONE,
-            )
-            self._ask(expression)
-            return read_wav(path)
+    def ask(self, expressions: str) -> None:
+        """Wait until Festival has done it.
 
-    def _ask(self, expression: str) -> None:
-        """Wait until Festival has done it; it writes its errors and goes on."""
+        Raises
+        ------
+        SpeechError
+            It has complained, or has ended.
+        """
         process = self._process
         assert process.stdin is not None
         assert process.stdout is not None
-        process.stdin.write(expression)
+        process.stdin.write(f'(begin {expressions} (format t "{_DONE}\\n") (fflush nil))\n')
         process.stdin.flush()
         lines = []
         for line in process.stdout:
@@ -77,6 +63,40 @@ class Festival:
         raise SpeechError(f"synthesiser festival: {' '.join(lines) or 'it has ended'}")
 
 
+class Festival:
+    """Speaks with Festival's diphones; each call sets all that it needs."""
+
+    def __init__(self) -> None:
+        self._process = FestivalProcess()
+
+    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
+        """Return the text as speech."""
+        with tempfile.TemporaryDirectory(prefix="airhilt-festival-") as folder:
+            path = Path(folder) / "speech.wav"
+            expression = _SPEAK.format(
+                voice=voice.name,
+                stretch=1.0 / voice.rate,
+                pitch_hz=OWN_PITCH_HZ * voice.pitch,
+                text=quoted(text),
+                path=path,
+            )
+            self._process.ask(expression)
+            return read_wav(path)
+
+
+def quoted(text: str) -> str:
+    """Return a text as a string of Scheme.
+
+    Raises
+    ------
+    SpeechError
+        It has a quote or a backslash.
+    """
+    if '"' in text or "\\" in text:
+        raise SpeechError(f"synthesiser festival: {text!r}; expected no quotes or backslashes")
+    return f'"{text}"'
+
+
 def _end(process: subprocess.Popen[str]) -> None:
     """End Festival, which stops where its input ends."""
     with process:
@@ -85,7 +105,7 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 def voice_files(name: str, debian: str) -> InstalledFile:
     """Return the folder of a voice, as a requirement."""
-    return InstalledFile(FOLDER / name, debian)
+    return InstalledFile(VOICES / name, debian)
 
 
 SYNTHESISER = Synthesiser(
@@ -98,7 +118,7 @@ SYNTHESISER = Synthesiser(
     create=Festival,
     requires=(
         Command("festival", debian="festival"),
-        voice_files("kal_diphone", "festvox-kallpc16k"),
-        voice_files("ked_diphone", "festvox-kdlpc16k"),
+        voice_files("english/kal_diphone", "festvox-kallpc16k"),
+        voice_files("english/ked_diphone", "festvox-kdlpc16k"),
     ),
 )

@@ -13,6 +13,6 @@ SYNTHESISER = Synthesiser(
     create=Festival,
     requires=(
         Command("festival", debian="festival"),
-        voice_files("rab_diphone", "festvox-rablpc16k  # of the component contrib"),
+        voice_files("english/rab_diphone", "festvox-rablpc16k  # of the component contrib"),
     ),
 )
