@@ -70,6 +70,14 @@ def test_a_call_sounds_the_same_whatever_was_said_before(name: str) -> None:
     assert np.array_equal(speak(made_by.create(), first, TEXT, 170.0, 1.1), said)
 
 
+def test_timbres_of_noise_sound_the_same_every_time() -> None:
+    made_by = synthesiser("espeak")
+    talker = made_by.create()
+    for voice in made_by.choose("en-us+Reed,en-us+caleb"):
+        first, again = (speak(talker, voice, TEXT, 170.0) for _ in range(2))
+        assert np.array_equal(first, again), voice.name
+
+
 def test_the_same_seed_gives_the_same_calls() -> None:
     made_by = synthesiser("espeak")
     first, again = (list(asr_speech.speech(made_by, made_by.voices, 3, 5)) for _ in range(2))
@@ -97,6 +105,22 @@ def test_shards_say_who_speaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     samples = np.load(tmp_path / "espeak-unseen-0-000.npy")
     assert samples.dtype == np.int16
     assert len(samples) == sum(line["samples"] for line in lines)
+
+
+def test_held_out_names_are_in_a_set_of_their_own() -> None:
+    made_by = synthesiser("espeak")
+    words = [
+        {
+            word
+            for about, _ in asr_speech.speech(
+                made_by, made_by.voices[:1], 12, 5, held_out_names=held_out
+            )
+            for word in about["text"].split()
+        }
+        for held_out in (False, True)
+    ]
+    assert words[0] != words[1]
+    assert asr_speech.stem("espeak", "all", held_out_names=True) == "espeak-all-names"
 
 
 def test_unseen_voices_are_no_seen_ones() -> None:

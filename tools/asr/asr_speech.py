@@ -2,7 +2,7 @@
 
 A shard is two files: `NAME.npy`, all samples one after another (int16, 16 kHz), and `NAME.jsonl`,
 one line an utterance with its text, callsign, voice, rate and length. NAME begins with the
-synthesiser, and with the choice of voices unless that is ``seen``.
+synthesiser, then has the choice of voices unless it is ``seen``, and ``names`` for held-out names.
 
     python tools/asr/asr_speech.py build/asr espeak --count 30000 --seed 1
     python tools/asr/asr_speech.py build/asr espeak --voices unseen --count 600 --seed 3
@@ -17,6 +17,7 @@ import argparse
 import json
 import random
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -28,21 +29,28 @@ from numpy.typing import NDArray
 from airhilt.errors import SpeechError
 from asr_corpus import Talk
 from synthesisers import FAMILY, synthesiser
-from synthesisers.synthesiser import Synthesiser, Voice, speak
+from synthesisers.synthesiser import CHOICES, Synthesiser, Voice, speak
 
 SHARD = 2_000
 WORDS_PER_MINUTE = (120.0, 220.0)
 """Range of the rates of calls, each drawn evenly."""
 SALAD = 0.06
 """Share of calls without sense."""
+CALLS, FEW = 10_000, 3
+"""Calls in which words for calls without sense are looked for, and in how many a word must be."""
 
 
 def speech(
-    made_by: Synthesiser, voices: Sequence[Voice], count: int, seed: int
+    made_by: Synthesiser,
+    voices: Sequence[Voice],
+    count: int,
+    seed: int,
+    *,
+    held_out_names: bool = False,
 ) -> Iterator[tuple[dict[str, Any], NDArray[np.int16]]]:
     """Yield what a shard says of each call, and its samples; the voices take turns."""
-    rng = random.Random(seed)
-    talk = Talk(rng)
+    rng = random.Random(f"{made_by.name} {seed}")  # Synthesisers say different things.
+    talk = Talk(rng, held_out=held_out_names)
     talker = made_by.create()
     turn: list[Voice] = []
     for _ in range(count):
@@ -68,9 +76,10 @@ def speech(
 
 @cache
 def _words() -> list[str]:
-    """Return nearly all words of the corpus."""
+    """Return the words of the corpus without invented names, of which each is in few calls."""
     talk = Talk(random.Random(0))
-    return sorted({word for _ in range(40_000) for word in talk.call().split()})
+    calls = Counter(word for _ in range(CALLS) for word in set(talk.call().split()))
+    return sorted(word for word, times in calls.items() if times >= FEW)
 
 
 def _with_pauses(text: str, rng: random.Random) -> str:
@@ -79,14 +88,17 @@ def _with_pauses(text: str, rng: random.Random) -> str:
     return f"{' '.join(words).rstrip(',')}."
 
 
-def stem(name: str, voices: str) -> str:
+def stem(name: str, voices: str, *, held_out_names: bool = False) -> str:
     """Return how the names of shards begin."""
-    if voices == "seen":
-        return name
-    return f"{name}-{voices if '+' not in voices and ',' not in voices else 'chosen'}"
+    chosen = voices if voices in CHOICES else "chosen"
+    return "-".join(
+        [name, *([] if voices == "seen" else [chosen]), *(["names"] if held_out_names else [])]
+    )
 
 
-def write(folder: Path, name: str, count: int, seed: int, voices: str) -> None:
+def write(
+    folder: Path, name: str, count: int, seed: int, voices: str, *, held_out_names: bool = False
+) -> None:
     """Write the shards of a synthesiser.
 
     Raises
@@ -95,7 +107,9 @@ def write(folder: Path, name: str, count: int, seed: int, voices: str) -> None:
         There is no such synthesiser or voice, or it fails.
     """
     made_by = synthesiser(name)
-    utterances = speech(made_by, made_by.choose(voices), count, seed)
+    chosen = made_by.choose(voices)
+    utterances = speech(made_by, chosen, count, seed, held_out_names=held_out_names)
+    begin = stem(name, voices, held_out_names=held_out_names)
     folder.mkdir(parents=True, exist_ok=True)
     for shard in range(-(-count // SHARD)):
         lines, samples = [], []
@@ -103,7 +117,7 @@ def write(folder: Path, name: str, count: int, seed: int, voices: str) -> None:
             about, pcm = next(utterances)
             lines.append(json.dumps(about | {"samples": len(pcm)}))
             samples.append(pcm)
-        path = folder / f"{stem(name, voices)}-{seed}-{shard:03d}"
+        path = folder / f"{begin}-{seed}-{shard:03d}"
         np.save(path.with_suffix(".tmp.npy"), np.concatenate(samples))
         path.with_suffix(".jsonl").write_text("\n".join(lines) + "\n")
         path.with_suffix(".tmp.npy").rename(path.with_suffix(".npy"))
@@ -123,9 +137,21 @@ def main() -> None:
         help="seen: that the model that ships was trained on (default); unseen: that it was not; "
         "all: both; test-only: those whose licence allows no training; or names between commas",
     )
+    parser.add_argument(
+        "--held-out-names",
+        action="store_true",
+        help="places and fixes that no training text has, instead of the others",
+    )
     given = parser.parse_args()
     try:
-        write(given.folder, given.synthesiser, given.count, given.seed, given.voices)
+        write(
+            given.folder,
+            given.synthesiser,
+            given.count,
+            given.seed,
+            given.voices,
+            held_out_names=given.held_out_names,
+        )
     except SpeechError as error:
         print(f"asr_speech.py: {error}", file=sys.stderr)
         sys.exit(2)

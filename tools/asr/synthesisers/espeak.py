@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
+
+from airhilt.audio.pcm import Audio
+from airhilt.voices.engine import VoiceSpec
 from airhilt.voices.engines.espeak import ACCENTS, Espeak
 from synthesisers.synthesiser import Synthesiser, Voice
 
@@ -15,6 +19,18 @@ TIMBRES = (
     "sandro shelby steph steph3 travis zac"
 ).split()
 WORDS_PER_MINUTE = 195.0
+
+
+class SeededEspeak(Espeak):
+    """Speaks with espeak-ng, the same every time also in timbres with noise of the C library.
+
+    They are Reed and caleb, which no run of AIRHILT uses.
+    """
+
+    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
+        """Return the text as speech."""
+        ctypes.CDLL(None).srand(1)
+        return super().synthesise(text, voice)
 
 
 def _voices() -> tuple[Voice, ...]:
@@ -32,5 +48,5 @@ def _voices() -> tuple[Voice, ...]:
 
 
 SYNTHESISER = Synthesiser(
-    "espeak", "GPL-3.0-or-later", _voices(), create=Espeak, pitches=(0.5, 1.5)
+    "espeak", "GPL-3.0-or-later", _voices(), create=SeededEspeak, pitches=(0.5, 1.5)
 )

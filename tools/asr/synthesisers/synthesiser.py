@@ -15,6 +15,9 @@ from airhilt.engines import Requirement
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 
+CHOICES = ("seen", "unseen", "all", "test-only")
+"""Choices of voices that have a name."""
+
 
 @dataclass(frozen=True)
 class Voice:
@@ -104,12 +107,10 @@ class Synthesiser:
             There is no such voice.
         """
         free = [voice for voice in self.voices if not voice.is_test_only]
-        groups = {
-            "seen": [voice for voice in free if not voice.is_held_out],
-            "unseen": [voice for voice in free if voice.is_held_out],
-            "all": free,
-            "test-only": [voice for voice in self.voices if voice.is_test_only],
-        }
+        seen = [voice for voice in free if not voice.is_held_out]
+        unseen = [voice for voice in free if voice.is_held_out]
+        test_only = [voice for voice in self.voices if voice.is_test_only]
+        groups = dict(zip(CHOICES, (seen, unseen, free, test_only), strict=True))
         named = [voice for voice in self.voices if voice.name in which.split(",")]
         if chosen := groups.get(which, named):
             return tuple(chosen)
