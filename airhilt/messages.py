@@ -576,6 +576,30 @@ class Transcript(Message):
     )
 
 
+class PartialTranscript(Message):
+    """``asr/<freq_khz>/partial``: the words of a transmission so far, while it lasts.
+
+    It is published for each 0.5 s of audio, if the run asks for it. The `Transcript` of the whole
+    transmission replaces it.
+    """
+
+    id: str = Field(description="id of the transmission")
+    frequency_khz: int
+    t_tx_ns: Nanoseconds
+    t_heard_ns: Nanoseconds = Field(description="end of the audio that the words are of")
+    text: str
+    words: tuple[Word, ...] = Field(
+        default=(), description="the words of `text` one by one; empty if the engine has none"
+    )
+    confidence: Confidence
+    stable_words: int = Field(
+        ge=0,
+        description="number of words of `text`, from the first, that the partial transcript before "
+        "has too; the others may change, because little audio follows them",
+    )
+    engine: str
+
+
 class Climb(Part):
     """Climb or descend to a level and stay there; the turn is made at the same time."""
 
@@ -1012,6 +1036,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "cockpit/{callsign}": CockpitInstruments,
     "tcas/{callsign}": TcasReply,
     "asr/{frequency_khz}": Transcript,
+    "asr/{frequency_khz}/partial": PartialTranscript,
     "vision/{camera}": Detections,
     "advisory/{recipient}": Advisory,
     "tts/{id}": AdvisoryAudio,
@@ -1045,6 +1070,17 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
 }
 """Messages that a worker may publish, by the first part of the key; never sensors or truth. Only
 equipment of the world publishes on ``equipment``."""
+
+
+def worker_output(key: str) -> type[Message] | None:
+    """Return the class of the messages that a worker may publish on a key, None if there is none.
+
+    The first part of a key tells it, except for partial transcripts.
+    """
+    first, _, rest = key.partition("/")
+    if first == "asr" and rest.endswith("/partial"):
+        return PartialTranscript
+    return WORKER_OUTPUTS.get(first)
 
 
 def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str, Any]:

@@ -297,6 +297,15 @@ class Options(BaseModel):
             needs=("speech", "assistant"),
         ),
     ] = ASR
+    partial_transcripts: Annotated[
+        bool,
+        Flag(
+            "--partial-transcripts",
+            "Recognise calls while they last, every 0.5 s, so that a decision may begin before "
+            "their end.",
+            needs=("speech", "assistant"),
+        ),
+    ] = False
     tts: Annotated[
         str,
         Flag(

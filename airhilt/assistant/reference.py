@@ -44,6 +44,8 @@ class Engines(NamedTuple):
     """Configuration of the decision engine; None: its own defaults."""
     shares_detections: bool = False
     """Detections of the same pictures are shared with other runs."""
+    partial_transcripts: bool = False
+    """Calls are recognised while they last, too."""
 
 
 class RadioSetup(Protocol):
@@ -81,9 +83,9 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
-    asr, tts, detector, wording, llm, configuration, shares_detections = engines
+    asr, tts, detector, wording, llm, configuration, shares_detections, gives_partials = engines
     if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
-        workers.append(reference_worker("asr", asr))
+        workers.append(reference_worker("asr", asr, gives_partials=gives_partials))
     deciding: list[Worker] = []
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
@@ -237,6 +239,7 @@ def reference_worker(
     configuration: Mapping[str, Any] | None = None,
     speak_min_level: Severity = SPEAK_MIN_LEVEL,
     shares_detections: bool = False,
+    gives_partials: bool = False,
 ) -> Worker:
     """Return one worker with its default settings.
 
@@ -256,6 +259,8 @@ def reference_worker(
         Least severity that ``tts`` speaks.
     shares_detections
         True if ``vision`` shares the detections of the same pictures with other runs.
+    gives_partials
+        True if ``asr`` gives partial transcripts of the calls that go on.
 
     Raises
     ------
@@ -268,7 +273,8 @@ def reference_worker(
             from airhilt.assistant.asr.engines import asr_engine
             from airhilt.assistant.asr.worker import AsrWorker
 
-            return AsrWorker(asr_engine(ASR if engine is None else engine), name=name or kind)
+            recogniser = asr_engine(ASR if engine is None else engine)
+            return AsrWorker(recogniser, name or kind, gives_partials=gives_partials)
         case "tts":
             from airhilt.assistant.tts.worker import TtsWorker
             from airhilt.voices.engines import tts_engine

@@ -17,7 +17,7 @@ from airhilt.messages import UNREGISTERED, ActorCommand, Advisory, Message
 from airhilt.sim import Director, RealTime, Virtual
 from airhilt.workers.pool import parse_output
 
-PATTERNS = ("advisory/*", "asr/*", "vision/*", "command/*", "tts/*")
+PATTERNS = ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "command/*", "tts/*")
 """Keys that are heard; what comes on the last is refused, for a voice needs grants."""
 
 

@@ -199,6 +199,7 @@ def _engines(options: Options, scenario: Scenario) -> Engines:
         llm=_language_model(options),
         configuration=options.assistant_config,
         shares_detections=options.share_pictures,
+        partial_transcripts=options.partial_transcripts,
     )
 
 

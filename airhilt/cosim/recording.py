@@ -16,7 +16,6 @@ from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     UNREGISTERED,
-    WORKER_OUTPUTS,
     AdvisoryAudio,
     Event,
     SpokenTruth,
@@ -26,6 +25,7 @@ from airhilt.messages import (
     TransmissionAudio,
     TransmissionClosed,
     WorkerDescription,
+    worker_output,
 )
 from airhilt.options import Options
 from airhilt.record import Logged, RunFolder, RunInfo
@@ -163,8 +163,8 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
 
 def _given(folder: RunFolder, logged: Logged) -> Output:
     """Return what a worker gave: the message, or the raw bytes that it is the header of."""
-    model = WORKER_OUTPUTS[logged.key.split("/")[0]]
-    if not issubclass(model, AdvisoryAudio):
+    model = worker_output(logged.key)
+    if model is None or not issubclass(model, AdvisoryAudio):
         return Output(logged.key, logged.data, logged.t_ns)
     header = model.model_validate_json(logged.data)
     pcm = recorded_pcm(folder.audio_path, header)

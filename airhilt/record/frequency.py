@@ -127,7 +127,7 @@ def _read(folder: RunFolder, frequency_khz: int | None) -> FrequencyRecording:
             elif kind[:2] == ["truth", "radio"]:
                 truth = SpokenTruth.model_validate_json(logged.data)
                 spoken[truth.id] = truth
-            elif kind[0] == "asr":
+            elif kind[0] == "asr" and kind[-1] != "partial":
                 transcript = Transcript.model_validate_json(logged.data)
                 transcripts.setdefault(transcript.id, []).append(transcript)
     except ValidationError as error:

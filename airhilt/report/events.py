@@ -76,6 +76,8 @@ def _row(logged: Logged) -> Json | None:
 def _maker(key: str) -> Any:
     """Return the function that makes a row of a message with this key, or None."""
     family, _, rest = key.partition("/")
+    if family == "asr" and rest.endswith("/partial"):
+        return None  # The whole transcript has the same words.
     if family == "truth":
         family = f"truth/{rest.partition('/')[0]}"
     return MAKERS.get(family)

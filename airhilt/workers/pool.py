@@ -24,11 +24,15 @@ from airhilt.messages import (
     Header,
     Message,
     ModelExchange,
+    PartialTranscript,
     Transcript,
     Transmission,
+    TransmissionChunk,
     WorkerDescription,
+    worker_output,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
+from airhilt.units import SECOND_NS
 
 NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """First chunk of a key that stands for itself only; a wildcard there would take in truth."""
@@ -94,6 +98,10 @@ class WorkerPool:
         self._equipment = {
             each.description.name for each in participants if each.description.modality == EQUIPMENT
         }
+        self._recognisers = {
+            each.description.name for each in participants if each.description.modality == "asr"
+        }
+        """Workers to which a piece of a call is a part of it, not news of one instant."""
         for participant in participants:
             description = participant.description
             server = Server(
@@ -128,9 +136,11 @@ class WorkerPool:
             ]
         is_header = routes and isinstance(message, Header)
         attachment = message.model_dump(mode="json") if is_header else None
-        begun_ns = message.t_tx_ns if isinstance(message, Transmission) else None
+        begun_ns = _begun_ns(message)
         for server, policy in routes:
-            server.offer(Input.of(key, message.t_ns, data, attachment, begun_ns), policy)
+            is_of_call = isinstance(message, Transmission) or server.name in self._recognisers
+            begun = begun_ns if is_of_call else None
+            server.offer(Input.of(key, message.t_ns, data, attachment, begun), policy)
 
     def inputs_dropped(self) -> dict[str, int]:
         """Return how many inputs were dropped as out of date, by worker and key."""
@@ -157,6 +167,17 @@ class WorkerPool:
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         raw = output.payload if isinstance(message, Header) else None
         self._publish(output.key, stamped, worker, raw)
+
+
+def _begun_ns(message: Message) -> int | None:
+    """Return when the call began of which a message has audio; None for other messages."""
+    match message:
+        case Transmission():
+            return message.t_tx_ns
+        case TransmissionChunk():
+            samples = message.first_sample + message.samples
+            return max(message.t_ns - samples * SECOND_NS // SAMPLE_RATE_HZ, 0)
+    return None
 
 
 def require_no_truth(worker: str, key: str) -> None:
@@ -204,7 +225,7 @@ def parse_output(
         It may not publish there, or the payload is not what belongs there.
     """
     who = "a program" if worker == UNREGISTERED else f"worker {worker!r}"
-    model = WORKER_OUTPUTS.get(key.split("/")[0])
+    model = worker_output(key)
     if model is None:
         own = ", ".join(sorted(WORKER_OUTPUTS.keys() - {EQUIPMENT}))
         raise WorkerError(f"{who} published on {key!r}; expected a key under {own}")
@@ -238,6 +259,8 @@ def _check_key(who: str, worker: str, key: str, message: Message) -> None:
     match message:
         case Transcript() if key != f"asr/{message.frequency_khz}":
             what, part = f"a transcript of {message.frequency_khz} kHz", "frequency"
+        case PartialTranscript() if key != f"asr/{message.frequency_khz}/partial":
+            what, part = f"a partial transcript of {message.frequency_khz} kHz", "frequency"
         case Detections() if key != f"vision/{message.camera}":
             what, part = f"what is in a picture of camera {message.camera!r}", "camera"
         case Advisory() if key != f"advisory/{message.recipient}":

@@ -1,10 +1,11 @@
-"""The ASR worker: transmissions in, transcripts out."""
+"""The ASR worker: transmissions in, transcripts out, also of calls that go on."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from airhilt.assistant.asr.engine import AsrEngine
+from airhilt.assistant.asr.partial import PartialRecogniser
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import (
@@ -22,34 +23,54 @@ from airhilt.workers.protocol import Step
 
 
 class AsrWorker:
-    """Gives each transmission to an engine, one after the other, and publishes the transcript."""
+    """Gives each transmission to an engine, one after the other, and publishes the transcript.
 
-    def __init__(self, engine: AsrEngine, name: str = "asr") -> None:
+    Parameters
+    ----------
+    gives_partials
+        True to publish partial transcripts of the calls that go on as well. A step then takes all
+        that waits, so that a whole call never waits behind its own beginning.
+    """
+
+    def __init__(
+        self, engine: AsrEngine, name: str = "asr", *, gives_partials: bool = False
+    ) -> None:
         self._engine = engine
+        self._partial = PartialRecogniser(engine) if gives_partials else None
         self._callsigns: tuple[str, ...] = ()
         self._controller = ""
         self.description = WorkerDescription(
             name=name,
             modality="asr",
-            inputs=(InputSpec(key="radio/*/tx"), InputSpec(key="briefing")),
+            inputs=_inputs(gives_partials),
             latency=DeclaredLatency(median_s=0.05),
         )
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
-        """Recognise the transmissions that have arrived.
+        """Recognise the transmissions that have arrived, and those that go on.
 
         Raises
         ------
         SpeechError
             The engine has failed, or the audio is not what its header says.
         """
-        return Step(
-            tuple(
-                Output(f"asr/{transcript.frequency_khz}", transcript.model_dump_json().encode())
-                for item in inputs
-                if (transcript := self._take(item)) is not None
-            )
-        )
+        transcripts = [
+            Output(f"asr/{transcript.frequency_khz}", transcript.model_dump_json().encode())
+            for item in inputs
+            if (transcript := self._take(item)) is not None
+        ]
+        return Step((*transcripts, *self._partials(inputs)))
+
+    def _partials(self, inputs: Sequence[Input]) -> Iterator[Output]:
+        """Yield the partial transcripts of the calls that go on, if they are asked for."""
+        if self._partial is None:
+            return
+        for item in inputs:
+            if item.key.endswith("/audio"):
+                self._partial.take(item)
+        for partial in self._partial.partials(self._callsigns):
+            key = f"asr/{partial.frequency_khz}/partial"
+            yield Output(key, partial.model_dump_json().encode())
 
     def _take(self, item: Input) -> Transcript | None:
         if item.key == "briefing":
@@ -57,6 +78,8 @@ class AsrWorker:
             self._controller = briefing.controller
             self._callsigns = tuple(entry.callsign for entry in briefing.roster)
             return None
+        if item.key.endswith("/audio"):
+            return None  # It is for the partial transcripts.
         header = Transmission.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
@@ -72,6 +95,14 @@ class AsrWorker:
             engine=self._engine.name,
         )
         return with_parties(transcript, self._callsigns, self._controller, header.keyed_by)
+
+
+def _inputs(gives_partials: bool) -> tuple[InputSpec, ...]:
+    """Return the inputs of a worker that gives partial transcripts or none."""
+    keys = ("radio/*/tx", "briefing")
+    if gives_partials:
+        return tuple(InputSpec(key=key, policy="batch") for key in (*keys, "radio/*/audio"))
+    return tuple(InputSpec(key=key) for key in keys)
 
 
 def pcm_to_audio(header: Transmission, pcm: bytes) -> Audio:

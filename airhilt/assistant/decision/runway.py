@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.assessment import worst_threats
+from airhilt.assistant.decision.assessment import worst, worst_threats
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
@@ -22,6 +22,7 @@ from airhilt.messages import (
     AdsbReport,
     Briefing,
     Evidence,
+    PartialTranscript,
     Recommendation,
     Severity,
     Transcript,
@@ -29,6 +30,8 @@ from airhilt.messages import (
 )
 from airhilt.phraseology import Call
 
+PROVISIONAL = "provisional_instruction"
+"""Name among the rules of an advisory that rests on an instruction of a call that went on."""
 Rules = Callable[[Situation, int], Mapping[tuple[str, ...], Threat]]
 """Rules of an engine: the threats on the runways at a time, each by its key."""
 
@@ -45,6 +48,8 @@ class _Ongoing:
     revision: int = 0
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
+    is_provisional: bool = True
+    """True while it rests on nothing but calls that go on."""
 
 
 class RunwayWatch:
@@ -109,6 +114,11 @@ class RunwayWatch:
         if self._situation is not None:
             self._situation.take_opening(opened)
 
+    def take_partial(self, partial: PartialTranscript) -> None:
+        """Update the provisional instructions of a call that goes on."""
+        if self._situation is not None:
+            self._situation.take_partial(partial)
+
     def take_transcript(self, transcript: Transcript) -> Call | None:
         """Update clearances with a call, and return its meaning; None without an airport."""
         return None if self._situation is None else self._situation.take_transcript(transcript)
@@ -142,17 +152,22 @@ class RunwayWatch:
         """Return what is wrong now, by what it is and the addresses of those who are in it.
 
         A mobile that has not sent its callsign yet has its address for a name: once it has sent it,
-        the threat is still the same.
+        the threat is still the same. A call that goes on may add a threat or make one more severe.
+        It takes none away.
         """
 
         def address(name: str) -> str:
             mobile = situation.mobile(name)
             return name if mobile is None else mobile.icao24
 
-        return {
-            tuple(sorted(map(address, threat.key))): threat
-            for threat in self._rules(situation, t_ns).values()
-        }
+        found = list(self._rules(situation, t_ns).values())
+        supposed = situation.supposed(t_ns)
+        if supposed is not None:
+            found += [
+                replace(threat, provisional_ids=supposed.radio_ids)
+                for threat in self._rules(supposed.situation, t_ns).values()
+            ]
+        return {tuple(sorted(map(address, threat.key))): threat for threat in worst(found).values()}
 
     def _ongoing_of(self, key: tuple[str, ...], threat: Threat) -> _Ongoing:
         """Return the conflict of a threat, a new one if it has none."""
@@ -161,6 +176,7 @@ class RunwayWatch:
             self._count += 1
             ongoing = self._ongoing[key] = _Ongoing(f"runway-{self._count}", threat)
         ongoing.threat = threat
+        ongoing.is_provisional = ongoing.is_provisional and bool(threat.provisional_ids)
         return ongoing
 
     def _raise(
@@ -196,7 +212,9 @@ class RunwayWatch:
         if ongoing.escalation.severity is None:
             del self._ongoing[key]
             return []
-        if not ongoing.escalation.is_over(t_ns, self.config.release_s):
+        # What a call seemed to say, and does not say as a whole, is withdrawn at once.
+        release_s = 0.0 if ongoing.is_provisional else self.config.release_s
+        if not ongoing.escalation.is_over(t_ns, release_s):
             return []
         del self._ongoing[key]
         return [self._alert(ongoing, Severity.INFO, {}, active=False)]
@@ -238,10 +256,10 @@ class RunwayWatch:
                 runway=threat.runway,
                 time_to_go_s=threat.time_to_go_s,
                 note=threat.finding.statement(),
-                radio_ids=threat.radio_ids,
+                radio_ids=tuple(dict.fromkeys((*threat.radio_ids, *threat.provisional_ids))),
                 camera_ids=threat.cameras,
                 tracks=ongoing.tracks,
-                rules=threat.rules,
+                rules=(*threat.rules, PROVISIONAL) if threat.provisional_ids else threat.rules,
                 shares=dict(threat.shares),
             ),
             finding=threat.finding,

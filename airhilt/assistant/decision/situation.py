@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -17,8 +18,16 @@ from airhilt.assistant.decision.occupancy import (
     seen_on_ground,
     velocity_of,
 )
+from airhilt.assistant.decision.partial_calls import PartialCalls
 from airhilt.assistant.decision.visual_tracks import VisualTracks
-from airhilt.messages import AdsbReport, AirportBriefing, Briefing, Transcript, TransmissionOpened
+from airhilt.messages import (
+    AdsbReport,
+    AirportBriefing,
+    Briefing,
+    PartialTranscript,
+    Transcript,
+    TransmissionOpened,
+)
 from airhilt.phraseology import Call
 from airhilt.units import SECOND_NS
 
@@ -79,6 +88,19 @@ class SeenObstacle(NamedTuple):
         return self.exit_m / self.speed_m_s if self.speed_m_s >= STANDING_M_S else None
 
 
+class Supposed(NamedTuple):
+    """A situation that rests on calls that go on.
+
+    Attributes
+    ----------
+    radio_ids
+        Ids of the transmissions of these calls.
+    """
+
+    situation: Situation
+    radio_ids: tuple[str, ...]
+
+
 class Situation:
     """The runways of an airport, and everybody near them."""
 
@@ -88,6 +110,7 @@ class Situation:
         self.aerodrome = Aerodrome(airport)
         self._guard = guard or Guard()
         self.clearances = Clearances(self._guard)
+        self._partial_calls = PartialCalls(self._guard)
         self.uses: dict[str, Use] = {}
         """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
@@ -217,8 +240,27 @@ class Situation:
         known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
         return sorted(known)
 
+    def take_partial(self, partial: PartialTranscript) -> None:
+        """Update the provisional instructions of a call that goes on."""
+        self._partial_calls.take(partial, self.callsigns)
+
+    def supposed(self, t_ns: int) -> Supposed | None:
+        """Return the situation as it is if calls that go on mean what was heard of them so far.
+
+        None if no such call has a provisional instruction.
+        """
+        calls = self._partial_calls.provisional(t_ns)
+        if not calls:
+            return None
+        other = copy.copy(self)
+        other.clearances = self.clearances.copy()
+        for call, heard in calls:
+            other.clearances.take(call, heard)
+        return Supposed(other, tuple(heard.id for _, heard in calls))
+
     def take_transcript(self, transcript: Transcript) -> Call:
         """Update clearances and reports of wildlife with a call, and return its meaning."""
+        self._partial_calls.end(transcript.id)
         call = call_of(transcript, self.callsigns)
         for said in call.instructions:
             if said.action == "wildlife":

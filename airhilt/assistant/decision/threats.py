@@ -143,6 +143,9 @@ class Threat:
         Names of the rules that were triggered.
     shares
         Share of each modality in the judgement; empty where it cannot be told.
+    provisional_ids
+        Ids of transmissions that went on: without what was heard of them so far there is no such
+        threat, or only a lesser one.
     """
 
     key: tuple[str, ...]
@@ -159,6 +162,7 @@ class Threat:
     cameras: tuple[str, ...] = ()
     rules: tuple[RunwayRule, ...] = ()
     shares: Mapping[str, float] = field(default_factory=dict)
+    provisional_ids: tuple[str, ...] = ()
 
 
 class Snapshot:

@@ -28,6 +28,7 @@ from airhilt.messages import (
     InputSpec,
     Message,
     ModelExchange,
+    PartialTranscript,
     RadarInfo,
     RadarPlot,
     Status,
@@ -58,7 +59,14 @@ KEYS: dict[type[Message], str] = {
     Status: "status/*",
 }
 """The key of each message that an engine may read by its class alone."""
-CALLS = (Transcript, Transmission, TransmissionOpened, TransmissionChunk, TransmissionClosed)
+CALLS = (
+    Transcript,
+    PartialTranscript,
+    Transmission,
+    TransmissionOpened,
+    TransmissionChunk,
+    TransmissionClosed,
+)
 """Messages about a transmission."""
 GATE_READS = (Transcript, Transmission, Status)
 """Messages that tell that a transcript is to come, has come, or will not come."""

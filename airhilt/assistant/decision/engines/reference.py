@@ -26,6 +26,7 @@ from airhilt.messages import (
     CameraInfo,
     Detections,
     Message,
+    PartialTranscript,
     Severity,
     Transcript,
     TransmissionAudio,
@@ -70,7 +71,11 @@ class ReferenceEngine:
     name = "reference"
     reads: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections)
     inputs: Mapping[str, object] = MappingProxyType(
-        {"radio/*/audio": TransmissionAudio, "camera/*/info": CameraInfo}
+        {
+            "radio/*/audio": TransmissionAudio,
+            "camera/*/info": CameraInfo,
+            "asr/*/partial": PartialTranscript,
+        }
     )
 
     def __init__(self, configuration: ReferenceConfig | None = None) -> None:
@@ -101,6 +106,8 @@ class ReferenceEngine:
                 self.visual_tracks.take_detections(seen, received.t_ns)
             case TransmissionOpened() as opened:
                 self.runways.take_opening(opened)
+            case PartialTranscript() as partial:
+                self.runways.take_partial(partial)
             case Transcript() as transcript:
                 for call in self.checks.in_order(transcript, received.t_ns):
                     self.runways.take_transcript(call)
