@@ -9,11 +9,15 @@ until somebody asks for it, and nothing because a scenario file says where it li
 from __future__ import annotations
 
 import pkgutil
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from inspect import get_annotations
+from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
@@ -58,8 +62,8 @@ class Family:
         ]
 
     def scan(self) -> Members:
-        """Return where all members are; it reads the metadata of every installed package."""
-        return Members(self, (*self.own(), *entry_points(group=self.group)))
+        """Return where all members are, in AIRHILT and in every installed package."""
+        return Members(self, (*self.own(), *declared(self.group)))
 
     def names(self) -> list[str]:
         """Return the names of all members, sorted."""
@@ -81,7 +85,7 @@ class Family:
         """Return name and version of the other package that has a member; empty for AIRHILT's."""
         if any(point.name == name for point in self.own()):
             return ""
-        found = [point.dist for point in entry_points(group=self.group, name=name) if point.dist]
+        found = [point.dist for point in declared(self.group).select(name=name) if point.dist]
         return f"{found[0].name} {found[0].version}" if found else ""
 
 
@@ -130,6 +134,27 @@ class Members:
                 + (f" has no {lacks}" if lacks else "")
             )
         return member
+
+
+def declared(group: str) -> EntryPoints:
+    """Return the entry points of a group that installed packages declare.
+
+    The metadata of all packages are read once, which takes 7 ms of CPU, and again when one of the
+    folders in which packages are installed has changed: a package comes and goes with a folder
+    of metadata.
+    """
+    return _declared(group, tuple((folder, _changed_ns(folder)) for folder in sys.path))
+
+
+@lru_cache
+def _declared(group: str, _folders: tuple[tuple[str, int], ...]) -> EntryPoints:
+    return entry_points(group=group)
+
+
+def _changed_ns(folder: str) -> int:
+    with suppress(OSError):
+        return Path(folder).stat().st_mtime_ns
+    return 0
 
 
 def missing(thing: object, protocol: type[Any]) -> list[str]:

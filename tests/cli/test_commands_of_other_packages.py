@@ -93,6 +93,6 @@ def test_the_command_line_looks_for_commands_once(
         scans.append(group)
         return entry_points(group=group)
 
-    monkeypatch.setattr(plugins, "entry_points", scan)
+    monkeypatch.setattr(plugins, "declared", scan)
     assert airhilt_command(*arguments).returncode == 0
     assert scans == ["airhilt.commands"]

@@ -174,7 +174,7 @@ def test_a_kind_of_airhilt_is_loaded_without_a_look_at_other_packages(
     def scan(group: str) -> NoReturn:
         raise AssertionError(f"looked for {group}")
 
-    monkeypatch.setattr(plugins, "entry_points", scan)
+    monkeypatch.setattr(plugins, "declared", scan)
     assert load_kind("deer").name == "deer"
 
 
