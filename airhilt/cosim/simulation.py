@@ -89,11 +89,13 @@ def run(
     KeyboardInterrupt
         Likewise.
     """
-    given = options or Options(), observer or Observer(), recorded or Recorded()
+    options = options or Options()
     try:
-        return _run(scenario, *given, workers, keeper)
+        return _run(
+            scenario, options, observer or Observer(), recorded or Recorded(), workers, keeper
+        )
     finally:
-        if scenario.cameras:
+        if scenario.cameras and options.cameras:
             gc.collect()  # Callbacks of a run and the run refer to each other; they hold pictures.
 
 

@@ -93,6 +93,19 @@ def test_a_run_leaves_no_picture_in_memory(short: Scenario, tmp_path: Path) -> N
     assert not left
 
 
+def test_a_run_without_cameras_has_no_pictures_to_look_for_in_memory(
+    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searches: list[None] = []
+    monkeypatch.setattr(gc, "collect", lambda: searches.append(None))
+    brief = short.model_copy(update={"duration_s": 0.5})
+    blind = Options(cameras=False, speech=False, latency="fixed", out=tmp_path / "blind")
+    run(brief, blind)
+    assert not searches
+    log_of(brief, tmp_path / "seeing")
+    assert searches
+
+
 def test_nobody_is_seen_in_the_fog_that_is_asked_for_and_a_replay_has_it(
     short: Scenario, tmp_path: Path
 ) -> None:
