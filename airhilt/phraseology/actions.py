@@ -35,5 +35,5 @@ def _by_first_word() -> dict[str, tuple[Form, ...]]:
 
 FORMS = _by_first_word()
 """Forms of actions, by their first words."""
-NUMBER_FORMS = (surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM)
+NUMBER_FORMS = (surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM, speeds.LIMITED_FORM)
 """Forms that begin with a number."""

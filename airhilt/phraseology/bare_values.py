@@ -6,21 +6,24 @@ import re
 
 from airhilt.phraseology.call import Instruction, Turn
 from airhilt.phraseology.hits import NAME
-from airhilt.phraseology.slots import LEVEL as _LEVEL
 from airhilt.phraseology.slots import (
+    GROUND_MHZ,
     SHORTENED,
     frequency_khz,
     level_confidence,
     level_ft,
     speed_confidence,
 )
+from airhilt.phraseology.slots import LEVEL as _LEVEL
+from airhilt.phraseology.vocabulary import COURTESIES
 
-_IDLE = frozenset({NAME, "roger", "okay", "ok", "copy", "and", "all", "right", "wilco"})
+_IDLE = COURTESIES | {NAME, "copy", "and", "right", "bye", "see", "ya", "so", "long", "cheers"}
 """Words that may stand beside the values."""
 _VALUE = re.compile(
     rf"(?:(?P<level>{_LEVEL.pattern})|(?P<speed>[1-3][0-9]{{2}}) knots"
     r"|(?P<turn>left|right) (?P<turned>[0-9]{3})|(?P<heading>[0-9]{3}) on the heading"
-    r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{2,3})|(?P<code>[0-7]{4}))(?: |$)"
+    r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{2,3})|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
+    r"|decimal (?P<ground>[0-9]{1,2})|(?P<code>[0-7]{4}))(?: |$)"
 )
 
 
@@ -41,6 +44,15 @@ def bare_values(words: list[str]) -> list[Instruction]:
         read.append(value)
         at = found.end()
     return read
+
+
+def _megahertz(found: re.Match[str]) -> tuple[str, str]:
+    """Return the megahertz and the decimals of a frequency, without what was left out."""
+    if found["ground"]:
+        return GROUND_MHZ, found["ground"]
+    if found["short"]:
+        return f"1{found['short'][:2]}", found["short"][2:]
+    return found["mhz"], found["fraction"]
 
 
 def _instruction(found: re.Match[str]) -> Instruction | None:
@@ -67,8 +79,8 @@ def _instruction(found: re.Match[str]) -> Instruction | None:
             if is_one
             else None
         )
-    if found["mhz"]:
-        khz = frequency_khz(found["mhz"], found["fraction"])
+    if found["mhz"] or found["short"] or found["ground"]:
+        khz = frequency_khz(*_megahertz(found))
         told = Instruction("contact", frequency_khz=khz, confidence=SHORTENED)
         return told if khz else None
     return Instruction("squawk", squawk=found["code"], confidence=SHORTENED)

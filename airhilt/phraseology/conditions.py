@@ -15,6 +15,8 @@ CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
 SEQUENCED: frozenset[Action] = frozenset(
     {"altitude", "speed", "mach", "heading", "direct", "turn_by"}
 )
+YIELDED: frozenset[Action] = frozenset({"give_way", "follow"})
+"""Actions that a taxi route waits for after "then"."""
 """Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
 IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
 """Actions that wait for the take-off that is cleared in the same call."""
@@ -25,9 +27,11 @@ WITHDRAWN: dict[Action, Action] = {
 }
 """Clearances by the actions that cancel them."""
 _FOLLOWING = re.compile(
-    r"at pilot discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$"
+    r"at pilot discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
 )
 """Conditions that belong to the action right before them if there is one."""
+_WHEN_ABLE = re.compile(r"(?:when|if) able$")
+"""Conditions that belong to the turn off a runway right before them."""
 _FILED = frozenset({"airport", "filed"})
 _AS_FILED = re.compile(r"(?<!\S)(?:as filed|cleared to .* airport)(?!\S)")
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
@@ -57,12 +61,25 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
         elif before and _is_of_expected(reads[before[-1]][0], text, span):
             _set(reads, before[-1], condition=words)
         elif _FOLLOWING.match(words):
-            is_right_behind = before and not text[reads[before[-1]][0].end : span.start].strip()
-            own = before[-1:] if is_right_behind or not after else after[:1]
+            is_own = _is_right_behind(reads, before, text, span) and not (
+                kind == "on" and after and reads[before[-1]][0].instruction.action in CLEARANCES
+            )
+            own = before[-1:] if is_own or not after else after[:1]
             for index in own:
                 _set(reads, index, condition=words)
+        elif (
+            _WHEN_ABLE.match(words)
+            and _is_right_behind(reads, before, text, span)
+            and reads[before[-1]][0].instruction.action == "vacate"
+        ):
+            _set(reads, before[-1], condition=words)
         else:
             _attach_to_one(words, kind, before, after, reads)
+
+
+def _is_right_behind(reads: Reads, before: list[int], text: str, span: Span) -> bool:
+    """Return whether a condition stands right behind an action."""
+    return bool(before) and not text[reads[before[-1]][0].end : span.start].strip()
 
 
 def _is_of_expected(read: Read, text: str, span: Span) -> bool:
@@ -150,8 +167,25 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=AIRBORNE)
         elif is_filed and told.action in ("altitude", "contact") and not read.is_expected:
             _set(reads, index, condition=DEPARTED)
-        elif index and told.action in SEQUENCED and texts[each.first - 1] == "then":
+        elif index and _waits_with(reads[index - 1][0], read, text):
+            _set(reads, index, condition=reads[index - 1][0].instruction.condition)
+        elif (
+            index
+            and told.action == "taxi"
+            and texts[each.first - 1] == "then"
+            and reads[index - 1][0].instruction.action in YIELDED
+        ) or (index and told.action in SEQUENCED and texts[each.first - 1] == "then"):
             _set(reads, index, condition="then")
+
+
+def _waits_with(before: Read, read: Read, text: str) -> bool:
+    """Return whether a direct belongs to the "resume own navigation" right before it."""
+    return (
+        before.instruction.action == "own_navigation"
+        and read.instruction.action == "direct"
+        and before.instruction.condition is not None
+        and not text[before.end : read.start].strip()
+    )
 
 
 def doubtful(instructions: list[Instruction]) -> list[Instruction]:

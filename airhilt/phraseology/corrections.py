@@ -13,6 +13,7 @@ from airhilt.phraseology.slots import (
     LEVEL,
     NAMED_RUNWAY,
     RUNWAY,
+    SIDED_RUNWAY,
     designator,
     frequency_khz,
     level_confidence,
@@ -30,7 +31,16 @@ _NUMBER = r"[0-9]{3,5}(?: knots| feet| degrees)?"
 _SLIP = re.compile(
     rf"(?:({_LEVEL})|(?<!\S)({_NUMBER})) correction (?=({_LEVEL})|({_NUMBER})(?!\S))"
 )
-_LAST_NUMBER = re.compile(r" ?[0-9]{2,3}$")
+_RUNWAY_SLIP = re.compile(
+    rf"(?<!\S)(?:runway )?{SIDED_RUNWAY} correction (?=(?:runway )?{SIDED_RUNWAY})"
+)
+_MEANT = re.compile(
+    r"(?<!\S)(?:(?:no|oh|actually|negative) )*(?:(?:i )?sorry|make that|scratch that|i mean|i meant"
+    r"|(?<=no )(?:it|that|make it)(?: is)?)(?: (?:it|that|make that|that is|it is))*"
+    r"(?= (?:(?:runway|heading|flight|level|left|right|turn)(?!\S)|[0-9]))"
+)
+"""Words that mean "correction", between a value and another one."""
+_MEANING = frozenset({"sorry", "mean", "meant", "make", "scratch", "no"})
 
 
 def without_slips(words: Words) -> Words:
@@ -38,8 +48,17 @@ def without_slips(words: Words) -> Words:
 
     ``climb flight level 350 correction 360`` is ``climb flight level 360``.
     """
+    words = _with_correction(words)
     while "correction" in words.texts:
-        found = _SLIP.search(" ".join(words.texts))
+        text = " ".join(words.texts)
+        runway = _RUNWAY_SLIP.search(text)
+        if runway:
+            first, last = (len(text[: runway.start()].split()), len(text[: runway.end()].split()))
+            mended = Words(words.texts[:first], words.confidences[:first])
+            mended.take(words, last, len(words.texts))
+            words = mended
+            continue
+        found = _SLIP.search(text)
         if found is None:
             return words
         level, _, to_level, to_number = found.groups()
@@ -59,6 +78,21 @@ def without_slips(words: Words) -> Words:
             mended.add(words.texts[index], words.confidences[index] * sure)
         words = mended
     return words
+
+
+def _with_correction(words: Words) -> Words:
+    """Return words with "correction" for what else corrects a value: "make that", "I mean"."""
+    if _MEANING.isdisjoint(words.texts):
+        return words
+    text = " ".join(words.texts)
+    found = _MEANT.search(text)
+    if found is None or not any(sign.isdigit() for sign in text[: found.start()]):
+        return words
+    first, last = len(text[: found.start()].split()), len(text[: found.end()].split())
+    mended = Words(words.texts[:first], words.confidences[:first])
+    mended.add("correction", min(words.confidences[first:last]))
+    mended.take(words, last, len(words.texts))
+    return mended
 
 
 Read = Callable[[Words], Content]

@@ -15,7 +15,7 @@ OPEN = frozenset(
      "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
      "confirm", "confirming", "verify", "except", "like", "want", "possible", "possibly",
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
-     "need", "intend", "planning", "chance", "assigned", "expects"}
+     "need", "intend", "plan", "planning", "chance", "assigned", "expects", "supposed", "told"}
 )  # fmt: skip
 """Words before an action that is asked for, asked about, or only expected."""
 ASKED = frozenset(
@@ -53,7 +53,7 @@ CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
 """Words after "cancel" that deny the clearance before it: "line up and wait, cancel that"."""
 _PHRASES = frozenset(
     {("are", "you"), ("are", "we"), ("are", "they"), ("am", "i"), ("is", "he"), ("were", "you"),
-     ("were", "we"), ("was", "i"), ("have", "we"), ("have", "i"),
+     ("were", "we"), ("was", "i"), ("was", "that"), ("is", "that"), ("have", "we"), ("have", "i"),
      ("can", "we"), ("can", "i"), ("may", "we"), ("may", "i"),
      ("ready", "to"), ("ready", "for"), ("able", "to")}
 )  # fmt: skip

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from airhilt.phraseology.approaches import NAMED_APPROACH, named_approach
 from airhilt.phraseology.call import Action, Instruction, Sense
-from airhilt.phraseology.forms import Listed, Read, Segment, fix_of
-from airhilt.phraseology.slots import FIX, RUNWAY, designator
-from airhilt.phraseology.vertical import level_in
+from airhilt.phraseology.forms import BARE_RUNWAY, Listed, Read, Segment, fix_of
+from airhilt.phraseology.slots import FIX, RUNWAY, SIDED_RUNWAY, designator
+from airhilt.phraseology.vertical import bare_level, level_in
 
 
 def expected_level(segment: Segment, action: Action) -> Read | None:
     """Read a level to be expected."""
     feet, confidence, taken = level_in(segment.after, is_here=True)
+    if feet is None:
+        feet, confidence, taken = _level_in_a_while(segment.after)
     if feet is None:
         return None
     head = segment.found["sense"]
@@ -28,7 +31,13 @@ def expected_approach(segment: Segment, action: Action) -> Read | None:
     read = named_approach(segment.found["approach"])
     if read is None:
         return None
-    return Read(read, segment.start, segment.found.end(), is_expected=True)
+    end = segment.found.end()
+    beside = _BARE_RUNWAY.match(segment.after)
+    if beside and read.runway is None:
+        runway = designator(*beside.groups())
+        read = replace(read, runway=runway, confidence=min(read.confidence, BARE_RUNWAY))
+        end += beside.end()
+    return Read(read, segment.start, end, is_expected=True)
 
 
 def expected_at_fix(segment: Segment, action: Action) -> Read | None:
@@ -54,6 +63,13 @@ def expected_on_runway(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end(), is_expected=True)
 
 
+def _level_in_a_while(text: str) -> tuple[float | None, float, int]:
+    """Return a flight level without its unit, behind which the time or the place is said."""
+    return bare_level(text) if _IN_A_WHILE.match(text) else (None, 0.0, 0)
+
+
+_IN_A_WHILE = re.compile(r"(?: to)? [1-6][0-9]{2} (?:in|by|at|within)(?!\S)")
+_BARE_RUNWAY = re.compile(rf" (?={SIDED_RUNWAY}|[0-9]+(?:$| \|)){RUNWAY}")
 _EXPECT = r"(?:expect(?:ing)?|plan on)"
 _RUNWAY = RUNWAY.replace("(0?", "(?P<number>0?", 1).replace("(left|", "(?P<side>left|", 1)
 

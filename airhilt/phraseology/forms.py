@@ -93,10 +93,27 @@ class Form(NamedTuple):
 Listed = tuple[tuple[str, Action, str, Builder], ...]
 """Forms by their first words: these, the action, the pattern, and the function."""
 
+_ACK = "okay|ok|roger|alright|copy|and|yes|yeah|affirm|affirmative|wilco|thanks|thank you"
 _BEFORE = re.compile(
     rf"(?<!\S)(?P<word>runway )?{RUNWAY}"
-    rf"(?: (?:(?:at|from) (?P<place>{TAXIWAY})|full length))?$"
+    rf"(?: (?:(?:at|from|(?:at )?intersection) (?P<place>{TAXIWAY})|full length))?$"
 )
+_OPENING = re.compile(
+    rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
+)
+"""A runway at the beginning of a call, between which and its clearance other words stand."""
+_BEGINS = re.compile(rf"(?:.* )?(?:\||correction)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*")
+"""Words before a runway at the beginning of a call, or of a correction."""
+_NOT_ITS = frozenset(
+    {"of", "short", "final", "base", "downwind", "crosswind", "landing", "departing", "crossing",
+     "on", "for", "behind", "and", "then", "or", "not", "the", "at", "vacate", "exit", "off", "to"}
+)  # fmt: skip
+"""Words before a parallel runway that is not that of the clearance behind it."""
+_BY_OPENING: frozenset[Action] = frozenset(
+    {"cleared_to_land", "cleared_for_takeoff", "line_up", "touch_and_go", "stop_and_go",
+     "low_approach", "cleared_option"}
+)  # fmt: skip
+"""Actions for which the runway at the beginning of the call is given."""
 _NAMED_BEFORE = re.compile(rf"(?<!\S)runway {RUNWAY}(?: (?:at|from) {TAXIWAY})?$")
 _BARE_AFTER = re.compile(rf" (?:on )?{RUNWAY}")
 _OTHER_RUNWAY = re.compile(
@@ -123,6 +140,16 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     inside = NAMED_RUNWAY.search(segment.found[0])
     before = runway_before(segment)
     after = _runway_after(segment)
+    if action in _BY_OPENING and not (inside or before or after):
+        opening = _OPENING.match(segment.text)
+        if opening and not NAMED_RUNWAY.search(segment.text, opening.end()):
+            number, side = opening.group(2, 3)
+            confidence = min(BARE_RUNWAY, runway_confidence(number))
+            read = Instruction(
+                action, designator(number, side),
+                immediate=is_immediate(segment, segment.found.end()), confidence=confidence,
+            )  # fmt: skip
+            return Read(read, segment.start, segment.found.end())
     named = [_number_and_side(each) for each in (inside, before, after) if each]
     told = [designator(*each) for each in named]
     start, end = segment.start, segment.found.end()
@@ -164,7 +191,10 @@ def runway_before(segment: Segment) -> re.Match[str] | None:
     if found is None or found["word"]:
         return found
     before = segment.text[: segment.begin + found.start()]
-    return found if before in ("", "| ") or before.endswith(" | ") else None
+    if _BEGINS.fullmatch(before):
+        return found
+    has_side = found[3] is not None and segment.begin + found.start() > 0
+    return found if has_side and before.split()[-1] not in _NOT_ITS else None
 
 
 def is_next_runway(segment: Segment) -> bool:

@@ -29,6 +29,8 @@ CONTINUED = 0.7
 _OF_OTHERS = MAKERS | {"the", "a", "an", "landing", "heavy", "from"}
 """Words that may stand between one of `SPOKEN_OF` and a callsign."""
 _UNIT = tuple([unit] for unit in UNITS)
+_SIDES = (["left"], ["right"], ["centre"])
+_CLEARED = (["cleared"], ["clear"], ["line"])
 
 
 class Hit(NamedTuple):
@@ -59,7 +61,11 @@ def read(
         if word[0].isdigit():
             if rest.startswith(word):
                 done += len(word)
-            elif rest.isdigit() and word.startswith(rest) and words[at + 1 : at + 2] in _UNIT:
+            elif (
+                rest.isdigit()
+                and word.startswith(rest)
+                and (words[at + 1 : at + 2] in _UNIT or _is_runway(word[len(rest) :], words, at))
+            ):
                 done, left_over = size, word[len(rest) :]
                 worth *= ABBREVIATED
             else:
@@ -81,6 +87,17 @@ def read(
     if at < len(words) and words[at] in WAKE:
         at += 1
     return Hit(start, at, worth, callsign, left_over, "", is_mended)
+
+
+def _is_runway(number: str, words: list[str], at: int) -> bool:
+    """Return whether digits behind a callsign are a runway: its side and its clearance follow."""
+    return (
+        words[at + 1 : at + 2] in _SIDES
+        and words[at + 2 : at + 3] in _CLEARED
+        and number.isdigit()
+        and len(number) <= 2
+        and 1 <= int(number) <= 36
+    )
 
 
 def is_spoken_of(words: list[str], start: int, end: int) -> bool:

@@ -12,7 +12,6 @@ from airhilt.phraseology.call import Action, Instruction, Turn
 from airhilt.phraseology.forms import (
     BARE_VALUE,
     NO_VALUE,
-    POSITION,
     Listed,
     Read,
     Segment,
@@ -21,7 +20,7 @@ from airhilt.phraseology.forms import (
     is_immediate,
     nothing,
 )
-from airhilt.phraseology.slots import FIX, NO_SENSE, taxiway
+from airhilt.phraseology.slots import FIX, LETTER, NO_SENSE, SHORTENED, TAXIWAY, taxiway
 
 
 def heading(segment: Segment, action: Action) -> Read | None:
@@ -31,7 +30,7 @@ def heading(segment: Segment, action: Action) -> Read | None:
     has_sense = number is not None and 0 < int(number) <= 360
     turn = cast(Turn | None, parts.get("turn"))
     kept = parts.get("kept")
-    at = POSITION.match(segment.after) if turn and number is None else None
+    at = _TURN_AT.match(segment.after) if turn and number is None else None
     is_cut = at is not None and segment.after[at.end() : at.end() + 2].strip().isdigit()
     confidence = 1.0 if has_sense or kept or (at and not is_cut) else NO_VALUE
     if turn is None and _TURN.search(segment.before):
@@ -47,6 +46,14 @@ def heading(segment: Segment, action: Action) -> Read | None:
         confidence=confidence if has_sense or not number else NO_SENSE,
     )
     return Read(read, segment.start, segment.found.end() + (at.end() if at else 0))
+
+
+def taxiway_turn(segment: Segment, action: Action) -> Read | None:
+    """Read a turn at a taxiway without its verb: off a runway, or on the route."""
+    found = segment.found
+    turn = cast(Turn, found["turn"])
+    read = Instruction(action, position=taxiway(found["at"]), turn=turn, confidence=SHORTENED)
+    return Read(read, segment.start, found.end())
 
 
 def turn_by(segment: Segment, action: Action) -> Read | None:
@@ -83,6 +90,9 @@ _HEADING = (
     r"(?P<number>[0-9]{3})(?!\S)(?! (?:knots|thousand|feet|miles?|decimal))"
     r"(?: degrees(?! (?:left|right)))?"
 )
+_TURN_AT = re.compile(
+    rf" (?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?({TAXIWAY})"
+)
 _TURN = re.compile(r"(?<!\S)turn(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
 _TURNS = (
@@ -105,6 +115,10 @@ FORMS: Listed = (
      r"(?:(?:maintain|fly)(?:ing)? |continue )?(?P<kept>runway|present) heading", heading),
     ("turn turning", "turn_by",
      r"turn(?:ing)? (?P<degrees>[0-9]{1,3}) degrees (?:to the )?(?P<turn>left|right)", turn_by),
+    ("turn turning", "turn_by", r"turn(?:ing)? (?P<degrees>[1-9][05]) (?P<turn>left|right)",
+     turn_by),
+    ("10 15 20 30", "turn_by",
+     r"(?P<degrees>[0-9]{2}) (?P<turn>left|right)(?= for (?:traffic|spacing|sequenc)\S*)", turn_by),
     ("turn turning", "turn_by",
      r"turn(?:ing)? (?P<turn>left|right) (?P<degrees>[0-9]{1,2}) degrees", turn_by),
     (" ".join(str(degrees) for degrees in range(5, 185, 5)), "turn_by",
@@ -114,10 +128,15 @@ FORMS: Listed = (
     ("turn turning", "heading",
      rf"turn(?:ing)? (?P<turn>left|right)(?! base| downwind| final| crosswind)"
      rf"(?: now| immediately)?(?: to)?(?: heading)?(?: {_HEADING})?", heading),
-    ("left right", "heading", rf"(?P<turn>left|right)(?: to)? heading {_HEADING}", heading),
+    ("left right", "heading",
+     rf"(?P<turn>left|right)(?: turn)?(?: to)?(?: a)? heading {_HEADING}", heading),
     ("left right", "heading",
      r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )"
-     rf"(?P<turn>left|right) (?P<bare>){_HEADING}", heading),
+     rf"(?P<turn>left|right)(?: turn)?(?: to)? (?P<bare>){_HEADING}", heading),
+    ("left right", "heading",
+     r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)"
+     rf"(?: (?:on|onto|at)(?= {LETTER})|(?= {LETTER}(?: [0-9]{{1,2}})? (?:short|hold|contact|\|)))"
+     rf" (?P<at>{TAXIWAY})", taxiway_turn),
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),
     ("heading", "heading", rf"heading {_HEADING}", heading),

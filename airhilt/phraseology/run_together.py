@@ -7,6 +7,12 @@ from airhilt.phraseology.words import Words
 
 DIGITS = {"level": 3, "heading": 3, "squawk": 4, "altimeter": 4, "qnh": 4, "h": 4}
 """Number of digits after a word; "h" ends a spelled QNH."""
+_SIDES = (["left"], ["right"], ["centre"])
+_CLEARED = (["cleared"], ["line"])
+_TURNS = frozenset({"left", "right", "heading", "to"})
+"""Words before a heading, behind which a level in thousands may stand."""
+HEADING = 3
+"""Number of digits of a heading."""
 LEAST_REST = 2
 """Least number of digits of the second number: a single one may be a slip."""
 
@@ -18,9 +24,9 @@ def split_numbers(words: Words) -> Words:
     nobody knows where it ends.
     """
     texts = words.texts
-    if DIGITS.keys().isdisjoint(texts) or not any(
-        _rest_of(texts, index) for index in range(1, len(texts))
-    ):
+    if DIGITS.keys().isdisjoint(texts) and "thousand" not in texts:
+        return words
+    if not any(_rest_of(texts, index) for index in range(1, len(texts))):
         return words
     split = Words()
     for index, text in enumerate(texts):
@@ -36,8 +42,11 @@ def _rest_of(texts: list[str], index: int) -> int:
     """Return the number of digits before the second number; 0 if there is none."""
     size = DIGITS.get(texts[index - 1], 0)
     text = texts[index]
+    if texts[index + 1 : index + 2] == ["thousand"] and texts[index - 1] in _TURNS:
+        return HEADING if len(text) in (HEADING + 1, HEADING + 2) else 0
     if not size or not text.isdigit():
         return 0
     if size == 4 and text[0] == "9":  # A QNH below 1000 hPa.
         size = 3 if texts[index - 1] in ("qnh", "h") else size
-    return size if len(text) >= size + LEAST_REST else 0
+    is_runway = texts[index + 1 : index + 2] in _SIDES and texts[index + 2 : index + 3] in _CLEARED
+    return size if len(text) >= size + (1 if is_runway else LEAST_REST) else 0

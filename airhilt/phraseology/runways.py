@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.forms import (
+    BARE_VALUE,
     NO_RUNWAY,
     UNIT,
     Listed,
@@ -15,7 +17,14 @@ from airhilt.phraseology.forms import (
     is_next_runway,
     on_runway,
 )
-from airhilt.phraseology.slots import RUNWAY, TAXIWAY, designator, runway_confidence, taxiway
+from airhilt.phraseology.slots import (
+    LETTER,
+    RUNWAY,
+    TAXIWAY,
+    designator,
+    runway_confidence,
+    taxiway,
+)
 
 ANIMALS = (
     "deer", "coyote", "fox", "dog", "animal", "wildlife", "geese", "goose", "gull", "gulls",
@@ -27,6 +36,9 @@ PLACES = (
 )  # fmt: skip
 """Words after an animal in the name of a place: Deer Park."""
 _POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
+_DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER})(?= \||$)")
+"""Pattern of a taxiway of two letters, behind which the call ends."""
+_READY = re.compile(r"(?<!\S)ready(?!\S)")
 
 
 def go_around(segment: Segment, action: Action) -> Read | None:
@@ -59,11 +71,22 @@ def continues(segment: Segment, action: Action) -> Read | None:
 
 def hold_short(segment: Segment, action: Action) -> Read | None:
     """Read the runway or the taxiway to hold short of."""
-    point = _POINT.match(segment.after)
+    if segment.found[0].startswith("holding") and _READY.search(segment.text, segment.start):
+        return None  # A pilot says where the aircraft is.
+    point = _DOUBLE_POINT.match(segment.after) or _POINT.match(segment.after)
     if point is None:
         return on_runway(segment, action)
-    held = Instruction(action, hold_short=taxiway(point[1]))
+    held = Instruction(action, hold_short="".join(taxiway(each) for each in point.groups()))
     return Read(held, segment.start, segment.found.end() + point.end())
+
+
+def bare_hold_short(segment: Segment, action: Action) -> Read | None:
+    """Read "short of" without "hold", as it is read back."""
+    read = hold_short(segment, action)
+    if read is None:
+        return None
+    told = read.instruction
+    return read._replace(instruction=replace(told, confidence=min(told.confidence, BARE_VALUE)))
 
 
 def wildlife(segment: Segment, action: Action) -> Read | None:
@@ -81,6 +104,11 @@ _NAMED = r"runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?"
 _INSIDE = rf"(?:{_NAMED} )?"
 _ANIMAL = "|".join(ANIMALS)
 _PLACE = "|".join(PLACES)
+_WHERE = (
+    r"(?: (?:is |are )?(?:on|at|near|by|off|crossing)(?: the)?"
+    r"(?: [a-z]+ (?:end|side|edge) of)?(?: the)?(?= runway|$| \|))?"
+)
+"""Words between an animal and its runway."""
 
 FORMS: Listed = (
     ("clear cleared", "touch_and_go", rf"{_CLEAR} (?:for )?(?:a |the )?touch and go", on_runway),
@@ -100,6 +128,9 @@ FORMS: Listed = (
     ("position", "line_up", r"position and hold", on_runway),
     ("taxi", "line_up", r"taxi into position and hold", on_runway),
     ("hold holding", "hold_short", r"hold(?:ing)? short(?: of)?", hold_short),
+    ("short", "hold_short",
+     r"(?<!hold )(?<!we )(?<!i )(?<!you )(?<!are )(?<!is )(?<!am )(?<!just )(?<!landed )(?<!stop )"
+     r"short of", bare_hold_short),
     ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
     ("holding", "hold_position", r"holding(?= \||$)", alone),
     ("hold holding", "hold_position", r"hold(?:ing)? (?:your |my |present )?position", alone),
@@ -115,12 +146,15 @@ FORMS: Listed = (
     ("continue continuing", "continue_approach", r"continu(?:e|ing) (?:the |your )?approach",
      continue_approach),
     ("continue", "continue_approach",
-     r"continue(?= runway|$| \|| traffic| expect| number| wind)", continues),
+     r"continue(?: for)?(?= runway|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
+     continues),
+    ("continue", "continue_approach", r"continue(?= number [0-9])", continue_approach),
     ("backtrack backtracking", "backtrack", r"backtrack(?:ing)?", on_runway),
     ("back", "backtrack", r"back taxi(?:ing)?", on_runway),
     (" ".join(ANIMALS), "wildlife_gone",
      rf"(?:{_ANIMAL})(?!\S)(?: \S+)*? (?:(?:has|have) left|gone|(?:is|are) clear)", wildlife),
     (" ".join(ANIMALS), "wildlife",
-     rf"(?:{_ANIMAL})(?!\S)(?! (?:strike|{_PLACE})(?!\S))(?: (?:\S+ )*(?:{_ANIMAL}))?", wildlife),
+     rf"(?:{_ANIMAL})(?!\S)(?! (?:strike|{_PLACE})(?!\S))(?: (?:\S+ )*(?:{_ANIMAL}))?{_WHERE}",
+     wildlife),
 )  # fmt: skip
 """Forms of actions on runways, and of animals on them."""

@@ -7,9 +7,13 @@ from typing import NamedTuple
 
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
 from airhilt.phraseology.forms import Form
+from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
+from airhilt.phraseology.lateral import taxiway_turn
 from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, TAXIWAY
+from airhilt.phraseology.speeds import KNOTS_FORM
 from airhilt.phraseology.surveillance import FREQUENCY_FORM
+from airhilt.phraseology.vertical import cross_fix
 
 CONDITIONS = frozenset(
     {"behind", "after", "when", "until", "before", "once", "if", "unless", "upon"}
@@ -32,6 +36,8 @@ _EVENTS = {
     "at": rf"at (?:pilot discretion|{FIX}(?={_VERB}))",
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
+    "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
+    "on": r"on (?:the go|departure)",
     "reaching": rf"reaching (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
     "depart": rf"depart {FIX}(?= heading)",
     "leave": rf"leave {FIX}(?= heading)",
@@ -40,6 +46,7 @@ _EVENTS = {
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
+_LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
 
 
@@ -180,7 +187,18 @@ def _action_at(text: str, start: int, index: int, word: str) -> Found | None:
 
 
 def _belongs_to(last: Found, each: Found) -> bool:
-    """Return whether a frequency is that of the station to contact."""
+    """Return whether the words of an action are a detail of the one before.
+
+    They are the frequency of a station to contact, the route of a taxi clearance, the side of a
+    turn off the runway, and the speed of a crossing restriction.
+    """
+    if each.form.build is route:
+        return last.form.build is taxi
+    if each.form.build is taxiway_turn:
+        return last.form.build is vacate and each.match.start() == last.match.end() + 1
+    if each.form is KNOTS_FORM:
+        between = each.match.string[last.match.end() : each.match.start()]
+        return last.form.build is cross_fix and _LEVEL_ONLY.fullmatch(between) is not None
     return (
         each.form is FREQUENCY_FORM
         and last.form.action in ("contact", "monitor")

@@ -43,10 +43,13 @@ SIDE = (
 )
 """Pattern of the side of a parallel runway; "runway 01 left downwind" is about the circuit."""
 RUNWAY = rf"(0?[1-9]|[12][0-9]|3[0-6])(?!\S){NUMBER_ENDS}{SIDE}?"
+SIDED_RUNWAY = r"(?:0?[1-9]|[12][0-9]|3[0-6]) (?:left|right|centre|l|r|c)(?!\S)"
+"""Pattern of a parallel runway, which its side shows to be one."""
 NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
 
-_LETTER = "|".join(LETTERS)
-TAXIWAY = rf"(?:(?:{_LETTER}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
+LETTER = rf"(?:{'|'.join(LETTERS)})(?!\S)"
+"""Pattern of a letter of the spelling alphabet."""
+TAXIWAY = rf"(?:(?:{'|'.join(LETTERS)}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
 _NO_RATE = r"(?!(?: [a-z]+)? (?:per minute|min)(?!\S))"
 _ANY_LEVEL = (
     r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"

@@ -62,10 +62,10 @@ _NUMBER = (
     r"(?P<number>[1-9][0-9]{2}|[6-9][0-9])(?!\S)(?! (?:thousand|degrees|miles?|decimal))"
     r"(?: knots)?(?P<feet> feet)?"
 )
-_VERB = r"(?:(?:reduc|increas|slow)(?:e|ing)?|maintain(?:ing)?)"
+_VERB = r"(?:(?:reduc|increas|slow)(?:e|ing)?|(?:maintain|keep)(?:ing)?)"
 _NAMED = (
-    r"(?P<named>(?:(?:minimum|maximum|slowest|final) )?(?:minimum|maximum|slowest|final|approach"
-    r"|clean|forward|practical))"
+    r"(?P<named>(?:(?:minimum|maximum|slowest|best|final) )?"
+    r"(?:minimum|maximum|slowest|best|final|approach|clean|forward|practical|possible))"
 )
 
 FORMS: Listed = (
@@ -74,9 +74,15 @@ FORMS: Listed = (
     ("mach", "mach", r"mach (?:number )?(?:decimal )?(?P<digits>[0-9]{2,3})", mach),
     ("reduce reducing increase increasing slow slowing maintain maintaining", "speed",
      rf"{_VERB}(?: your)?(?: speed)?(?: to)?(?: your)? {_NAMED}(?: speed)?", named_speed),
+    ("minimum maximum slowest best", "speed",
+     r"(?P<named>minimum (?:clean|approach(?= speed))|maximum forward|best forward"
+     r"|slowest (?:practical|possible))(?: speed)?", named_speed),
+    ("keep keeping", "speed",
+     r"keep(?:ing)? (?:speed )?(?P<number>[1-3][0-9]0)(?: knots| speed|(?= or | until| to| \||$))",
+     speed),
     ("maintain maintaining", "speed",
      r"maintain(?:ing)? (?:speed )?(?P<number>[1-9][0-9]{2}|[6-9][0-9])"
-     r"(?: knots| speed|(?= or (?:greater|less)))", speed),
+     r"(?: knots| speed|(?= or (?:greater|less|better)))", speed),
     ("maintain maintaining", "speed", rf"maintain(?:ing)? speed(?: at| of)? {_NUMBER}", speed),
     ("maintain maintaining", "speed", r"maintain(?:ing)? (?P<number>[1-3][0-9]0)(?= until| \||$)",
      bare_speed),
@@ -87,7 +93,10 @@ FORMS: Listed = (
     ("resume", "resume_speed",
      r"resume (?P<named>normal|published|your)?(?: )?speed(?: restrictions)?", resume),
     ("no delete cancel", "no_speed_restrictions",
-     r"(?:no|delete|cancel)(?: a t c| atc)? speed (?:restrictions?|control)", alone),
+     r"(?:no|delete|cancel)(?: a t c| atc)? speed (?:restrictions?|control|limits?)", alone),
+    ("speed", "no_speed_restrictions",
+     r"speed (?:is )?(?:at )?(?:your|pilot|pilots|own) discretion", alone),
+    ("high free", "no_speed_restrictions", r"high speed approved|free speed", alone),
 )  # fmt: skip
 """Forms of speeds."""
 KNOTS_FORM = Form(
@@ -96,3 +105,13 @@ KNOTS_FORM = Form(
     bare_speed,
 )
 """Form of a speed without a verb."""
+LIMITED_FORM = Form(
+    "speed",
+    re.compile(
+        r"(?<!heading )(?<!level )(?P<number>[1-3][0-9]0)(?= or (?:better|greater|less|more)(?!\S)"
+        r"| (?:to|until) (?:the )?(?:(?:outer )?marker|[0-9]{1,2} (?:miles?|d m e)|short final)"
+        r"(?!\S))"
+    ),
+    bare_speed,
+)
+"""Form of a speed that only its bound or its limit shows to be one."""

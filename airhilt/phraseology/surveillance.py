@@ -53,6 +53,7 @@ def contact(segment: Segment, action: Action) -> Read | None:
     station = station.strip() if station else None
     after = segment.after
     full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
+    without_hundred = _SHORT_JOINED.match(after) if station else None
     short = SHORT_FREQUENCY.search(after) if station and "ground" in station else None
     khz, confidence, found = None, NO_VALUE, None
     if full:
@@ -63,6 +64,9 @@ def contact(segment: Segment, action: Action) -> Read | None:
         khz, confidence, found = frequency_khz(GROUND_MHZ, short[1]), BARE_VALUE, short
     elif joined:
         khz, confidence, found = frequency_khz(joined[1], joined[2]), BARE_VALUE, joined
+    elif without_hundred:
+        mhz, fraction = without_hundred.groups()
+        khz, confidence, found = frequency_khz(f"1{mhz}", fraction), BARE_VALUE, without_hundred
     if station is None and khz is None:
         return None
     read = Instruction(
@@ -75,6 +79,11 @@ def contact(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end() + end)
 
 
+_NO_FREQUENCY = r"(?!\S)(?! (?:left|right|centre|knots|miles?|degrees|thousand|feet|oclock))"
+_SHORT_JOINED = re.compile(
+    rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"
+)
+"""A frequency without its first digit, which is always 1: "tower eighteen three"."""
 _ON_JOINED = re.compile(r" (?:on |at |frequency )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
 
 
@@ -95,7 +104,12 @@ def frequency(segment: Segment, action: Action) -> Read | None:
 def station_frequency(segment: Segment, action: Action) -> Read | None:
     """Read a station with its frequency, whose decimal point was not said."""
     found = segment.found
-    mhz, fraction = (GROUND_MHZ, found["fraction"]) if found["fraction"] else found.group(2, 3)
+    if found["fraction"]:
+        mhz, fraction = GROUND_MHZ, found["fraction"]
+    elif found["short"]:
+        mhz, fraction = f"1{found['short'][:2]}", found["short"][2:]
+    else:
+        mhz, fraction = found.group(2, 3)
     khz = frequency_khz(mhz, fraction)
     if khz is None:
         return None
@@ -108,7 +122,8 @@ def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
     what = (event or segment.found["other"]).replace("_", " ").strip()
-    read = Instruction(action, position=what, confidence=1.0 if event else LONG_NAME)
+    is_named = event is not None and segment.found[0].startswith("report")
+    read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
 
 
@@ -117,7 +132,7 @@ _EVENT = (
     rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s))?"
     rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it) in sight|in sight"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
-    rf"(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|runway vacated"
+    rf"(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|(?:runway )?vacated"
     rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
     rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
 )
@@ -134,20 +149,27 @@ FORMS: Listed = (
     ("stop", "squawk", r"stop squawk", nothing),
     ("contact contacting call", "contact", rf"(?:contact(?:ing)?|call)(?P<station>{_STATION})?",
      contact),
+    ("going", "contact", rf"going(?: over)? to(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
      rf"(?:over|switch(?:ing)?|chang(?:e|ing))(?: over)?(?: to)?(?: my| frequency)*"
      rf"(?P<station>{_STATION})?", contact),
     ("monitor monitoring", "monitor", rf"monitor(?:ing)?(?P<station>{_STATION})?", contact),
     (" ".join((*UNITS, "frequency")), "contact",
      rf"(?P<unit>{UNIT}|frequency)(?: frequency| on| is)* "
-     r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3}))",
+     r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
+     rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
     ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
-    ("maintain", "visual_separation", r"maintain (?:visual|your own|own) separation", alone),
+    ("maintain", "visual_separation",
+     r"maintain (?:(?:visual|your own|own) separation|visual(?= \||$| cleared))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
-     rf"(?<!wildlife )(?<!pilot )(?<!bird )(?<!weather )report (?:(?P<event>{_EVENT})"
+     r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
+     rf"report (?:(?P<event>{_EVENT})"
      rf"|(?P<other>{_OTHER}))", report),
+    ("advise", "report",
+     rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"
+     rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),
 )  # fmt: skip
 """Forms of frequencies, transponders and reports."""
 FREQUENCY_FORM = Form("contact", FREQUENCY, frequency)

@@ -18,9 +18,13 @@ from airhilt.phraseology.forms import (
 from airhilt.phraseology.slots import (
     BARE_FEET,
     FIX,
+    HIGHEST_LEVEL,
     LEVEL,
     LEVEL_HERE,
+    LEVEL_WORDS,
     NO_SENSE,
+    SHORTENED,
+    SIDED_RUNWAY,
     feet_confidence,
     level_confidence,
     level_ft,
@@ -31,10 +35,19 @@ _SENSES: dict[str, Sense] = {
     "climb": "climb", "up": "climb", "desce": "descend", "down": "descend", "maint": "maintain"
 }  # fmt: skip
 _SPOKEN_BOUNDS: dict[str, Bound] = {
-    "above": "or_more", "greater": "or_more", "more": "or_more", "below": "or_less",
-    "less": "or_less",
+    "above": "or_more", "greater": "or_more", "more": "or_more", "better": "or_more",
+    "faster": "or_more", "below": "or_less", "less": "or_less", "slower": "or_less",
 }  # fmt: skip
-_BOUND_AFTER = re.compile(r"( or)? (above|below|greater|less|more)(?!\S)")
+_BOUND_AFTER = re.compile(r"( or)? (above|below|greater|less|more|better|faster|slower)(?!\S)")
+MOST_THOUSANDS = 45
+"""Most thousands of feet that are said without the word."""
+TENS_FROM = 20
+"""Number from which on tens may be thousands of feet or a flight level."""
+_BARE_LEVEL = re.compile(
+    r"(?: (?:to|at|and|maintain|now))* ([1-9][0-9]{0,2})(?!\S)"
+    r"(?! (?:left|right|knots|degrees|miles?|decimal|thousand|hundred|feet|or|minutes?|oclock|per))"
+)
+"""A level without its unit."""
 _KNOTS = re.compile(r" knots(?!\S)")
 
 
@@ -74,14 +87,36 @@ def level_in(text: str, *, is_here: bool = False) -> tuple[float | None, float, 
     return None, NO_VALUE, 0
 
 
+def bare_level(text: str) -> tuple[float | None, float, int]:
+    """Return a level without its unit: "up to fourteen", "down to eight zero".
+
+    Three digits are a flight level; fewer are thousands of feet up to 45, and above a level.
+    """
+    found = _BARE_LEVEL.match(text)
+    if found is None:
+        return None, NO_VALUE, 0
+    number = int(found[1])
+    if number <= MOST_THOUSANDS:
+        feet, has_sense = number * 1000.0, number < TENS_FROM or number % 10 != 0
+    else:
+        feet, has_sense = number * 100.0, number <= HIGHEST_LEVEL and number % 5 == 0
+    return feet, SHORTENED if has_sense else NO_SENSE, found.end()
+
+
 def altitude(segment: Segment, action: Action) -> Read | None:
     """Read a level, with its sense and its bound."""
     words = segment.found[0].split()
     head = next((word[:5] for word in words if word[:5] in _SENSES), "maint")
-    sense = "maintain" if words[0] in ("stop", "level") else _SENSES[head]
+    sense: Sense | None = _SENSES[head]
+    if words[0] in ("stop", "stopping", "level"):
+        sense = "maintain"
+    elif words[-1] == "to" and head == "maint":  # "Expediting to".
+        sense = None
     bound = bound_of(segment.found.groupdict().get("bound"))
     feet, confidence, taken = level_in(segment.after, is_here=bound is not None)
-    if feet is None and sense == "maintain":
+    if feet is None and (sense != "maintain" or words[0] != "maintain"):
+        feet, confidence, taken = bare_level(segment.after)
+    if feet is None and sense in ("maintain", None):
         return None
     end = segment.found.end() + taken
     if bound is None and taken:
@@ -131,8 +166,26 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
 
 
 _MORE_NUMBERS = re.compile(r" (?:and )?at [0-9]")
-_CROSSING_SPEED = re.compile(r" (?:and )?at ([1-3][0-9]{2})(?! (?:feet|thousand))(?: knots)?(?!\S)")
+_CROSSING_SPEED = re.compile(
+    r" (?:(?:and )?at |and |(?=[0-9]{3} knots))([1-3][0-9]{2})"
+    r"(?! (?:feet|thousand))(?: knots)?(?!\S)"
+)
 _CROSSING_SPEED_HERE = re.compile(r" ([1-3][0-9]{2})(?! (?:feet|thousand))(?: knots)?(?!\S)")
+
+
+def level_by_fix(segment: Segment, action: Action) -> Read | None:
+    """Read a level that is to be reached by a fix (ICAO Doc 4444, 12.3.1.2)."""
+    found = segment.found
+    fix, confidence = fix_of(segment)
+    level = LEVEL.search(found["level"])
+    feet = level and level_ft(level)
+    if level is None or feet is None:
+        return None
+    sure = min(confidence, level_confidence(level))
+    read = Instruction(action, position=fix, altitude_ft=feet, confidence=sure)
+    sense = _SENSES[found[0][:5]]
+    level_read = Instruction("altitude", sense=sense, altitude_ft=feet, confidence=sure)
+    return Read(level_read, segment.start, found.end(), (read,))
 
 
 def via_procedure(segment: Segment, action: Action) -> Read | None:
@@ -165,15 +218,21 @@ _PROCEDURE = r"(?: (?:the )?(?!to |sid|star|the )(?P<name>[a-z]+(?: [a-z]+)?(?: 
 
 CROSSINGS: Listed = (
     ("cross crossing", "cross_fix",
-     rf"cross(?:ing)? (?P<fix>{FIX}) at(?: or (?P<bound>above|below)| (?P<kept>and maintain))?",
+     rf"cross(?:ing)? (?!{SIDED_RUNWAY})(?P<fix>{FIX})"
+     r" at(?: or (?P<bound>above|below)| (?P<kept>and maintain))?",
      cross_fix),
+    ("climb climbing descend descending", "cross_fix",
+     r"(?:climb|descend)(?:ing)? to (?:be level|reach|be at)(?: at)?"
+     rf" (?P<level>{LEVEL_WORDS}) by (?P<fix>{FIX})", level_by_fix),
 )  # fmt: skip
 """Forms of crossing restrictions, which come before those of crossing a runway."""
 FORMS: Listed = (
-    ("stop", "altitude", r"stop (?:your )?(?:climb|descent|descend)(?: at| and maintain)?",
+    ("stop stopping", "altitude",
+     r"stop(?:ping)? (?:(?:your|the|my) )?(?:climb|descent|descend)(?: at| and maintain)?",
      altitude),
+    ("stopping", "altitude", r"stopping(?: at)?(?= (?:flight|level|[0-9]))", altitude),
     ("climb climbing", "climb_via",
-     rf"climb(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:sid|departure)|(?= except| \||$))",
+     rf"climb(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:sid|departure)|(?= except| squawk| \||$))",
      via_procedure),
     ("descend descending", "descend_via",
      rf"descend(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:star|arrival)|(?= except| \||$))",
@@ -186,6 +245,7 @@ FORMS: Listed = (
      r"(?: to)?(?: and maintain(?:ing)?| maintain)?"
      rf"{_OR}",
      altitude),
+    ("expedite expediting", "altitude", r"expedit(?:e|ing) to(?= flight| level| [0-9])", altitude),
     ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)", altitude),
     ("expedite expediting", "altitude",
      r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: through| to| and maintain)?"
@@ -196,6 +256,9 @@ FORMS: Listed = (
      r"(?:maintain(?:ing)?|remain)(?: v f r| vfr)? at or (?P<bound>above|below)", altitude),
     ("maintain maintaining", "altitude", r"maintain(?:ing)?(?: at| altitude)?", altitude),
     ("level", "altitude", r"level off(?: at)?", altitude),
-    ("at", "vertical_rate", rf"at {_RATE}(?: feet)? (?:per minute|min)", rate),
+    ("at", "vertical_rate", rf"at {_RATE}(?: feet)? (?:per minute|a minute|min)", rate),
+    ("rate", "vertical_rate",
+     rf"rate(?: of (?:climb|descent))?(?: at)? {_RATE}(?: feet)?(?: (?:per minute|a minute|min))?",
+     rate),
 )  # fmt: skip
 """Forms of levels."""

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from airhilt.phraseology.alphabet import LETTER_VARIANTS
+from airhilt.phraseology.alphabet import LETTER_OF, LETTER_VARIANTS
 from airhilt.phraseology.mending import mend_by_sound
 from airhilt.phraseology.numbers import DIGITS, SOUNDS, TEENS, TENS
 
@@ -39,7 +39,7 @@ SPELLINGS: dict[str, tuple[str, ...]] = {
     "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
     "tousand": ("thousand",), "dayseemal": ("decimal",),
     "ft": ("feet",),
-    "rwy": ("runway",), "hdg": ("heading",),
+    "rwy": ("runway",), "hdg": ("heading",), "till": ("until",), "til": ("until",),
 }  # fmt: skip
 """Other spellings of words, with the same confidence."""
 SOUNDALIKES: dict[str, tuple[str, ...]] = {
@@ -74,9 +74,10 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "push": {"back": ("pushback",)},
     "start": {"up": ("startup",)},
     "back": {"track": ("backtrack",)},
+    "fox": {"trot": ("foxtrot",)},
 }  # fmt: skip
 """The same for two words; the key is the first."""
-_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "read", "push", "start", "back"})
+_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "read", "push", "start", "back", "fox"})
 """First words of pairs that are only spelled differently, not misheard."""
 
 UNITS = frozenset(
@@ -87,6 +88,9 @@ UNITS = frozenset(
 WIDTHS = {"runway": 2, "heading": 3, "level": 3, "decimal": 3}
 """Number of digits that follow a word."""
 _AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clear", "line"})
+
+
+_SPELLED = LETTER_OF.keys() | LETTER_VARIANTS.keys()
 
 
 class Raw(NamedTuple):
@@ -180,6 +184,8 @@ def _mend(raw: list[Raw]) -> list[Raw]:
             confidence *= 1.0 if word in _SPELLED_APART else MENDED
             mended += (Raw(each, confidence) for each in pair)
             at += 1
+        elif word == "fox" and _is_spelling(mended[-1:], raw[at : at + 1]):
+            mended.append(Raw("foxtrot", confidence))
         elif word in SPELLINGS:
             mended += (Raw(each, confidence) for each in SPELLINGS[word])
         elif word in SOUNDALIKES:
@@ -191,6 +197,12 @@ def _mend(raw: list[Raw]) -> list[Raw]:
         else:
             mended.append(raw[at - 1])
     return mended
+
+
+def _is_spelling(before: list[Raw], following: list[Raw]) -> bool:
+    """Return whether the words around one are letters, or lead to the letter of a taxiway."""
+    beside = {each.text for each in (*before, *following)}
+    return not beside.isdisjoint(_SPELLED) or bool(before and before[0].text in ("via", "taxiway"))
 
 
 def _without_fillers(raw: list[Raw]) -> list[Raw]:

@@ -65,7 +65,7 @@ def test_any_text_is_taken_apart(text: str) -> None:
         ("contact Washington Centre one three four decimal three", None),
         ("descend to niner hundred feet", 900),
         ("climb flight level three three", None),
-        ("descend to two four zero", None),
+        ("descend to two four zero", 24_000),
         ("descend to flight", None),
         ("climb to thousand", None),
         ("level", None),
