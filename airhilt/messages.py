@@ -133,6 +133,9 @@ class RosterEntry(Part):
     callsign: str
     category: Literal["aircraft", "vehicle"]
     type: str = Field(description="ICAO designator of an aircraft, kind of a vehicle")
+    ceiling_ft: float | None = Field(
+        default=None, gt=0.0, description="service ceiling of the aircraft type; null: not known"
+    )
 
 
 class Briefing(Message):

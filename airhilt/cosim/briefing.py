@@ -38,10 +38,17 @@ def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
     for actor in scenario.actors:
         match actor:
             case AircraftSpec(callsign=callsign, on_roster=True, aircraft=name):
-                designator = load_aircraft_type(name).icao_designator
-                entries.append(RosterEntry(callsign=callsign, category="aircraft", type=designator))
-            case VehicleSpec(callsign=callsign, kind=kind):
-                entries.append(RosterEntry(callsign=callsign, category="vehicle", type=kind))
+                kind = load_aircraft_type(name)
+                entries.append(
+                    RosterEntry(
+                        callsign=callsign,
+                        category="aircraft",
+                        type=kind.icao_designator,
+                        ceiling_ft=kind.speeds.service_ceiling_ft,
+                    )
+                )
+            case VehicleSpec(callsign=callsign, kind=vehicle):
+                entries.append(RosterEntry(callsign=callsign, category="vehicle", type=vehicle))
     return tuple(entries)
 
 

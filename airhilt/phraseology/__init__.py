@@ -23,7 +23,7 @@ from airhilt.phraseology.call import (
 from airhilt.phraseology.callsigns import CallsignMatch, Candidate
 from airhilt.phraseology.numbers import DIGITS, Style
 from airhilt.phraseology.parse import parse_call
-from airhilt.phraseology.readbacks import ItemReadBack, compare_readback
+from airhilt.phraseology.readbacks import agree, differences
 from airhilt.phraseology.speakers import Speaker, Spoken
 from airhilt.phraseology.telephony import AIRLINES, TELEPHONY, Airline
 from airhilt.phraseology.words import tokens
@@ -44,7 +44,6 @@ __all__ = [
     "CallsignMatch",
     "Candidate",
     "Instruction",
-    "ItemReadBack",
     "Kind",
     "Sense",
     "Speaker",
@@ -52,7 +51,8 @@ __all__ = [
     "Style",
     "Turn",
     "Wind",
-    "compare_readback",
+    "agree",
+    "differences",
     "parse_call",
     "tokens",
 ]

@@ -97,6 +97,13 @@ class Instruction:
     """Likewise in the words of its details, such as the runway or the level."""
 
     @property
+    def details_confidence(self) -> float:
+        """Confidence in [0, 1] in the details, as they were heard and as they make sense."""
+        heard = min(self.action_heard, self.details_heard)
+        makes_sense = self.confidence / heard if heard > 0.0 else 0.0
+        return min(self.details_heard, makes_sense)
+
+    @property
     def is_conditional(self) -> bool:
         """True if it is not in effect before an event."""
         return self.condition is not None

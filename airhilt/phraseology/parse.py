@@ -16,7 +16,6 @@ from airhilt.phraseology.callsigns import Naming, roster_of
 from airhilt.phraseology.conditions import doubtful
 from airhilt.phraseology.content import Content, content_of
 from airhilt.phraseology.corrections import Corrections, without_slips
-from airhilt.phraseology.fixes import with_fixes
 from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.scan import CONDITIONS
@@ -60,7 +59,6 @@ def parse_call(
     callsigns: Iterable[str],
     word_confidences: Sequence[float] | None = None,
     *,
-    fixes: Iterable[str] = (),
     ceilings_ft: Mapping[str, float] | None = None,
 ) -> Call:
     """Return the meaning of a call.
@@ -73,9 +71,6 @@ def parse_call(
         Callsigns on the frequency.
     word_confidences
         Confidence of the recogniser in each word of the text, in [0, 1].
-    fixes
-        Names of fixes and navaids, as they are spoken. Other names of up to three words are fixes
-        by their place in the call.
     ceilings_ft
         Highest level of aircraft, in ft, by callsign. A level above it is doubtful.
     """
@@ -83,7 +78,7 @@ def parse_call(
     naming = roster_of(tuple(callsigns)).naming(words.texts)
     named = _confidence_of_name(words, naming)
     rest = _without_name(words, naming)
-    said = with_fixes(split_numbers(without_slips(rest)), fixes)
+    said = split_numbers(without_slips(rest))
     content = Corrections(said, content_of).read()
     ceiling_ft = (ceilings_ft or {}).get(naming.match.callsign or "")
     content.instructions = _with_sense(doubtful(content.instructions), ceiling_ft)

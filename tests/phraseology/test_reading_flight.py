@@ -206,12 +206,6 @@ def test_a_level_above_the_ceiling_of_the_aircraft_is_doubtful() -> None:
     assert parse_call(text, KNOWN, ceilings_ft={"DAL456": 14_000.0}).confidence == 1.0
 
 
-def test_a_fix_that_the_caller_knows_is_read_as_a_whole() -> None:
-    text = "american one two three cross line up and wait at five thousand"
-    (read,) = parse_call(text, KNOWN, fixes=("Line Up and Wait",)).instructions
-    assert (read.action, read.position) == ("cross_fix", "line up and wait")
-
-
 def test_numbers_that_run_together_are_told_apart_and_doubtful() -> None:
     text = "flight level three zero zero two eight zero knots american one two three"
     level, speed = parse_call(text, KNOWN).instructions

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
 from airhilt.messages import Transcript, TransmissionOpened
-from airhilt.phraseology import BESIDES, Action, Call, Instruction
+from airhilt.phraseology import BESIDES, Action, Call, Instruction, differences
 from airhilt.units import SECOND_NS
 
 LIFETIME_S: dict[Action, float] = {
@@ -284,7 +284,7 @@ class Clearances:
                 doubt = self._doubt_of_name(each.action, other, own)
                 wrong = (other, each)
             elif given and match:
-                if not match.runway or full.runway == match.runway:
+                if "runway" not in differences(match, each):
                     continue
                 doubt = self._guard.doubt_of_value(call, each, transcript)
                 doubt = doubt or self._guard.doubt_of_value(given.call, match, given.transcript)

@@ -1,12 +1,14 @@
 """The guard of the AIRHILT paper's ladder: what was heard with too little confidence is asked for.
 
 Each slot of an instruction that the engine acts on has the recogniser's least confidence in its
-words. Below tau_ASR the slot is in doubt: it is neither believed nor ignored (arXiv 2511.18718).
+words. The value of a slot has the parser's confidence too: "descend and maintain five thousand five
+hundred ten" may have been heard well, and makes no sense. Below tau_ASR the slot is in doubt: it is
+neither believed nor ignored (arXiv 2511.18718).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,13 +20,18 @@ AMBIGUOUS = 0.5
 """Confidence in a callsign that may be either of two, as in docs/phraseology.md."""
 
 
-def call_of(transcript: Transcript, callsigns: Iterable[str]) -> Call:
+def call_of(
+    transcript: Transcript,
+    callsigns: Iterable[str],
+    ceilings_ft: Mapping[str, float] | None = None,
+) -> Call:
     """Return the meaning of a transcript, with the confidences of its words.
 
     Where the engine gives none, or not one for each word, the confidence in the whole stands for
-    that in each word.
+    that in each word. A level above the ceiling of an aircraft is in doubt.
     """
-    return parse_call(transcript.text, callsigns, _by_word(transcript))
+    words = _by_word(transcript)
+    return parse_call(transcript.text, callsigns, words, ceilings_ft=ceilings_ft)
 
 
 def _by_word(transcript: Transcript) -> list[float]:
@@ -61,7 +68,7 @@ class Guard:
 
     def is_certain(self, said: Instruction) -> bool:
         """Return whether the words of an instruction or a report are certain, whoever said them."""
-        return min(said.action_heard, said.details_heard) >= self.tau_asr
+        return min(said.action_heard, said.details_heard, self._value(said)) >= self.tau_asr
 
     def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
         """Return the first slot of an instruction that is in doubt, None if there is none."""
@@ -78,7 +85,16 @@ class Guard:
         An instruction and its readback that agree in the callsign and the action settle these.
         """
         slot: Slot = "runway" if said.altitude_ft is None else "altitude"
-        return self._doubt(slot, said.details_heard, call, said, transcript)
+        return self._doubt(slot, self._value(said), call, said, transcript)
+
+    @staticmethod
+    def _value(said: Instruction) -> float:
+        """Return the confidence in the runway or the level of an instruction.
+
+        One that is not named makes no sense of its own: only its words count.
+        """
+        is_named = said.runway is not None or said.altitude_ft is not None
+        return said.details_confidence if is_named else said.details_heard
 
     def _doubt(
         self, slot: Slot, confidence: float, call: Call, said: Instruction, transcript: Transcript

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.air_tracks import AirTracks
@@ -11,7 +11,8 @@ from airhilt.assistant.decision.guard import Doubt, Guard, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
-from airhilt.messages import Transcript
+from airhilt.messages import RosterEntry, Transcript
+from airhilt.phraseology import Instruction, differences
 from airhilt.units import FOOT, SECOND_NS
 
 ACTIVITY_S = 600.0
@@ -24,7 +25,7 @@ DOUBTED_NS = 120 * SECOND_NS
 class _Clearance:
     """The last level that the controller gave to an aircraft."""
 
-    altitude_ft: float
+    said: Instruction
     t_end_ns: int
     doubt: Doubt | None
     """Doubt about the level."""
@@ -41,15 +42,22 @@ class LevelReadbacks:
     def __init__(self, tracks: AirTracks, guard: Guard) -> None:
         self._tracks = tracks
         self._guard = guard
+        self._ceilings_ft: dict[str, float] = {}
         self._clearances: dict[str, _Clearance] = {}
         self._doubts: dict[str, Doubt] = {}
         """The doubt about the last level of each callsign."""
+
+    def take_roster(self, roster: Iterable[RosterEntry]) -> None:
+        """Note how high the aircraft can climb."""
+        self._ceilings_ft = {
+            each.callsign: each.ceiling_ft for each in roster if each.ceiling_ft is not None
+        }
 
     def take_transcript(
         self, t_ns: int, transcript: Transcript, config: SeparationStandard
     ) -> LevelMisread | None:
         """Update levels with a call, and return a wrong readback with traffic at that level."""
-        call = call_of(transcript, [track.callsign for track in self._tracks])
+        call = call_of(transcript, [track.callsign for track in self._tracks], self._ceilings_ft)
         callsign, said = call.match.callsign, call.altitude
         track = self._tracks.by_callsign(callsign) if callsign else None
         if track is None:
@@ -70,7 +78,7 @@ class LevelReadbacks:
             return None
         if call.addressed_first:
             value = self._guard.doubt_of_value(call, said, transcript)
-            told = _Clearance(said.altitude_ft, transcript.t_end_ns, value, transcript.id)
+            told = _Clearance(said, transcript.t_end_ns, value, transcript.id)
             self._clearances[track.callsign] = told
             self._set_doubt(track, doubt)
             return None
@@ -80,20 +88,21 @@ class LevelReadbacks:
             given = None
         if given is not None:
             doubt = self._guard.doubt_of_value(call, said, transcript)
-        return self._read_back(t_ns, track, said.altitude_ft, transcript.id, given, doubt, config)
+        return self._read_back(t_ns, track, said, transcript.id, given, doubt, config)
 
     def _read_back(
         self,
         t_ns: int,
         track: Track,
-        altitude_ft: float,
+        read: Instruction,
         radio_id: str,
         given: _Clearance | None,
         doubt: Doubt | None,
         config: SeparationStandard,
     ) -> LevelMisread | None:
         """Compare a readback with its instruction, and expect its level if it is certain."""
-        agrees = given is not None and given.altitude_ft == altitude_ft
+        altitude_ft = read.altitude_ft or 0.0
+        agrees = given is not None and "altitude_ft" not in differences(given.said, read)
         if doubt is not None and not agrees:
             self._set_doubt(track, doubt)
             track.cleared_m = None
@@ -109,7 +118,7 @@ class LevelReadbacks:
         return LevelMisread(
             callsign=track.callsign,
             read_ft=altitude_ft,
-            cleared_ft=given.altitude_ft,
+            cleared_ft=given.said.altitude_ft or 0.0,
             traffic=threatened.callsign,
             radio_ids=(given.radio_id, radio_id),
         )

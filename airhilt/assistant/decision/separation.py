@@ -83,6 +83,7 @@ class SeparationWatch:
             }
         )
         self._zone = TrafficZone.of(briefing.airport) if briefing.airport else None
+        self._readbacks.take_roster(briefing.roster)
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the track of an aircraft at a time."""

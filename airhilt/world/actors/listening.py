@@ -20,7 +20,7 @@ from airhilt.commands import (
     TakeOffCommand,
     TrackCommand,
 )
-from airhilt.phraseology import TAU_ASR, Call, Instruction, parse_call
+from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
 
 Parse = Callable[[str, Iterable[str], Sequence[float] | None], Call]
 
@@ -108,7 +108,7 @@ class Listener:
         """Return whether a readback contradicts the call; a shorter readback does not."""
         meant = self.parse(said, self.callsigns, None).instructions
         return not all(
-            any(_agree(instruction, other) for other in meant)
+            any(agree(instruction, other) for other in meant)
             for instruction in self.parse(read_back, self.callsigns, None).instructions
         )
 
@@ -131,28 +131,8 @@ def _wants_something(call: Call) -> bool:
 def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
     """Return whether instructions mean the same, however their conditions are worded."""
     return len(heard) == len(said) and all(
-        _agree(one, other) and _numbers(one) == _numbers(other)
+        agree(one, other) and _numbers(one) == _numbers(other)
         for one, other in zip(heard, said, strict=True)
-    )
-
-
-def _agree(one: Instruction, other: Instruction) -> bool:
-    """Return whether two instructions have one action and do not contradict each other."""
-    return one.action == other.action and all(
-        first is None or second is None or first == second
-        for first, second in zip(_details(one), _details(other), strict=True)
-    )
-
-
-def _details(instruction: Instruction) -> tuple[object, ...]:
-    """Return the details that may not differ; of a condition only whether there is one."""
-    return (
-        instruction.condition is not None,
-        instruction.runway,
-        instruction.hold_short,
-        instruction.sense,
-        instruction.turn,
-        *_numbers(instruction),
     )
 
 

@@ -8,7 +8,7 @@ from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
-from airhilt.messages import AdsbReport
+from airhilt.messages import AdsbReport, RosterEntry
 from airhilt.units import SECOND_NS
 from decisions import transcript
 
@@ -58,3 +58,28 @@ def test_a_doubt_is_asked_about_for_two_minutes(
     assert not is_misread(readbacks, "readback", UNSURE, 26.0)
     doubts = list(readbacks.doubts(round(t_s * SECOND_NS), CONFIG))
     assert [traffic for _, traffic in doubts] == (["DAL456"] if is_asked else [])
+
+
+@pytest.mark.parametrize(
+    "senseless",
+    [
+        "Up to thirty four, American one two three.",
+        "Climb and maintain three four thousand, American one two three.",
+    ],
+)
+def test_a_level_that_was_heard_well_and_is_doubtful_all_the_same_is_asked_for(
+    readbacks: LevelReadbacks, senseless: str
+) -> None:
+    assert not is_misread(readbacks, "readback", senseless, 26.0)
+    ((doubt, _),) = readbacks.doubts(31 * SECOND_NS, CONFIG)
+    assert (doubt.slot, doubt.said.altitude_ft) == ("altitude", 34_000.0)
+
+
+@pytest.mark.parametrize(("ceiling_ft", "misread"), [(41_000.0, True), (33_500.0, False)])
+def test_a_level_above_the_ceiling_of_the_aircraft_is_no_wrong_readback_but_doubtful(
+    readbacks: LevelReadbacks, ceiling_ft: float, misread: bool
+) -> None:
+    readbacks.take_roster(
+        [RosterEntry(callsign="AAL123", category="aircraft", type="B738", ceiling_ft=ceiling_ft)]
+    )
+    assert is_misread(readbacks, "readback", WRONG, 26.0) is misread
