@@ -64,7 +64,7 @@ def _named(found: re.Match[str], runway: str | None, confidence: float) -> Instr
     )
 
 
-_KIND = "|".join(KINDS)
+_KIND = "|".join(KINDS).replace("contact", "contact(?= approach)")
 _VARIANT = rf"(?: (?P<variant>{'|'.join(LETTERS)}|[a-z])(?= runway| approach| [0-9]| \||$))?"
 _RUNWAY = r"runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?"
 _APPROACH = rf"(?P<kind>{_KIND})(?P<back> back course)?(?: d m e)?{_VARIANT}(?: {_RUNWAY})?"

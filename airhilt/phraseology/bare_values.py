@@ -22,7 +22,7 @@ _IDLE = COURTESIES | {NAME, "copy", "and", "right", "bye", "see", "ya", "so", "l
 _VALUE = re.compile(
     rf"(?:(?P<level>{_LEVEL.pattern})|(?P<speed>[1-3][0-9]{{2}}) knots"
     r"|(?P<turn>left|right) (?P<turned>[0-9]{3})|(?P<heading>[0-9]{3}) on the heading"
-    r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{2,3})|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
+    r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{2,3}|(?<=[89])[0-9])|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
     r"|decimal (?P<ground>[0-9]{1,2})|(?P<code>[0-7]{4}))(?: |$)"
 )
 

@@ -169,13 +169,20 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
-        elif (
-            index
-            and told.action == "taxi"
-            and texts[each.first - 1] == "then"
-            and reads[index - 1][0].instruction.action in YIELDED
-        ) or (index and told.action in SEQUENCED and texts[each.first - 1] == "then"):
+        elif _waits(told, reads[:index], is_then=texts[max(each.first - 1, 0)] == "then"):
             _set(reads, index, condition="then")
+
+
+def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
+    """Return whether an action waits for the one before it.
+
+    A taxi route waits for whom to give way to, even without "then". After "then" they may not
+    have been understood.
+    """
+    last = before[-1][0].instruction.action if before else None
+    if told.action == "taxi":
+        return last == "give_way" or (is_then and last in (None, *YIELDED))
+    return is_then and last is not None and told.action in SEQUENCED
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:

@@ -128,6 +128,14 @@ def _end_of_limit(spans: list[Span], begin: int, each: Found, starts: list[int])
     return 0
 
 
+def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
+    """Return the index of an action right behind its condition, else 0: "once clear contact"."""
+    start = each.match.start()
+    is_behind = any(span.end == start and not span.is_traffic for span in spans)
+    begun = next((span.start for span in spans if span.end == start), start)
+    return each.first if is_behind and each.first - bisect_right(starts, begun) > 0 else 0
+
+
 def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads:
     """Return the instructions of the actions that are meant."""
     reads: Reads = []
@@ -142,6 +150,8 @@ def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads
         after = bisect_right(starts, max(each.match.end(), read.end) - 1)
         if each.form.action == "cleared_approach" and reads:
             floor = max(floor, _end_of_limit(scan.spans, reads[-1][0].end, each, starts))
+        if each.form.action not in CLEARANCES:
+            floor = max(floor, _end_of_condition(scan.spans, each, starts))
         is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
         floor = after
         if is_said:

@@ -158,11 +158,24 @@ def _corrects_itself(last: Instruction, new: Content) -> bool:
 def _replace(content: Content, new: Content) -> None:
     """Replace instructions by those that correct them."""
     actions = {each.action for each in new.instructions}
+    said = {each.action: each for each in content.instructions}
+    new.instructions = [_completed(each, said.get(each.action)) for each in new.instructions]
     kept = [i for i, each in enumerate(content.instructions) if each.action not in actions]
     if len(kept) == len(content.instructions):
         kept.pop()
     content.instructions[:] = [*(content.instructions[i] for i in kept), *new.instructions]
     content.doing[:] = [*(content.doing[i] for i in kept), *new.doing]
+
+
+def _completed(new: Instruction, last: Instruction | None) -> Instruction:
+    """Return a corrected instruction with the station or the side that it does not say again."""
+    if last is None:
+        return new
+    if new.action in ("contact", "monitor") and new.position is None:
+        return replace(new, position=last.position)
+    if new.action == "heading" and new.turn is None:
+        return replace(new, turn=last.turn)
+    return new
 
 
 def _corrected(last: Instruction, text: str) -> Instruction | None:

@@ -25,6 +25,8 @@ ASKED = frozenset(
 """Words anywhere before a clearance that make it a question, if no other action stands between."""
 ASKS = frozenset({"is", "are", "am", "was", "were"})
 """First words of a question."""
+_ASKS_YOU = frozenset({"can", "could", "do", "did", "will", "would", "are"})
+"""Words before "you" that ask for what the other can or wants to do."""
 OTHERS = frozenset({"is", "was", "were", "are", "be", "has", "have", "been"})
 """Words before the clearance of another: "traffic is cleared to land"."""
 SOMEBODY = frozenset(
@@ -79,6 +81,8 @@ def is_meant(
     """
     if action in CLEARANCES and not _is_own(words, first, after, floor):
         return False
+    if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
+        return False
     at = first - 1
     skips = action in CLEARANCES
     while at >= floor:
@@ -95,7 +99,8 @@ def is_meant(
         return False
     if words[at] in DENIALS or tuple(words[at : at + 2]) in _PHRASES:
         return False
-    return words[at] not in OPEN or action in REPORTS
+    is_thanked = words[at] == "waiting" and words[at - 1] == "for"
+    return words[at] not in OPEN or is_thanked or action in REPORTS
 
 
 def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:

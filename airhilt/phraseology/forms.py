@@ -228,16 +228,11 @@ def nothing(segment: Segment, action: Action) -> Read | None:
 
 
 def fix_of(segment: Segment, name: str = "fix") -> tuple[str | None, float]:
-    """Return the fix that an action names, and the confidence that it is the whole name.
-
-    A fix that the caller knows ends with an underscore (`known_fixes`).
-    """
+    """Return the fix that an action names, and the confidence that it is the whole name."""
     fix = segment.found.groupdict().get(name)
     if fix is None:
         return None, 1.0
-    words = fix.replace("_", " ").strip()
-    if "_" in fix:
-        return words, 1.0
+    words = fix.strip()
     if _NAME_ENDS_HERE.match(segment.text, segment.found.end(name)) is None:
         return words, NO_VALUE
     return words, LONG_NAME if len(words.split()) > 2 else 1.0

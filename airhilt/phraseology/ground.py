@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import cast
 
 from airhilt.phraseology.call import Action, Instruction, Turn
@@ -24,6 +25,7 @@ from airhilt.phraseology.slots import (
     LETTER,
     NAMED_RUNWAY,
     RUNWAY,
+    SHORTENED,
     TAXIWAY,
     designator,
     runway_confidence,
@@ -42,8 +44,8 @@ _GOES_ON = re.compile(
 )
 _EACH_TAXIWAY = re.compile(rf"(?<!\S){_PIECE}")
 _PLACE = re.compile(
-    r" (?:to )?(?:the )?((?:(?!(?:runway|to|via|then|cleared|wind|line|hold)(?!\S))[a-z]+ ?){1,4}"
-    r"(?:[0-9]+)?)"
+    r" (?:to )?(?:the )?("
+    r"(?:(?!(?:runway|to|via|and|then|cleared|wind|line|hold)(?!\S))[a-z]+ ?){1,4}(?:[0-9]+)?)"
 )
 _TAXI_RUNWAY = re.compile(
     rf"(?: to)?(?: the)?(?: holding(?: point| decimal)?(?: {TAXIWAY})?)?(?: for)? runway {RUNWAY}"
@@ -62,7 +64,13 @@ def proceed(segment: Segment, action: Action) -> Read | None:
     """Read leave to go on to a runway, or a taxi route."""
     if NAMED_RUNWAY.search(segment.after):
         return on_runway(segment, action)
-    return taxi(segment, "taxi") if re.match(r" (?:to|via)(?!\S)", segment.after) else None
+    if not re.match(r" (?:to|via)(?!\S)", segment.after):
+        return None
+    read = taxi(segment, "taxi")
+    if read is None or read.instruction.via:
+        return read
+    told = read.instruction  # It may be the flight to a fix.
+    return read._replace(instruction=replace(told, confidence=min(told.confidence, SHORTENED)))
 
 
 def taxi(segment: Segment, action: Action) -> Read | None:
@@ -185,6 +193,9 @@ FORMS: Listed = (
      vacate),
     ("first next", "vacate",
      r"(?:first|next)(?: available)?(?: high speed)?(?= (?:left|right|exit|turn off))", vacate),
+    ("turn turning", "vacate",
+     r"turn(?:ing)? (?P<turn>left|right)(?: at)?(?: the)? next (?:taxiway|intersection|exit)",
+     vacate),
     ("left right", "vacate", r"(?P<turn>left|right)(?= when able)", vacate),
     ("expedite", "vacate", r"expedite (?:vacating|exiting)(?: the runway)?", vacate),
     ("expedite", "taxi", r"expedite taxi", nothing),

@@ -80,6 +80,8 @@ _FITS = {
     for target in _TARGETS
 }
 _INFLECTED = re.compile("(?:ed|d|s|ing)$")
+_BEFORE_FIX = frozenset({"cross", "crossing", "direct", "over", "by", "depart", "leave"})
+"""Words before the name of a fix, which may sound like anything."""
 _ILS = "YElEs"
 """Sounds of the letters I L S."""
 _NAMES = frozenset(word for name in TELEPHONY.values() for word in name.split())
@@ -107,7 +109,9 @@ def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
     """Replace the words that fit as others that sound like them, in place."""
     for at, word in enumerate(texts):
         found = candidates(word)
-        if found and at > 0 and not _is_operators(word, texts[at + 1 : at + 2]):
+        if not found or at == 0 or texts[at - 1] in _BEFORE_FIX:
+            continue
+        if not _is_operators(word, texts[at + 1 : at + 2]):
             before, after = " ".join(texts[max(at - 6, 0) : at]), " ".join(texts[at + 1 : at + 7])
             target = next((each for each in found if _fits(each, before, after)), None)
             if target is not None:

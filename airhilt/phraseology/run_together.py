@@ -11,8 +11,11 @@ _SIDES = (["left"], ["right"], ["centre"])
 _CLEARED = (["cleared"], ["line"])
 _TURNS = frozenset({"left", "right", "heading", "to"})
 """Words before a heading, behind which a level in thousands may stand."""
+RUNWAY = 2
+"""Number of digits of a runway, behind which its side and its clearance stand."""
 HEADING = 3
 """Number of digits of a heading."""
+_INTRODUCING = DIGITS.keys() | {"thousand", "cleared", "line"}
 LEAST_REST = 2
 """Least number of digits of the second number: a single one may be a slip."""
 
@@ -24,7 +27,7 @@ def split_numbers(words: Words) -> Words:
     nobody knows where it ends.
     """
     texts = words.texts
-    if DIGITS.keys().isdisjoint(texts) and "thousand" not in texts:
+    if _INTRODUCING.isdisjoint(texts):
         return words
     if not any(_rest_of(texts, index) for index in range(1, len(texts))):
         return words
@@ -34,19 +37,24 @@ def split_numbers(words: Words) -> Words:
         if size:
             split.add(text[:size], words.confidences[index] * SHORTENED)
             text = text[size:]
-        split.add(text, words.confidences[index])
+        is_rest = size and texts[index + 1 : index + 2] in _SIDES
+        split.add(text, words.confidences[index] * (SHORTENED if is_rest else 1.0))
     return split
 
 
 def _rest_of(texts: list[str], index: int) -> int:
     """Return the number of digits before the second number; 0 if there is none."""
-    size = DIGITS.get(texts[index - 1], 0)
     text = texts[index]
+    if len(text) <= RUNWAY or not text.isdigit():
+        return 0
+    size = DIGITS.get(texts[index - 1], 0)
     if texts[index + 1 : index + 2] == ["thousand"] and texts[index - 1] in _TURNS:
         return HEADING if len(text) in (HEADING + 1, HEADING + 2) else 0
-    if not size or not text.isdigit():
+    is_runway = texts[index + 1 : index + 2] in _SIDES and texts[index + 2 : index + 3] in _CLEARED
+    if not (size or is_runway):
         return 0
     if size == 4 and text[0] == "9":  # A QNH below 1000 hPa.
         size = 3 if texts[index - 1] in ("qnh", "h") else size
-    is_runway = texts[index + 1 : index + 2] in _SIDES and texts[index + 2 : index + 3] in _CLEARED
+    if not size:
+        return len(text) - RUNWAY if texts[index - 1] != "runway" else 0
     return size if len(text) >= size + (1 if is_runway else LEAST_REST) else 0

@@ -10,7 +10,7 @@ from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.lateral import taxiway_turn
-from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, TAXIWAY
+from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, SIDED_RUNWAY, TAXIWAY
 from airhilt.phraseology.speeds import KNOTS_FORM
 from airhilt.phraseology.surveillance import FREQUENCY_FORM
 from airhilt.phraseology.vertical import cross_fix
@@ -21,10 +21,15 @@ CONDITIONS = frozenset(
 """First words of a condition (ICAO Doc 4444, 12.2.7)."""
 LONGEST_CONDITION = 9
 """Most words in a condition."""
+LONGEST_TRAFFIC = 16
+"""Most words from "traffic" to what the traffic does, such as "climbing"."""
 LONGEST_STATION = 6
 """Most words from "contact" to the frequency."""
 RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
-_AHEAD = re.compile(rf"runway {RUNWAY}(?: at \S+)? $")
+_AHEAD = re.compile(
+    rf"(?:runway {RUNWAY}|(?<!landing )(?<!departing )(?<!for )(?<!to )(?<!of )(?<!on )(?<!off )"
+    rf"(?<!crossing )(?<!the )(?<!\S){SIDED_RUNWAY})(?: at \S+)? $"
+)
 _TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
 _BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
 _VERB = (
@@ -33,7 +38,7 @@ _VERB = (
 )
 _MARKER = r"the (?:outer |middle |inner )?marker"
 _EVENTS = {
-    "at": rf"at (?:pilot discretion|{FIX}(?={_VERB}))",
+    "at": rf"at (?:pilot discretion|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
     "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
@@ -47,6 +52,7 @@ _EVENTS = {
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
+_TO_TURN = re.compile(rf" (?:runway {RUNWAY} )?(?:(?:next|first) )?(?:to the )?")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
 
 
@@ -99,7 +105,10 @@ class Scan:
         if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
             self._open(start, index, is_traffic=True)
             return 0
-        if word in CONDITIONS and (self._open_at is None or self._is_traffic):
+        is_condition = word in CONDITIONS and self._texts[max(index - 2, 0) : index][:1] != [
+            "number"
+        ]
+        if is_condition and (self._open_at is None or self._is_traffic):
             self._close(start)
             self._open(start, index, is_traffic=False)
             return 0
@@ -112,7 +121,8 @@ class Scan:
     def _take_action(self, each: Found, word: str) -> int:
         start, index = each.match.start(), each.first
         if self._open_at is not None:
-            if word.endswith("ing") and index - self._begun <= LONGEST_CONDITION:
+            longest = LONGEST_TRAFFIC if self._is_traffic else LONGEST_CONDITION
+            if word.endswith("ing") and index - self._begun <= longest:
                 return each.match.end()
             if self._texts[index - 1] in CONDITIONS:
                 return 0
@@ -135,6 +145,12 @@ class Scan:
         event = pattern.match(self._text, start) if pattern else None
         if event is None or word != "at":
             return event
+        if AT_LEVEL.match(event[0]) and self._texts[index - 1 : index] not in (
+            [],
+            [NAME],
+            ["then"],
+        ):
+            return None
         is_taxiway = LETTER_AT.match(event[0]) and self._texts[index - 1 : index] not in (
             [],
             [NAME],
@@ -162,6 +178,8 @@ class Scan:
             self._close(start)
 
 
+AT_LEVEL = re.compile(rf"at {LEVEL_WORDS}(?!\S)")
+"""Pattern of a level, which is a condition only at the beginning of a call."""
 LETTER_AT = re.compile(rf"at {TAXIWAY}(?!\S)")
 """Pattern of a taxiway, which may also be a fix."""
 
@@ -195,7 +213,8 @@ def _belongs_to(last: Found, each: Found) -> bool:
     if each.form.build is route:
         return last.form.build is taxi
     if each.form.build is taxiway_turn:
-        return last.form.build is vacate and each.match.start() == last.match.end() + 1
+        between = each.match.string[last.match.end() : each.match.start()]
+        return last.form.build is vacate and _TO_TURN.fullmatch(between) is not None
     if each.form is KNOTS_FORM:
         between = each.match.string[last.match.end() : each.match.start()]
         return last.form.build is cross_fix and _LEVEL_ONLY.fullmatch(between) is not None

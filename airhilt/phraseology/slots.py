@@ -92,13 +92,12 @@ FIX_ENDS = (
 )
 """Words that end the name of a fix."""
 _NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"
-_KNOWN = r"[a-z0-9]+(?:_[a-z0-9]*)+"
 FIX = (
-    rf"(?:{_KNOWN}(?!\S)|(?:[0-9]{{1,2}} (?!{FIX_ENDS}(?!\S)|{_NO_UNIT}))?"
+    rf"(?:(?:[0-9]{{1,2}} (?!{FIX_ENDS}(?!\S)|{_NO_UNIT}))?"
     rf"(?!{_NOT_NAMES})[a-z]+(?!\S)"
     rf"(?: (?!{FIX_ENDS}(?!\S))[a-z]+(?!\S)){{0,2}})"
 )
-"""Pattern of the name of a fix or navaid: one the caller knows, or up to three words."""
+"""Pattern of the name of a fix or navaid: up to three words."""
 DIGITS_GO_ON = re.compile(r" [a-z]+ [0-9]{1,2}(?!\S)")
 """A word and digits after a frequency: one of its digits was not understood."""
 FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9]) decimal ([0-9]{1,3})(?!\S)")

@@ -84,7 +84,7 @@ _SHORT_JOINED = re.compile(
     rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"
 )
 """A frequency without its first digit, which is always 1: "tower eighteen three"."""
-_ON_JOINED = re.compile(r" (?:on |at |frequency )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
+_ON_JOINED = re.compile(r" (?:on |at |now |frequency )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
 
 
 def frequency(segment: Segment, action: Action) -> Read | None:
@@ -121,7 +121,7 @@ def station_frequency(segment: Segment, action: Action) -> Read | None:
 def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
-    what = (event or segment.found["other"]).replace("_", " ").strip()
+    what = (event or segment.found["other"]).strip()
     is_named = event is not None and segment.found[0].startswith("report")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
@@ -149,7 +149,7 @@ FORMS: Listed = (
     ("stop", "squawk", r"stop squawk", nothing),
     ("contact contacting call", "contact", rf"(?:contact(?:ing)?|call)(?P<station>{_STATION})?",
      contact),
-    ("going", "contact", rf"going(?: over)? to(?P<station>{_STATION})", contact),
+    ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
      rf"(?:over|switch(?:ing)?|chang(?:e|ing))(?: over)?(?: to)?(?: my| frequency)*"
      rf"(?P<station>{_STATION})?", contact),

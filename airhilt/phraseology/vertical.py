@@ -110,7 +110,7 @@ def altitude(segment: Segment, action: Action) -> Read | None:
     sense: Sense | None = _SENSES[head]
     if words[0] in ("stop", "stopping", "level"):
         sense = "maintain"
-    elif words[-1] == "to" and head == "maint":  # "Expediting to".
+    elif words[0].startswith("expedit") and head == "maint":
         sense = None
     bound = bound_of(segment.found.groupdict().get("bound"))
     feet, confidence, taken = level_in(segment.after, is_here=bound is not None)
@@ -177,13 +177,16 @@ def level_by_fix(segment: Segment, action: Action) -> Read | None:
     """Read a level that is to be reached by a fix (ICAO Doc 4444, 12.3.1.2)."""
     found = segment.found
     fix, confidence = fix_of(segment)
-    level = LEVEL.search(found["level"])
+    said = found.groupdict().get("level") or segment.text[: segment.start]
+    level = next(reversed(list(LEVEL.finditer(said))), None)
     feet = level and level_ft(level)
     if level is None or feet is None:
         return None
     sure = min(confidence, level_confidence(level))
     read = Instruction(action, position=fix, altitude_ft=feet, confidence=sure)
-    sense = _SENSES[found[0][:5]]
+    sense = _SENSES.get(found[0][:5])
+    if sense is None:
+        return Read(read, segment.start, found.end())
     level_read = Instruction("altitude", sense=sense, altitude_ft=feet, confidence=sure)
     return Read(level_read, segment.start, found.end(), (read,))
 
@@ -214,16 +217,18 @@ def rate(segment: Segment, action: Action) -> Read | None:
 
 _OR = r"(?: at or (?P<bound>above|below))?"
 _RATE = r"(?:(?P<thousands>[0-9]) thousand(?: (?P<hundreds>[1-9]00))?|(?P<plain>[1-9][0-9]{2,3}))"
-_PROCEDURE = r"(?: (?:the )?(?!to |sid|star|the )(?P<name>[a-z]+(?: [a-z]+)?(?: [0-9])?))??"
+_PROCEDURE = r"(?: (?:the )?(?!to |sid|star|the |glide)(?P<name>[a-z]+(?: [a-z]+)?(?: [0-9])?))??"
 
 CROSSINGS: Listed = (
     ("cross crossing", "cross_fix",
-     rf"cross(?:ing)? (?!{SIDED_RUNWAY})(?P<fix>{FIX})"
-     r" at(?: or (?P<bound>above|below)| (?P<kept>and maintain))?",
+     rf"cross(?:ing)? (?!{SIDED_RUNWAY})"
+     rf"(?P<fix>(?:[0-9]{{1,3}} miles? (?:[a-z]+ )?(?:of|from|before) )?{FIX})"
+     r"(?: at(?: or (?P<bound>above|below)| (?P<kept>and maintain))?|(?= flight level))",
      cross_fix),
     ("climb climbing descend descending", "cross_fix",
      r"(?:climb|descend)(?:ing)? to (?:be level|reach|be at)(?: at)?"
      rf" (?P<level>{LEVEL_WORDS}) by (?P<fix>{FIX})", level_by_fix),
+    ("level", "cross_fix", rf"level by (?P<fix>{FIX})", level_by_fix),
 )  # fmt: skip
 """Forms of crossing restrictions, which come before those of crossing a runway."""
 FORMS: Listed = (
@@ -245,6 +250,7 @@ FORMS: Listed = (
      r"(?: to)?(?: and maintain(?:ing)?| maintain)?"
      rf"{_OR}",
      altitude),
+    ("amend", "altitude", r"amend (?:your )?altitude(?: to)?(?= [0-9]| flight)", altitude),
     ("expedite expediting", "altitude", r"expedit(?:e|ing) to(?= flight| level| [0-9])", altitude),
     ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)", altitude),
     ("expedite expediting", "altitude",

@@ -62,6 +62,8 @@ def _crossing(item: Mapping[str, Any]) -> dict[str, Any]:
 def _frequency(item: Mapping[str, Any]) -> dict[str, Any]:
     value, manner = item["value"], item["manner"]
     is_monitored = True if manner == "monitor" else None
+    if isinstance(value, str):
+        return {"unit": value, "is_monitored": is_monitored}
     if not isinstance(value, dict):
         return {"frequency_khz": value, "is_monitored": is_monitored}
     if fraction := value.get("fraction"):
@@ -150,6 +152,8 @@ VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
 of a condition, the limit of a level, and whom to follow."""
 INFORMATION = ("altimeter", "wind")
 """Kinds of information in scope."""
+TURNS = frozenset({"heading", "turn_by", "runway_heading", "direct"})
+"""Kinds that wait for the take-off that is cleared in the same call."""
 CLEARANCES = frozenset(
     {"takeoff", "landing", "option", "touch_and_go", "stop_and_go", "low_approach", "approach",
      "line_up_and_wait", "cross_runway", "taxi", "backtrack", "pushback", "startup", "proceed"}
@@ -159,6 +163,7 @@ CLEARANCES = frozenset(
 
 def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
     """Yield the facts of the items in scope, each with its status in the judge's words."""
+    is_on_ground = any(item["kind"] == "takeoff" and item["begins"] is None for item in items)
     for item in items:
         if item["kind"] == "rejected_takeoff":
             yield Fact("cancel_takeoff", "now"), item["status"]
@@ -182,6 +187,8 @@ def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
             said = "expected"
         elif item["begins"] and said != "expected":
             said = "conditional"
+        elif is_on_ground and item["kind"] in TURNS and said == "now":
+            said = "conditional"  # Nobody turns to a heading before the take-off.
         yield _fact(item["kind"], said, read(item)), status
 
 
