@@ -29,7 +29,7 @@ def differences(given: Instruction, read: Instruction) -> tuple[str, ...]:
 def agree(given: Instruction, read: Instruction) -> bool:
     """Return whether two instructions have one action and do not contradict each other.
 
-    Of a condition it only matters whether there is one: its words may be others.
+    Conditions agree if there is one on both sides or on neither: the words may differ.
     """
     return (
         given.action == read.action
