@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 ASR = "embedded"
 """Recogniser of a run unless another is named."""
+ENHANCER = "none"
+"""Enhancer of a run unless another is named: none."""
 TTS = "espeak"
 """Voices of a run unless others are named."""
 DETECTOR = "embedded"

@@ -84,7 +84,7 @@ class Clock(Message):
 FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}
 """Names that modalities had up to version 0.4, still understood, by what they are now."""
 Modality = Annotated[
-    Literal["adsb", "radio", "asr", "tts", "vision", "decision", "equipment"],
+    Literal["adsb", "radio", "enhancement", "asr", "tts", "vision", "decision", "equipment"],
     BeforeValidator(
         lambda given: FORMER_MODALITIES.get(given, given) if isinstance(given, str) else given
     ),
@@ -183,6 +183,23 @@ class Transmission(Header):
     sample_rate_hz: int = 16_000
     samples: int = 0
     sha256: str = Field(default="", description="of the PCM; empty without samples")
+
+
+class EnhancedTransmission(Header):
+    """``enhanced/<freq_khz>``: attachment to one transmission with less noise, PCM 16 kHz mono.
+
+    It is there only in runs with an enhancer.
+    """
+
+    id: str = Field(description="id of the transmission")
+    frequency_khz: int
+    t_tx_ns: Nanoseconds = Field(description="start of the transmission")
+    t_end_ns: Nanoseconds
+    keyed_by: str | None = Field(default=None, description="as in the `Transmission`")
+    sample_rate_hz: int = 16_000
+    samples: int = Field(ge=1)
+    sha256: str = Field(description="of the PCM")
+    enhancer: str = Field(description="name of the engine")
 
 
 class TransmissionOpened(Header):
@@ -1030,6 +1047,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "radio/{frequency_khz}/audio (opened)": TransmissionOpened,
     "radio/{frequency_khz}/audio (chunk)": TransmissionChunk,
     "radio/{frequency_khz}/audio (closed)": TransmissionClosed,
+    "enhanced/{frequency_khz}": EnhancedTransmission,
     "camera/{camera}/info": CameraInfo,
     "camera/{camera}/frame": CameraFrame,
     "adsb/{icao24}": AdsbReport,
@@ -1064,6 +1082,7 @@ WORKER_MESSAGES: dict[str, type[BaseModel]] = {
 """The messages of the worker protocol."""
 
 WORKER_OUTPUTS: dict[str, type[Message]] = {
+    "enhanced": EnhancedTransmission,
     "asr": Transcript,
     "vision": Detections,
     "advisory": Advisory,

@@ -26,7 +26,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from airhilt.configuration import read_configuration
-from airhilt.engines import ASR, DETECTOR, RENDERER_HELP, TTS, WORDING
+from airhilt.engines import ASR, DETECTOR, ENHANCER, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.library import nearest
 from airhilt.messages import Modality, RadarKind
@@ -297,6 +297,16 @@ class Options(BaseModel):
             needs=("speech", "assistant"),
         ),
     ] = ASR
+    enhancer: Annotated[
+        str,
+        Flag(
+            "--enhancer",
+            "What reduces noise before speech is recognised, with --topology asr_first: spectral, "
+            "an enhancer of another package, or none.",
+            "ENGINE",
+            needs=("speech",),
+        ),
+    ] = ENHANCER
     partial_transcripts: Annotated[
         bool,
         Flag(

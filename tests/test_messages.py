@@ -111,6 +111,10 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "text": "climb",
         "confidence": 0.9, "engine": "text",
     },
+    "EnhancedTransmission": {
+        "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "samples": 3,
+        "sha256": "00", "enhancer": "spectral",
+    },
     "PartialTranscript": {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_heard_ns": 2, "text": "climb",
         "confidence": 0.9, "stable_words": 1, "engine": "text",

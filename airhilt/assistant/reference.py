@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
-from airhilt.engines import ASR, ASSISTANT, DETECTOR, TTS, WORDING, EngineFamily
+from airhilt.engines import ASR, ASSISTANT, DETECTOR, ENHANCER, TTS, WORDING, EngineFamily
 from airhilt.errors import LanguageModelError, WorkerError
 from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
 from airhilt.phraseology.numbers import Style
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from airhilt.assistant.wording.engine import AdvisoryWording
 
 DEFAULTS = {
+    "airhilt.enhancers": ENHANCER,
     "airhilt.asr": ASR,
     "airhilt.tts": TTS,
     "airhilt.detectors": DETECTOR,
@@ -28,6 +29,10 @@ NO_ASSISTANT = "none"
 """Name that stands for no assistant: nobody decides, and nobody is warned."""
 NO_DETECTOR = "none"
 """Name that stands for no detector: no worker looks at pictures."""
+NO_ENHANCER = "none"
+"""Name that stands for no enhancer: recognisers get the audio as it was received."""
+EMBEDDED_ENHANCER = "spectral"
+"""Engine of a worker that enhances, unless another is named."""
 EXTERNAL = "external"
 """Name that stands for a worker or program of the user, which decides."""
 
@@ -46,6 +51,7 @@ class Engines(NamedTuple):
     """Detections of the same pictures are shared with other runs."""
     partial_transcripts: bool = False
     """Calls are recognised while they last, too."""
+    enhancer: str | None = None
 
 
 class RadioSetup(Protocol):
@@ -83,9 +89,9 @@ def reference_workers(
     """
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
-    asr, tts, detector, wording, llm, configuration, shares_detections, gives_partials = engines
-    if asr is not None and "asr" not in taken and (is_assisted or radio.topology == "asr_first"):
-        workers.append(reference_worker("asr", asr, gives_partials=gives_partials))
+    _, tts, detector, wording, llm, configuration, shares_detections, *_ = engines
+    if is_assisted or radio.topology == "asr_first":
+        workers += _recognition(taken, engines)
     deciding: list[Worker] = []
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:
         is_gated = radio.topology == "gated_fusion"
@@ -112,6 +118,19 @@ def reference_workers(
     return workers + deciding
 
 
+def _recognition(taken: Collection[Modality], engines: Engines) -> Iterator[Worker]:
+    """Yield the workers that enhance and recognise speech, as far as nobody else does."""
+    is_enhanced = "enhancement" in taken
+    if engines.enhancer is not None and not is_enhanced:
+        is_enhanced = True
+        yield reference_worker("enhancement", engines.enhancer)
+    if engines.asr is None or "asr" in taken:
+        return
+    yield asr_worker(
+        engines.asr, gives_partials=engines.partial_transcripts, hears_enhanced=is_enhanced
+    )
+
+
 def speak_min_level(workers: Iterable[WorkerDescription]) -> Severity:
     """Return the least severity that is spoken, by the configuration of the decision engine."""
     for worker in workers:
@@ -119,6 +138,30 @@ def speak_min_level(workers: Iterable[WorkerDescription]) -> Severity:
         if worker.modality == "decision" and level is not None:
             return Severity(level)
     return SPEAK_MIN_LEVEL
+
+
+def asr_worker(
+    engine: str, name: str = "asr", *, gives_partials: bool = False, hears_enhanced: bool = False
+) -> Worker:
+    """Return the worker around a recogniser.
+
+    Parameters
+    ----------
+    gives_partials
+        True if it gives partial transcripts of the calls that go on.
+    hears_enhanced
+        True if it recognises what an enhancer has made of the transmissions.
+
+    Raises
+    ------
+    SpeechError
+        The recogniser cannot be loaded.
+    """
+    from airhilt.assistant.asr.engines import asr_engine
+    from airhilt.assistant.asr.worker import AsrWorker
+
+    recogniser = asr_engine(engine)
+    return AsrWorker(recogniser, name, gives_partials=gives_partials, hears_enhanced=hears_enhanced)
 
 
 def decision_worker(
@@ -205,6 +248,7 @@ def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     """
     asr, tts, detector, wording, *_ = engines
     names = {
+        "airhilt.enhancers": ("enhancement", engines.enhancer),
         "airhilt.asr": ("asr", asr),
         "airhilt.tts": ("tts", tts),
         "airhilt.detectors": ("vision", detector),
@@ -223,11 +267,19 @@ def families() -> tuple[EngineFamily[Any], ...]:
     # Not at the top: a run without speech or cameras starts without the libraries behind them.
     from airhilt.assistant.asr import engines as asr
     from airhilt.assistant.decision import engines as decision
+    from airhilt.assistant.enhancement import engines as enhancement
     from airhilt.assistant.vision import detectors
     from airhilt.assistant.wording import engines as wording
     from airhilt.voices import engines as voices
 
-    return asr.FAMILY, voices.FAMILY, detectors.FAMILY, decision.FAMILY, wording.FAMILY
+    return (
+        enhancement.FAMILY,
+        asr.FAMILY,
+        voices.FAMILY,
+        detectors.FAMILY,
+        decision.FAMILY,
+        wording.FAMILY,
+    )
 
 
 def reference_worker(
@@ -239,14 +291,13 @@ def reference_worker(
     configuration: Mapping[str, Any] | None = None,
     speak_min_level: Severity = SPEAK_MIN_LEVEL,
     shares_detections: bool = False,
-    gives_partials: bool = False,
 ) -> Worker:
     """Return one worker with its default settings.
 
     Parameters
     ----------
     kind
-        ``decision``, ``asr``, ``tts`` or ``vision``.
+        ``decision``, ``enhancement``, ``asr``, ``tts`` or ``vision``.
     engine
         Engine as on the command line; None: the usual one.
     style
@@ -259,8 +310,6 @@ def reference_worker(
         Least severity that ``tts`` speaks.
     shares_detections
         True if ``vision`` shares the detections of the same pictures with other runs.
-    gives_partials
-        True if ``asr`` gives partial transcripts of the calls that go on.
 
     Raises
     ------
@@ -269,12 +318,15 @@ def reference_worker(
     """
     # Not at the top: a run without speech or cameras starts without the libraries behind them.
     match kind:
-        case "asr":
-            from airhilt.assistant.asr.engines import asr_engine
-            from airhilt.assistant.asr.worker import AsrWorker
+        case "enhancement":
+            from airhilt.assistant.enhancement.engines import enhancer
+            from airhilt.assistant.enhancement.worker import EnhancementWorker
 
-            recogniser = asr_engine(ASR if engine is None else engine)
-            return AsrWorker(recogniser, name or kind, gives_partials=gives_partials)
+            return EnhancementWorker(
+                enhancer(EMBEDDED_ENHANCER if engine is None else engine), name or kind
+            )
+        case "asr":
+            return asr_worker(ASR if engine is None else engine, name or kind)
         case "tts":
             from airhilt.assistant.tts.worker import TtsWorker
             from airhilt.voices.engines import tts_engine
@@ -301,4 +353,6 @@ def reference_worker(
                 name=name or kind,
                 also=also,
             )
-    raise WorkerError(f"no reference worker {kind!r}; expected decision, asr, tts or vision")
+    raise WorkerError(
+        f"no reference worker {kind!r}; expected decision, enhancement, asr, tts or vision"
+    )

@@ -15,7 +15,7 @@ from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
 
 RESERVED = (RUN, UNREGISTERED)
 """Publishers in the log that are no workers."""
-ReferenceKind = Literal["asr", "tts", "vision", "decision"]
+ReferenceKind = Literal["enhancement", "asr", "tts", "vision", "decision"]
 """Kinds of worker that ``airhilt worker`` serves; each has its kind for a name."""
 
 

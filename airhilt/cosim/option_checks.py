@@ -11,6 +11,7 @@ from airhilt.assistant.reference import (
     EXTERNAL,
     NO_ASSISTANT,
     NO_DETECTOR,
+    NO_ENHANCER,
     families,
     is_own_engine,
 )
@@ -46,6 +47,8 @@ def check_options(options: Options, scenario: Scenario) -> None:
             f"--advisory-channel frequency: {scenario.name!r} has no radio calls, and so no "
             "frequency; expected cockpit"
         )
+    if options.enhancer != NO_ENHANCER:
+        _require_use_of_enhancer(options, topology)
     _require_known_engines(options)
     if options.assistant_config is not None:
         assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)
@@ -70,6 +73,26 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
             yield f"with {spelling} {options.assistant}; expected only one of the two"
 
 
+def _require_use_of_enhancer(options: Options, topology: str) -> None:
+    """Complain about an enhancer of which nobody has anything.
+
+    Raises
+    ------
+    AirhiltError
+        It is no part of the topology, or calls are recognised before they can be enhanced.
+    """
+    if topology != "asr_first":
+        raise AirhiltError(
+            f"--enhancer {shown(options.enhancer)} would do nothing with --topology {topology}; "
+            "expected asr_first"
+        )
+    if options.partial_transcripts:
+        raise AirhiltError(
+            "--partial-transcripts would be of audio that no enhancer has had; expected it "
+            "without --enhancer"
+        )
+
+
 def _require_evidence(options: Options) -> None:
     """Complain about modalities of which an engine of AIRHILT reads none.
 
@@ -88,6 +111,7 @@ def _require_evidence(options: Options) -> None:
 
 def _require_known_engines(options: Options) -> None:
     named = {
+        "airhilt.enhancers": (options.enhancer, (NO_ENHANCER,)),
         "airhilt.asr": (options.asr, ()),
         "airhilt.tts": (options.tts, ()),
         "airhilt.detectors": (options.detector, (NO_DETECTOR,)),

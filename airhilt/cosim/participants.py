@@ -9,6 +9,7 @@ from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import (
     EXTERNAL,
     NO_DETECTOR,
+    NO_ENHANCER,
     Engines,
     reference_workers,
     speak_min_level,
@@ -200,6 +201,7 @@ def _engines(options: Options, scenario: Scenario) -> Engines:
         configuration=options.assistant_config,
         shares_detections=options.share_pictures,
         partial_transcripts=options.partial_transcripts,
+        enhancer=None if options.enhancer == NO_ENHANCER else options.enhancer,
     )
 
 

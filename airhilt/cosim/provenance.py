@@ -59,6 +59,7 @@ def engines_in_use(setup: Setup, participants: Participants) -> list[UsedEngine]
     }
     decides = "decision" in does and participants.assistant not in (NO_ASSISTANT, EXTERNAL)
     asked = {
+        "airhilt.enhancers": (options.enhancer, "enhancement" in does),
         "airhilt.asr": (options.asr, "asr" in does),
         "airhilt.tts": (options.tts, options.speech),  # Crews and controllers speak with it.
         "airhilt.detectors": (options.detector, "vision" in does),

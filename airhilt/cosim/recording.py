@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
-from airhilt.assistant.reference import Engines, is_remote
+from airhilt.assistant.reference import NO_ENHANCER, Engines, is_remote
 from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     UNREGISTERED,
     AdvisoryAudio,
+    EnhancedTransmission,
     Event,
     SpokenTruth,
     Status,
@@ -99,7 +100,13 @@ def read_recorded(
 def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
     """Return the workers whose results cannot be had again by computing them here."""
     options = info.options
-    engines = Engines(options.asr, options.tts, options.detector, options.wording)
+    engines = Engines(
+        options.asr,
+        options.tts,
+        options.detector,
+        options.wording,
+        enhancer=None if options.enhancer == NO_ENHANCER else options.enhancer,
+    )
     return [
         worker.description
         for worker in info.workers
@@ -164,7 +171,7 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
 def _given(folder: RunFolder, logged: Logged) -> Output:
     """Return what a worker gave: the message, or the raw bytes that it is the header of."""
     model = worker_output(logged.key)
-    if model is None or not issubclass(model, AdvisoryAudio):
+    if model not in (AdvisoryAudio, EnhancedTransmission):
         return Output(logged.key, logged.data, logged.t_ns)
     header = model.model_validate_json(logged.data)
     pcm = recorded_pcm(folder.audio_path, header)

@@ -39,7 +39,7 @@ from airhilt.world.actors import Actor, build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
-STAGES = ("adsb", "asr", "vision", "decision", "tts", EQUIPMENT)
+STAGES = ("adsb", "enhancement", "asr", "vision", "decision", "tts", EQUIPMENT)
 """Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""

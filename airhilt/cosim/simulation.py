@@ -479,6 +479,8 @@ class Simulation:
         self._modalities.set("tts", "on" if does("tts") else "off")
         self._modalities.set("vision", *self._vision.state)
         self._modalities.set("decision", "on" if self._programs.has_decision else "off")
+        if does("enhancement"):
+            self._modalities.set("enhancement", "on")
         if does("equipment"):
             self._modalities.set("equipment", "on")
 

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from airhilt.messages import AdsbReport, AdvisoryAudio, Detections, Message, Transcript
+from airhilt.messages import (
+    AdsbReport,
+    AdvisoryAudio,
+    Detections,
+    EnhancedTransmission,
+    Message,
+    Transcript,
+)
 from airhilt.metrics.calls import TEXT
 from airhilt.metrics.summary import LatencyStatistics
 from airhilt.sim import StepRecord
@@ -25,6 +32,8 @@ class StageLatencies:
                 self.add("adsb", begin, end)
             case AdvisoryAudio(t_dec_ns=begin, t_ns=end):
                 self.add("tts", begin, end)
+            case EnhancedTransmission(t_end_ns=said, t_ns=end):
+                self.add("enhancement", said, end)
             case Detections(t_frame_ns=begin, t_ns=end, missed=""):
                 self.add("vision", begin, end)
             case Transcript(t_tx_ns=begin, t_end_ns=said, t_ns=end) if message.engine != TEXT:

@@ -16,13 +16,14 @@ from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import (
     AdvisoryAudio,
+    EnhancedTransmission,
     Message,
     Transmission,
     TransmissionChunk,
     TransmissionClosed,
 )
 
-MessageWithSound = Transmission | TransmissionClosed | AdvisoryAudio
+MessageWithSound = Transmission | TransmissionClosed | EnhancedTransmission | AdvisoryAudio
 """A message whose sound is written to a file of its own."""
 
 
@@ -31,6 +32,8 @@ def audio_file(folder: Path, message: MessageWithSound) -> Path:
     stem = message.id
     if isinstance(message, AdvisoryAudio):
         stem = f"advisory-{message.id}-{message.revision}-{message.recipient}"
+    elif isinstance(message, EnhancedTransmission):
+        stem = f"enhanced-{message.id}"
     return folder / f"{''.join(c if c.isalnum() or c in '._-' else '_' for c in stem)}.wav"
 
 
@@ -61,7 +64,7 @@ class AudioRecorder:
                 pcm = bytes(self._chunks.pop(message.id, b""))
                 if pcm and not message.is_complete:
                     self._write(message, pcm)
-            case Transmission() | AdvisoryAudio() if payload:
+            case Transmission() | EnhancedTransmission() | AdvisoryAudio() if payload:
                 self._write(message, bytes(payload))
 
     def _write(self, message: MessageWithSound, pcm: bytes) -> None:

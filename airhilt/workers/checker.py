@@ -29,6 +29,7 @@ PUBLISHED = sorted(
 )
 """Keys on which AIRHILT publishes something that a worker may want."""
 OUTPUTS: dict[Modality, tuple[str, ...]] = {
+    "enhancement": ("enhanced",),
     "asr": ("asr",),
     "tts": ("tts",),
     "vision": ("vision",),

@@ -20,6 +20,7 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     Detections,
+    EnhancedTransmission,
     EquipmentAlert,
     Header,
     Message,
@@ -138,7 +139,8 @@ class WorkerPool:
         attachment = message.model_dump(mode="json") if is_header else None
         begun_ns = _begun_ns(message)
         for server, policy in routes:
-            is_of_call = isinstance(message, Transmission) or server.name in self._recognisers
+            is_whole = isinstance(message, Transmission | EnhancedTransmission)
+            is_of_call = is_whole or server.name in self._recognisers
             begun = begun_ns if is_of_call else None
             server.offer(Input.of(key, message.t_ns, data, attachment, begun), policy)
 
@@ -172,7 +174,7 @@ class WorkerPool:
 def _begun_ns(message: Message) -> int | None:
     """Return when the call began of which a message has audio; None for other messages."""
     match message:
-        case Transmission():
+        case Transmission() | EnhancedTransmission():
             return message.t_tx_ns
         case TransmissionChunk():
             samples = message.first_sample + message.samples
@@ -245,7 +247,7 @@ def parse_output(
             f"{who} published an advisory with t_ready_ns {message.t_ready_ns} at {now_ns} ns; "
             "expected a time that has come"
         )
-    if isinstance(message, AdvisoryAudio):
+    if isinstance(message, AdvisoryAudio | EnhancedTransmission):
         _check_audio(who, key, message, payload)
     _check_key(who, worker, key, message)
     return message
@@ -259,6 +261,10 @@ def _check_key(who: str, worker: str, key: str, message: Message) -> None:
     match message:
         case Transcript() if key != f"asr/{message.frequency_khz}":
             what, part = f"a transcript of {message.frequency_khz} kHz", "frequency"
+        case EnhancedTransmission() if key != f"enhanced/{message.frequency_khz}":
+            what, part = f"a transmission on {message.frequency_khz} kHz", "frequency"
+        case AdvisoryAudio() if key != f"tts/{message.id}":
+            what, part = f"the voice of advisory {message.id!r}", "advisory's id"
         case PartialTranscript() if key != f"asr/{message.frequency_khz}/partial":
             what, part = f"a partial transcript of {message.frequency_khz} kHz", "frequency"
         case Detections() if key != f"vision/{message.camera}":
@@ -277,12 +283,9 @@ def _check_key(who: str, worker: str, key: str, message: Message) -> None:
     raise WorkerError(f"{who} published on {key!r} {what}; expected the {part} in the key")
 
 
-def _check_audio(who: str, key: str, header: AdvisoryAudio, pcm: bytes) -> None:
-    if key != f"tts/{header.id}":
-        raise WorkerError(
-            f"{who} published on {key!r} the voice of advisory {header.id!r}; expected "
-            "its id in the key"
-        )
+def _check_audio(
+    who: str, key: str, header: AdvisoryAudio | EnhancedTransmission, pcm: bytes
+) -> None:
     if header.sample_rate_hz != SAMPLE_RATE_HZ:
         raise WorkerError(
             f"{who} published on {key!r} audio at {header.sample_rate_hz} Hz; expected "

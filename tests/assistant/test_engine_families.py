@@ -118,6 +118,7 @@ ENGINE = Engine("late", "needs something", str, requires=(Package("not-installed
 """
 )
 LACKS = (
+    "name, enhance",
     "name, recognise",
     "name, version, voice_of, synthesise",
     "name, threshold, detect",

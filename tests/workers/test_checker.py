@@ -217,7 +217,10 @@ def test_the_examples_pass(example: str, worker: str) -> None:
         (Talkative, "from step; expected an airhilt.workers.Step"),
         (Forgetful, "worker 'ears' returned None from step; expected an airhilt.workers.Step"),
         (Stamping, "'ears' set t_ns of what it published on 'asr/118300'; leave it out"),
-        (WrongKey, "published on 'transcript/118300'; expected a key under advisory, asr, llm"),
+        (
+            WrongKey,
+            "published on 'transcript/118300'; expected a key under advisory, asr, enhanced, llm",
+        ),
         (WrongFrequency, "a transcript of 118300 kHz; expected the frequency in the key"),
         (Garbage, "published on 'asr/118300' something that is no Transcript: id: Field required"),
         (Early, "wants 'asr/118300' published at 999999999 ns, before its step at 1000000000 ns"),

@@ -259,7 +259,7 @@ def test_what_is_no_audio_is_published_without_raw_bytes() -> None:
 @pytest.mark.parametrize(
     ("key", "pcm", "said"),
     [
-        ("tts/decision-2", PCM, "voice of advisory 'decision-1'; expected its id in the key"),
+        ("tts/decision-2", PCM, "voice of advisory 'decision-1'; expected the advisory's id"),
         ("tts/decision-1", PCM[:-2], "3198 bytes .* expected 1600 samples of 16 bits"),
         ("tts/decision-1", PCM[:-1], "3199 bytes"),
         ("tts/decision-1", b"", "0 bytes"),
@@ -289,5 +289,5 @@ def test_a_voice_at_another_rate_is_refused() -> None:
 
 
 def test_a_worker_may_not_speak_on_the_radio() -> None:
-    with pytest.raises(WorkerError, match="expected a key under advisory, asr, llm"):
+    with pytest.raises(WorkerError, match="expected a key under advisory, asr, enhanced, llm"):
         parse_output("w", "radio/134325/tx", PCM, 10, RECEIVED.model_dump(mode="json"))

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from airhilt.assistant.asr.engine import AsrEngine
 from airhilt.assistant.asr.partial import PartialRecogniser
-from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm
-from airhilt.errors import SpeechError
+from airhilt.assistant.received_audio import pcm_to_audio
 from airhilt.messages import (
     Briefing,
     DeclaredLatency,
+    EnhancedTransmission,
     InputSpec,
     Transcript,
     Transmission,
@@ -30,10 +30,17 @@ class AsrWorker:
     gives_partials
         True to publish partial transcripts of the calls that go on as well. A step then takes all
         that waits, so that a whole call never waits behind its own beginning.
+    hears_enhanced
+        True to recognise what an enhancer has made of the transmissions.
     """
 
     def __init__(
-        self, engine: AsrEngine, name: str = "asr", *, gives_partials: bool = False
+        self,
+        engine: AsrEngine,
+        name: str = "asr",
+        *,
+        gives_partials: bool = False,
+        hears_enhanced: bool = False,
     ) -> None:
         self._engine = engine
         self._partial = PartialRecogniser(engine) if gives_partials else None
@@ -42,7 +49,7 @@ class AsrWorker:
         self.description = WorkerDescription(
             name=name,
             modality="asr",
-            inputs=_inputs(gives_partials),
+            inputs=_inputs("enhanced/*" if hears_enhanced else "radio/*/tx", gives_partials),
             latency=DeclaredLatency(median_s=0.05),
         )
 
@@ -80,7 +87,9 @@ class AsrWorker:
             return None
         if item.key.endswith("/audio"):
             return None  # It is for the partial transcripts.
-        header = Transmission.model_validate(item.attachment)
+        is_enhanced = item.key.startswith("enhanced/")
+        model = EnhancedTransmission if is_enhanced else Transmission
+        header = model.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
         heard = self._engine.recognise(pcm_to_audio(header, item.payload), self._callsigns)
@@ -97,25 +106,9 @@ class AsrWorker:
         return with_parties(transcript, self._callsigns, self._controller, header.keyed_by)
 
 
-def _inputs(gives_partials: bool) -> tuple[InputSpec, ...]:
-    """Return the inputs of a worker that gives partial transcripts or none."""
-    keys = ("radio/*/tx", "briefing")
+def _inputs(calls: str, gives_partials: bool) -> tuple[InputSpec, ...]:
+    """Return the inputs of a worker that recognises whole calls, and those that go on if asked."""
+    keys = (calls, "briefing")
     if gives_partials:
         return tuple(InputSpec(key=key, policy="batch") for key in (*keys, "radio/*/audio"))
     return tuple(InputSpec(key=key) for key in keys)
-
-
-def pcm_to_audio(header: Transmission, pcm: bytes) -> Audio:
-    """Return the samples of a transmission.
-
-    Raises
-    ------
-    SpeechError
-        Their number or their rate is not what the header says.
-    """
-    if header.sample_rate_hz != SAMPLE_RATE_HZ or len(pcm) != SAMPLE_BYTES * header.samples:
-        raise SpeechError(
-            f"transmission {header.id}: {len(pcm)} bytes at {header.sample_rate_hz} Hz; expected "
-            f"{header.samples} samples of 16 bits at {SAMPLE_RATE_HZ} Hz"
-        )
-    return from_pcm(pcm)

@@ -17,7 +17,7 @@ Examples:
   airhilt worker vision --engine yolo:models/yolov10n.pt --connect tcp/127.0.0.1:7447
 """
 )
-@click.argument("kind", type=click.Choice(["decision", "asr", "tts", "vision"]))
+@click.argument("kind", type=click.Choice(["decision", "enhancement", "asr", "tts", "vision"]))
 @click.option("--engine", metavar="ENGINE", help="Engine, as for `airhilt cosim`.")
 @click.option(
     "--assistant-config",
