@@ -138,8 +138,10 @@ class Bus:
                 f"{self.prefix}/{key}", allowed_destination=zenoh.Locality.REMOTE
             )
             self._publishers[key] = publisher
+        if isinstance(payload, bytes):
+            publisher.put(payload, attachment=attachment)
         # The status is an object that Zenoh's stubs call a bool.
-        if isinstance(payload, bytes) or publisher.matching_status.matching:  # type: ignore[attr-defined]
+        elif publisher.matching_status.matching:  # type: ignore[attr-defined]
             with suppress(RendererError):
                 publisher.put(bytes(payload), attachment=attachment)
 

@@ -112,12 +112,12 @@ class Route:
 
     def turn_rate(self, state: AircraftState) -> float:
         """Return the commanded rate of turn."""
+        ground_speed = state.ground_speed_m_s
+        if self._end is None:
+            self._sequence(state, ground_speed)
         if self._end is not None:
             return self._end.turn_rate(state)
-        self._sequence(state)
-        if self._end is not None:
-            return self._end.turn_rate(state)
-        speed = max(state.ground_speed_m_s, 1.0)
+        speed = max(ground_speed, 1.0)
         if self._arc is not None:
             guide = self._arc.guide(state)
             turn_rate = guide.turn_rate
@@ -134,8 +134,8 @@ class Route:
         offset = -within(self._cross_track_gain * guide.cross_track_m / speed, INTERCEPT_ANGLE)
         return self._gain * wrap_angle(guide.course_rad + offset - state.track_rad)
 
-    def _sequence(self, state: AircraftState) -> None:
-        """Go on to the arc or the leg that is due."""
+    def _sequence(self, state: AircraftState, speed: float) -> None:
+        """Go on to the arc or the leg that is due at a ground speed."""
         if self._arc is not None:
             if self._arc.to_go_m(state) <= 0.0:
                 self._arc = None
@@ -143,7 +143,6 @@ class Route:
         while True:
             leg = self.leg
             to_go = leg.to_go_m(state)
-            speed = state.ground_speed_m_s
             lead = min(self._lead_factor * speed * speed, self._longest_lead)
             if to_go > lead + (ROLL_LEAD_S * speed if lead > 0.0 else 0.0):
                 return
