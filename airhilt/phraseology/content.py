@@ -87,7 +87,11 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
         return False
     if told.action in CLEARANCES and before[-1] in ("we", "i"):
         return True
-    return is_unknown(before[-1]) or (before[-1] == "and" and is_unknown(before[0]))
+    return (
+        before[-1] == "or"
+        or is_unknown(before[-1])
+        or (before[-1] == "and" and is_unknown(before[0]))
+    )
 
 
 def _heard(told: Instruction, action: float, details: float) -> Instruction:
@@ -150,7 +154,7 @@ def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads
         after = bisect_right(starts, max(each.match.end(), read.end) - 1)
         if each.form.action == "cleared_approach" and reads:
             floor = max(floor, _end_of_limit(scan.spans, reads[-1][0].end, each, starts))
-        if each.form.action not in CLEARANCES:
+        if scan.spans and each.form.action not in CLEARANCES:
             floor = max(floor, _end_of_condition(scan.spans, each, starts))
         is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
         floor = after

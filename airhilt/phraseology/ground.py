@@ -24,6 +24,7 @@ from airhilt.phraseology.slots import (
     FIX_ENDS,
     LETTER,
     NAMED_RUNWAY,
+    NUMBERED_LINK,
     RUNWAY,
     SHORTENED,
     TAXIWAY,
@@ -32,7 +33,7 @@ from airhilt.phraseology.slots import (
     taxiway,
 )
 
-_PIECE = rf"(?:{TAXIWAY}|(?:link|exit|spur) [0-9]{{1,2}}(?!\S))"
+_PIECE = rf"(?:{TAXIWAY}|{NUMBERED_LINK})"
 """Pattern of a taxiway, or of a link between two that has a number."""
 _LISTED = rf"(?:(?!q n h)(?:(?:and|then|taxiway) )*{_PIECE}(?: |$))+"
 _VIA = re.compile(rf"(?<!\S)via ({_LISTED})")
@@ -50,7 +51,10 @@ _PLACE = re.compile(
 _TAXI_RUNWAY = re.compile(
     rf"(?: to)?(?: the)?(?: holding(?: point| decimal)?(?: {TAXIWAY})?)?(?: for)? runway {RUNWAY}"
 )
-_RUNWAY_BEHIND = re.compile(rf" to (?:{_HOLDING_POINT}(?: {TAXIWAY})? )?(?:runway )?{RUNWAY}")
+_RUNWAY_BEHIND = re.compile(
+    rf" to (?:{_HOLDING_POINT} {TAXIWAY} runway |{_HOLDING_POINT} (?:runway )?|(?:runway )?)"
+    rf"{RUNWAY}"
+)
 """A runway behind its route."""
 _POINT = re.compile(
     rf"(?: (?:to|at) (?:taxiway |{_HOLDING_POINT} )?| {_HOLDING_POINT} )({TAXIWAY})"
@@ -81,7 +85,7 @@ def taxi(segment: Segment, action: Action) -> Read | None:
     if runway is None and via is not None:
         runway = _RUNWAY_BEHIND.match(after, via.end() - via[0].endswith(" "))
     ahead = None if runway or via is None else runway_before(segment)
-    point = _POINT.match(after)
+    point = _POINT.match(after) or (via and _POINT.match(after, via.end() - via[0].endswith(" ")))
     to = re.split(r" (?:via|and|at|on)(?!\S)", after)[0]
     place = None if runway or point else _TAXI_TO.match(to)
     position = taxiway(point[1]) if point else place[1].strip() if place else None

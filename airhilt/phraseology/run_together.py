@@ -29,7 +29,8 @@ def split_numbers(words: Words) -> Words:
     texts = words.texts
     if _INTRODUCING.isdisjoint(texts):
         return words
-    if not any(_rest_of(texts, index) for index in range(1, len(texts))):
+    numbers = [at for at, text in enumerate(texts) if len(text) > RUNWAY and text.isdigit()]
+    if not any(at and _rest_of(texts, at) for at in numbers):
         return words
     split = Words()
     for index, text in enumerate(texts):

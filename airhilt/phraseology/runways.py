@@ -19,6 +19,7 @@ from airhilt.phraseology.forms import (
 )
 from airhilt.phraseology.slots import (
     LETTER,
+    NUMBERED_LINK,
     RUNWAY,
     TAXIWAY,
     designator,
@@ -36,6 +37,7 @@ PLACES = (
 )  # fmt: skip
 """Words after an animal in the name of a place: Deer Park."""
 _POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
+_LINK = re.compile(rf" (?:of )?({NUMBERED_LINK})")
 _DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER})(?= \||$)")
 """Pattern of a taxiway of two letters, behind which the call ends."""
 _READY = re.compile(r"(?<!\S)ready(?!\S)")
@@ -73,6 +75,10 @@ def hold_short(segment: Segment, action: Action) -> Read | None:
     """Read the runway or the taxiway to hold short of."""
     if segment.found[0].startswith("holding") and _READY.search(segment.text, segment.start):
         return None  # A pilot says where the aircraft is.
+    link = _LINK.match(segment.after)
+    if link:
+        held = Instruction(action, hold_short=link[1])
+        return Read(held, segment.start, segment.found.end() + link.end())
     point = _DOUBLE_POINT.match(segment.after) or _POINT.match(segment.after)
     if point is None:
         return on_runway(segment, action)

@@ -122,7 +122,8 @@ class Scan:
         start, index = each.match.start(), each.first
         if self._open_at is not None:
             longest = LONGEST_TRAFFIC if self._is_traffic else LONGEST_CONDITION
-            if word.endswith("ing") and index - self._begun <= longest:
+            is_others = word.endswith("ing") and each.form.action != "visual_separation"
+            if is_others and index - self._begun <= longest:
                 return each.match.end()
             if self._texts[index - 1] in CONDITIONS:
                 return 0

@@ -50,6 +50,8 @@ NAMED_RUNWAY = re.compile(rf"(?<!\S)runway {RUNWAY}")
 LETTER = rf"(?:{'|'.join(LETTERS)})(?!\S)"
 """Pattern of a letter of the spelling alphabet."""
 TAXIWAY = rf"(?:(?:{'|'.join(LETTERS)}|[a-z])(?!\S)(?: [0-9]{{1,2}}(?!\S){NUMBER_ENDS})?)"
+NUMBERED_LINK = r"(?:link|exit|spur) [0-9]{1,2}(?!\S)"
+"""Pattern of a link between taxiways that has a number."""
 _NO_RATE = r"(?!(?: [a-z]+)? (?:per minute|min)(?!\S))"
 _ANY_LEVEL = (
     r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"

@@ -159,9 +159,10 @@ FORMS: Listed = (
      r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
+    ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),
     ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
-    ("maintain", "visual_separation",
-     r"maintain (?:(?:visual|your own|own) separation|visual(?= \||$| cleared))", alone),
+    ("maintain maintaining", "visual_separation",
+     r"maintain(?:ing)? (?:(?:visual|your own|own) separation|visual(?= \||$| cleared))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
      r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"

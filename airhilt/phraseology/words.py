@@ -90,6 +90,12 @@ WIDTHS = {"runway": 2, "heading": 3, "level": 3, "decimal": 3}
 _AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clear", "line"})
 
 
+_MENDED = PAIRS.keys() | SPELLINGS.keys() | SOUNDALIKES.keys() | {"fox"}
+"""Words that may stand for others."""
+_NUMERIC = (
+    DIGITS.keys() | TEENS.keys() | TENS.keys() | SOUNDS.keys() | {"hundred", "double", "triple"}
+)
+"""Words that may be a number or a part of one."""
 _SPELLED = LETTER_OF.keys() | LETTER_VARIANTS.keys()
 
 
@@ -153,6 +159,8 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
             f"{len(confidences)} word confidences for {len(chunks)} words; expected one for each "
             "word of the text, which are those between its blanks"
         )
+    if text.isascii() and text.replace(" ", "").isalpha():
+        return [Raw(*each) for each in zip(chunks, confidences, strict=True)]
     raw: list[Raw] = []
     for chunk, confidence in zip(chunks, confidences, strict=True):
         if chunk.isascii() and chunk.isalpha():
@@ -177,6 +185,9 @@ def _mend(raw: list[Raw]) -> list[Raw]:
     while at < size:
         word, confidence = raw[at]
         at += 1
+        if word not in _MENDED and "'" not in word:
+            mended.append(raw[at - 1])
+            continue
         pairs = PAIRS.get(word)
         pair = pairs.get(raw[at].text) if pairs and at < size else None
         if pair is not None:
@@ -222,8 +233,10 @@ def _join(raw: list[Raw]) -> Words:
     while at < size:
         word, confidence = raw[at]
         at += 1
-        if word in BREAKS:
+        if word not in _NUMERIC and not word[0].isdigit():
             joining = False
+            if word not in BREAKS:
+                words.add(word, confidence)
             continue
         digits = DIGITS.get(word) or TEENS.get(word)
         if digits is None and word in TENS:
