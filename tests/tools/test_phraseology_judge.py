@@ -7,9 +7,11 @@ import random
 import re
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 
 import pytest
 
+import phraseology_judge
 from phraseology_judge.calls import corpus
 from phraseology_judge.degrade import Similar, degraded, distance, sound
 from phraseology_judge.model import Call, Item
@@ -93,6 +95,21 @@ def test_every_status_and_both_speakers_occur() -> None:
 def test_a_line_is_published_with_its_fields() -> None:
     line = json.loads(json.dumps(calls()[0].as_json()))
     assert list(line) == ["text", "roster", "speaker", "callsign", "items", "source"]
+
+
+@pytest.mark.parametrize("name", ["colloquial", "second_exam"])
+def test_calls_written_by_hand_have_the_form_of_generated_ones(name: str) -> None:
+    text = (Path(phraseology_judge.__file__).parent / f"{name}.jsonl").read_text()
+    lines = [json.loads(line) for line in text.splitlines()]
+    assert len(lines) == len({line["text"] for line in lines}) == 200
+    for line in lines:
+        assert list(line) == ["text", "roster", "speaker", "callsign", "items", "source"]
+        assert re.fullmatch(r"[a-z'\- ]+", line["text"]), line["text"]
+        assert line["callsign"] is None or line["callsign"] in line["roster"], line["text"]
+        assert 3 <= len(set(line["roster"])) == len(line["roster"]) <= 8, line["text"]
+        for item in line["items"]:
+            assert item["kind"] in KINDS, (item, line["text"])
+            assert (item["status"] == "conditional") <= (item["begins"] is not None), line["text"]
 
 
 def test_text_is_that_of_a_recogniser() -> None:
