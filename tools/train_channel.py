@@ -16,6 +16,7 @@ model on a CPU.
 from __future__ import annotations
 
 import argparse
+import copy
 import hashlib
 import json
 import time
@@ -43,7 +44,9 @@ FILTER_RATE = 20.0
 """Learning rate of the filter, relative to that of the layers: its parameters are few, and each is
 a gain of up to 40 dB. An assumption."""
 REPORT = 50
-"""Steps from one line on the terminal to the next."""
+"""Steps from one trial of the generator, and one line on the terminal, to the next."""
+TRIED_CALLS = 20
+"""Most calls that a generator is tried with while it is trained."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,7 @@ def train_channel(clean: Path, channel: Path, out: Path, settings: Settings) -> 
     spoken, spoken_held_out = _split(_speech(clean), rng)
     recorded, recorded_held_out = _split(_speech(channel), rng)
     begun = time.monotonic()
-    generator, losses = _train(spoken, recorded, settings, rng)
+    generator, best = _train(spoken, recorded, settings, rng)
     minutes = (time.monotonic() - begun) / 60.0
     _export(generator, out)
     card = {
@@ -89,7 +92,7 @@ def train_channel(clean: Path, channel: Path, out: Path, settings: Settings) -> 
         "settings": asdict(settings),
         "versions": {name: version(name) for name in ("airhilt", "torch", "onnx")},
         "minutes": round(minutes, 2),
-        "last_losses": losses,
+        "best": best,
         "distance_before_db": _distance_db(spoken_held_out, recorded_held_out),
         "distance_after_db": _distance_db(
             [_through(generator, each) for each in spoken_held_out], recorded_held_out
@@ -137,7 +140,11 @@ def _split(calls: Sequence[Audio], rng: np.random.Generator) -> tuple[list[Audio
 def _train(
     spoken: Sequence[Audio], recorded: Sequence[Audio], settings: Settings, rng: np.random.Generator
 ) -> tuple[Any, dict[str, float]]:
-    """Return the trained generator, and the mean losses of the last steps."""
+    """Return the best generator of the training, its losses, and its distance on that speech.
+
+    Adversarial training does not settle. The generator is kept whose speech was nearest to the
+    recordings, of those that are tried every `REPORT` steps, by the speech that it learns from.
+    """
     import torch
 
     from channel_networks import Generator, LogMel, contrastive_loss, discriminator, frame_encoder
@@ -149,15 +156,10 @@ def _train(
     log_mel = LogMel().to(device)
     for network in (made_by, judge, codes):
         network.to(device)
-    learning = torch.optim.Adam(
-        [
-            {"params": [made_by.filter], "lr": FILTER_RATE * settings.rate},
-            {"params": [*made_by.layers.parameters(), *codes.parameters()]},
-        ],
-        settings.rate,
-    )
-    judging = torch.optim.Adam(judge.parameters(), settings.rate, betas=(0.5, 0.9))
+    learning, judging = _optimisers(made_by, codes, judge, settings.rate)
     history: list[tuple[float, float, float]] = []
+    best: dict[str, float] = {}
+    best_weights: Any = None
     for step in range(1, settings.steps + 1):
         clean = torch.from_numpy(_pieces(spoken, settings.batch, rng)).to(device)
         real = log_mel(torch.from_numpy(_pieces(recorded, settings.batch, rng)).to(device))
@@ -173,9 +175,29 @@ def _train(
         (adversarial + WORDS_WEIGHT * words).backward()
         learning.step()
         history.append((fooled.item(), adversarial.item(), words.item()))
-        if step % REPORT == 0:
-            print(f"step {step} of {settings.steps}, {_mean(history[-REPORT:])}", flush=True)
-    return made_by.cpu().eval(), _mean(history[-REPORT:])
+        if step % REPORT == 0 or step == settings.steps:
+            heard = [_through(made_by, each) for each in spoken[:TRIED_CALLS]]
+            distance_db = _distance_db(heard, recorded[:TRIED_CALLS])
+            now = {"step": step, "distance_db": distance_db, **_mean(history[-REPORT:])}
+            print(f"{now} of {settings.steps} steps", flush=True)
+            if not best or distance_db < best["distance_db"]:
+                best, best_weights = now, copy.deepcopy(made_by.state_dict())
+    made_by.load_state_dict(best_weights)
+    return made_by.cpu().eval(), best
+
+
+def _optimisers(made_by: Any, codes: Any, judge: Any, rate: float) -> tuple[Any, Any]:
+    """Return the optimisers of the generator with the frame encoder, and of the discriminator."""
+    import torch
+
+    learning = torch.optim.Adam(
+        [
+            {"params": [made_by.filter], "lr": FILTER_RATE * rate},
+            {"params": [*made_by.layers.parameters(), *codes.parameters()]},
+        ],
+        rate,
+    )
+    return learning, torch.optim.Adam(judge.parameters(), rate, betas=(0.5, 0.9))
 
 
 def _pieces(calls: Sequence[Audio], count: int, rng: np.random.Generator) -> np.ndarray:
@@ -210,8 +232,10 @@ def _export(generator: Any, out: Path) -> None:
 def _through(generator: Any, speech: Audio) -> Audio:
     import torch
 
+    device = generator.filter.device
     with torch.no_grad():
-        return np.asarray(generator(torch.from_numpy(speech)[None])[0].numpy(), np.float32)
+        heard = generator(torch.from_numpy(speech)[None].to(device))[0]
+    return np.asarray(heard.cpu().numpy(), np.float32)
 
 
 def _distance_db(calls: Sequence[Audio], others: Sequence[Audio]) -> float:

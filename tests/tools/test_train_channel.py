@@ -36,7 +36,7 @@ RECORDED = (
     "Good morning tower, request push and start, stand two.",
     "Going around, Cactus five five.",
 )
-SETTINGS = Settings(steps=150, batch=4, rate=2e-3, seed=1)
+SETTINGS = Settings(steps=150, batch=4, rate=1e-3, seed=1)
 
 pytestmark = [
     pytest.mark.finetune,
