@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from airhilt.sensors.cameras.frame import Prospect
     from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
     from airhilt.sensors.cameras.renderer_link import RendererKeeper, RendererLink
+    from airhilt.sensors.cameras.renderer_pool import RendererPool
     from airhilt.sensors.cameras.renderer_process import RendererProcess
     from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.sensor import CameraSensor
@@ -47,8 +48,8 @@ class Vision:
 
     Parameters
     ----------
-    process
-        Process that draws; None where nothing is to be drawn, or nothing can.
+    renderer
+        Draws; None where nothing is to be drawn, or nothing can.
     unavailable_reason
         Why pictures that somebody would look at cannot be drawn; empty if they can.
     is_watched
@@ -60,13 +61,13 @@ class Vision:
     def __init__(
         self,
         setup: Setup,
-        process: RendererProcess | None,
+        renderer: RendererProcess | RendererPool | None,
         unavailable_reason: str,
         is_watched: bool,
         notice: Callable[[str], None],
     ) -> None:
         self._setup = setup
-        self._process = process
+        self._renderer = renderer
         self._unavailable_reason = unavailable_reason
         self._is_watched = is_watched
         self._notice = notice
@@ -76,14 +77,14 @@ class Vision:
     @property
     def renderer(self) -> str:
         """Name of the renderer that draws; empty if no pictures are drawn."""
-        return "" if self._process is None else self._process.renderer
+        return "" if self._renderer is None else self._renderer.renderer
 
     @property
     def state(self) -> tuple[ModalityState, str]:
         """State of vision when the run begins, and its cause."""
         if self._unavailable_reason:
             return "not evaluated", self._unavailable_reason
-        return "on" if self._process is not None and self._is_watched else "off", ""
+        return "on" if self._renderer is not None and self._is_watched else "off", ""
 
     def mount(
         self,
@@ -105,9 +106,10 @@ class Vision:
         lost
             Called with the cause when there will be no more pictures.
         """
-        if self._process is None:
+        if self._renderer is None:
             return
         from airhilt.sensors.cameras.pictures import DrawnPictures
+        from airhilt.sensors.cameras.renderer_process import RendererProcess
         from airhilt.sensors.cameras.sensor import CameraSensor
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
@@ -120,9 +122,10 @@ class Vision:
         for recorder in self._recorders:
             router.observe(recorder.take)
         loss = setup.recorded.cameras_lost
-        # What is drawn cannot be shared if more than a library determines it.
-        shares = setup.options.share_pictures and bool(self._process.identity)
-        source = SharedPictures(self._process) if shares else DrawnPictures(self._process)
+        renderer = self._renderer
+        source: PictureSource = DrawnPictures(renderer)
+        if isinstance(renderer, RendererProcess) and renderer.identity:
+            source = SharedPictures(renderer)
         self._sensor = CameraSensor(
             director,
             source if loss is None else _UntilLost(source, *loss),
@@ -158,21 +161,22 @@ class Vision:
 
 
 @contextmanager
-def started_renderer(
+def started_renderers(
     scenario: Scenario,
     options: Options,
     recorded: Recorded,
     is_watched: bool,
     keeper: RendererKeeper | None,
-) -> Iterator[RendererLink | None]:
-    """Start the process that draws while a run is set up, if somebody may look at its pictures.
+) -> Iterator[Sequence[RendererLink]]:
+    """Start the processes that draw while a run is set up, if somebody may look at its pictures.
 
     Parameters
     ----------
     is_watched
         True if the caller gives workers, which may look.
     keeper
-        Has the process that draws for run after run; None: this run has one of its own.
+        Has the process that draws for run after run; None: this run has its own, as many as draw
+        soonest.
     """
     may_look = (
         is_watched
@@ -185,14 +189,17 @@ def started_renderer(
             and "vision" in options.given_modalities
         )
     )
-    link = None
+    links: list[RendererLink] = []
     if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
         with suppress(OSError):  # It is started again when it is asked, which says what is wrong.
-            link = _start_renderer() if keeper is None else keeper.link()
+            if keeper is not None:
+                links.append(keeper.link())
+            else:
+                _start_renderers(links, scenario, options)
     try:
-        yield link
+        yield links
     finally:
-        if link is not None:
+        for link in links:
             link.release()
 
 
@@ -200,15 +207,15 @@ def started_renderer(
 def open_vision(
     setup: Setup,
     participants: Participants,
-    link: RendererLink | None,
+    links: Sequence[RendererLink],
     notice: Callable[[str], None],
 ) -> Iterator[Vision]:
     """Open the renderer for the time of a run, if somebody might look at its pictures.
 
     Parameters
     ----------
-    link
-        A process that has been started to draw.
+    links
+        Processes that have been started to draw.
     notice
         Called with what a user should know at once, such as why nothing can be drawn.
 
@@ -222,7 +229,8 @@ def open_vision(
         Nothing can be drawn, and the run is strict.
     """
     options, recorded = setup.options, setup.recorded
-    process, unavailable_reason = None, recorded.unavailable_reason
+    unavailable_reason = recorded.unavailable_reason
+    renderer: RendererProcess | RendererPool | None = None
     if options.cameras and options.renderer != AUTO and not recorded.is_replay:
         from airhilt.sensors.cameras.renderers import require_known
 
@@ -230,13 +238,14 @@ def open_vision(
     with ExitStack() as stack:
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
-                process = stack.enter_context(_open_renderer_process(setup.scenario, options, link))
+                renderer = _open_renderer(setup.scenario, options, links)
+                stack.callback(renderer.close)
             except RendererError as error:
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
                 unavailable_reason = str(error)
                 _tell(f"vision is not evaluated: {unavailable_reason}", options.strict, notice)
-        yield Vision(setup, process, unavailable_reason, participants.does("vision"), notice)
+        yield Vision(setup, renderer, unavailable_reason, participants.does("vision"), notice)
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:
@@ -248,20 +257,29 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _start_renderer() -> RendererLink:
+def _start_renderers(links: list[RendererLink], scenario: Scenario, options: Options) -> None:
+    """Start processes that draw for one run; where not all can be started, the others are there."""
     from airhilt.sensors.cameras.renderer_link import RendererLink
+    from airhilt.sensors.cameras.renderer_pool import processes_for
 
-    return RendererLink()
+    for _ in range(1 if options.share_pictures else processes_for(scenario)):
+        links.append(RendererLink())
 
 
-def _open_renderer_process(
-    scenario: Scenario, options: Options, link: RendererLink | None
-) -> RendererProcess:
+def _open_renderer(
+    scenario: Scenario, options: Options, links: Sequence[RendererLink]
+) -> RendererProcess | RendererPool:
     # Not at the top: a run without cameras starts without the libraries behind them.
+    from airhilt.sensors.cameras.renderer_pool import RendererPool
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
+    if len(links) > 1:
+        return RendererPool(scenario, links, options.renderer)
     return RendererProcess(
-        scenario, renderer=options.renderer, link=link, shares_pictures=options.share_pictures
+        scenario,
+        renderer=options.renderer,
+        link=links[0] if links else None,
+        shares_pictures=options.share_pictures,
     )
 
 

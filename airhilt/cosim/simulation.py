@@ -19,7 +19,7 @@ from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.session import Bus
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
-from airhilt.cosim.cameras import Vision, open_vision, started_renderer
+from airhilt.cosim.cameras import Vision, open_vision, started_renderers
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.language_model_notices import LanguageModelNotices
@@ -108,8 +108,8 @@ def _run(
     keeper: RendererKeeper | None,
 ) -> Result:
     with ExitStack() as stack:
-        link = stack.enter_context(
-            started_renderer(scenario, options, recorded, bool(workers), keeper)
+        links = stack.enter_context(
+            started_renderers(scenario, options, recorded, bool(workers), keeper)
         )
         setup = set_up(scenario, options, recorded)
         for text in setup.notices:
@@ -122,7 +122,7 @@ def _run(
         )
         if participants.programs and options.pace is None and not setup.recorded.programs:
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, link, observer.notice))
+        vision = stack.enter_context(open_vision(setup, participants, links, observer.notice))
         setup.folder.create(options.overwrite)
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)

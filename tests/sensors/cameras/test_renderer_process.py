@@ -22,14 +22,14 @@ from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_link, renderer_process
 from airhilt.sensors.cameras.frame import Frame
-from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_link import RendererLink
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
 from airhilt.sensors.cameras.renderers import open3d, require_renderer
-from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
+from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.snapshot import TICK_S, snapshot, write_png
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
+from opening_bodies import bodies_of
 
 CAMERA = {
     "name": "field",
@@ -48,13 +48,6 @@ def washington(**camera: Any) -> Scenario:
     document = load("s01b_nominal").model_dump(mode="json")
     document["cameras"] = [CAMERA | camera]
     return Scenario.model_validate(document)
-
-
-def bodies_of(scenario: Scenario) -> list[BodyState]:
-    site = ScenarioSite.of(scenario)
-    cast = build_actors(scenario, site, 0, TICK_S)
-    frame = local_frame_of(site)
-    return [state_of(actor, frame, site.ground_m, 0.0) for actor in cast.values()]
 
 
 @pytest.fixture(scope="module")

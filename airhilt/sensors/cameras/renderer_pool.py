@@ -1,0 +1,136 @@
+"""Pictures from several processes at a time, each of which draws for some of the cameras.
+
+A run waits while pictures are drawn. What a process draws does not depend on the others, so that
+their number changes no picture.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from typing import TypeVar
+
+from airhilt.imaging.masks import Mask
+from airhilt.scenario import Scenario
+from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.frame import Frame, Prospect
+from airhilt.sensors.cameras.renderer_link import RendererLink
+from airhilt.sensors.cameras.renderer_process import RendererProcess
+from airhilt.sensors.cameras.scene.bodies import BodyState
+
+MOST_PROCESSES = 4
+"""Most processes of a run; each takes some 300 MB for the scene."""
+Answer = TypeVar("Answer")
+
+
+def processes_for(scenario: Scenario) -> int:
+    """Return how many processes draw soonest for the cameras of a scenario, at least 1.
+
+    A fixed camera's background is drawn once; only those that move are worth a process.
+    """
+    moving = sum(camera.carrier is not None for camera in scenario.cameras)
+    return max(min(len(os.sched_getaffinity(0)), moving, MOST_PROCESSES), 1)
+
+
+def shared_out(scenario: Scenario, processes: int) -> list[list[str]]:
+    """Return the cameras of each process: moving and fixed ones in turn."""
+    ordered = sorted(scenario.cameras, key=lambda camera: camera.carrier is None)
+    return [[camera.name for camera in ordered[at::processes]] for at in range(processes)]
+
+
+class RendererPool:
+    """Takes pictures as a `RendererProcess` does, with a process for each link.
+
+    Parameters
+    ----------
+    links
+        Processes that have been started, at most as many as there are cameras; they are released
+        with this pool.
+
+    Attributes
+    ----------
+    renderer
+        Name of the renderer that draws.
+    own_aircraft
+        Pixels that the aircraft which carries the camera may cover, by camera.
+
+    Raises
+    ------
+    CameraError
+        A camera could see nothing.
+    RendererError
+        The renderer cannot be opened, or a process has died.
+    """
+
+    def __init__(
+        self, scenario: Scenario, links: Sequence[RendererLink], renderer: str = AUTO
+    ) -> None:
+        shares = shared_out(scenario, len(links))
+        with ExitStack() as stack:
+            self._threads = stack.enter_context(ThreadPoolExecutor(len(links)))
+            opened = [
+                self._threads.submit(RendererProcess, scenario, names, renderer, link=link)
+                for names, link in zip(shares, links, strict=True)
+            ]
+            for future in opened:
+                if future.exception() is None:
+                    stack.callback(future.result().close)
+            processes = [future.result() for future in opened]
+            self._open = stack.pop_all()
+        self._process_of = {
+            name: process
+            for names, process in zip(shares, processes, strict=True)
+            for name in names
+        }
+        self._processes = processes
+        self.renderer = processes[0].renderer
+        self.own_aircraft: Mapping[str, Mask] = {
+            name: mask for process in processes for name, mask in process.own_aircraft.items()
+        }
+
+    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+        """Take the pictures of all cameras that are due at an instant.
+
+        It raises what `RendererProcess.shoot` does.
+        """
+        frames = {
+            frame.camera: frame
+            for some in self._each(names, lambda each, its: each.shoot(its, bodies, t_ns))
+            for frame in some
+        }
+        return [frames[name] for name in names]
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        """Return what pictures of an instant would show, by camera, without taking them.
+
+        It raises what `RendererProcess.shoot` does.
+        """
+        parts = self._each(names, lambda each, its: each.prospects(its, bodies, t_ns))
+        return {name: prospect for part in parts for name, prospect in part.items()}
+
+    def _each(
+        self, names: Sequence[str], ask: Callable[[RendererProcess, list[str]], Answer]
+    ) -> Iterator[Answer]:
+        """Yield what each process answers that has some of the cameras, all asked at once."""
+        asked = []
+        for process in self._processes:
+            if its := [name for name in names if self._process_of[name] is process]:
+                asked.append(self._threads.submit(ask, process, its))
+        for future in asked:
+            future.exception()  # All have answered before the first error is told.
+        for future in asked:
+            yield future.result()
+
+    def close(self) -> None:
+        """End the processes."""
+        self._open.close()
+
+    def __enter__(self) -> RendererPool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
