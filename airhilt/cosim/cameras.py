@@ -239,7 +239,7 @@ def open_vision(
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
                 renderer = _open_renderer(setup.scenario, options, links)
-                stack.callback(renderer.close)
+                stack.enter_context(renderer)
             except RendererError as error:
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None

@@ -167,9 +167,9 @@ def test_a_run_looks_with_a_detector_of_another_package(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        cameras, "_open_renderer_process", lambda scenario, *_: BlankSceneRenderer(scenario)
+        cameras, "_open_renderer", lambda scenario, *_: BlankSceneRenderer(scenario)
     )
-    monkeypatch.setattr(cameras, "_start_renderer", lambda: None)
+    monkeypatch.setattr(cameras, "_start_renderers", lambda *_: None)
     scenario = passing().model_copy(update={"duration_s": 2.0})
     result = run(
         scenario,

@@ -6,6 +6,7 @@ import gc
 import json
 import os
 import signal
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from airhilt.options import Options
 from airhilt.record import Logged, read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.renderer_link import RendererLink
 from airhilt.units import SECOND_NS
 
 SEEN = Options(renderer="embree", speech=False, latency="fixed")
@@ -151,19 +153,20 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = []
-    open_scene_renderer = vision._open_renderer_process
+    open_scene_renderer = vision._open_renderer
 
-    def opening(*given: Any) -> object:
-        opened.append(open_scene_renderer(*given))
-        return opened[-1]
+    def opening(scenario: Scenario, options: Options, links: Sequence[RendererLink]) -> object:
+        opened.append(links)
+        return open_scene_renderer(scenario, options, links)
 
     class Killer(Observer):
         def snapshot(self, snapshot: Snapshot) -> None:
             if snapshot.t_s == 1.0:
-                os.kill(opened[0].process_id, signal.SIGKILL)
-                opened[0]._link._process.wait()
+                links = opened[0]
+                os.kill(links[0].process_id, signal.SIGKILL)
+                links[0]._process.wait()
 
-    monkeypatch.setattr(vision, "_open_renderer_process", opening)
+    monkeypatch.setattr(vision, "_open_renderer", opening)
     result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())
     monkeypatch.undo()
     assert result.summary.outcome == "finished"
@@ -177,7 +180,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
 def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    monkeypatch.setattr(vision, "_open_renderer", missing)
     notices = Notices()
     result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), notices)
     log = list(read_log(tmp_path / "run" / "log.mcap"))
@@ -194,7 +197,7 @@ def missing(*_: object) -> None:
 def test_without_a_renderer_a_strict_run_does_not_begin(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    monkeypatch.setattr(vision, "_open_renderer", missing)
     options = SEEN.model_copy(update={"strict": True, "out": tmp_path / "run"})
     with pytest.raises(RunStopped, match="--no-cameras"):
         run(short, options)
@@ -205,7 +208,7 @@ def test_without_a_renderer_a_strict_run_does_not_begin(
 def test_no_picture_is_drawn_that_nobody_looks_at(
     short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict[str, object]
 ) -> None:
-    monkeypatch.setattr(vision, "_open_renderer_process", missing)
+    monkeypatch.setattr(vision, "_open_renderer", missing)
     log = log_of(short, tmp_path / "run", **changes)
     assert states_of_vision(log) == [("off", "")]
 

@@ -241,8 +241,8 @@ def watched(
         others = reference(assistant, radio, taken, engines._replace(detector=None))
         return [*others, made[0]]
 
-    patch.setattr(vision, "_start_renderer", lambda: None)
-    patch.setattr(vision, "_open_renderer_process", open_scene_renderer)
+    patch.setattr(vision, "_start_renderers", lambda *_: None)
+    patch.setattr(vision, "_open_renderer", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     options = Options(seed=seed, out=out, latency="fixed")
     return cosim.run(scenario or load(name), options).summary, made[0]
