@@ -259,7 +259,8 @@ def test_the_engine_declares_what_it_listens_to_and_never_truth() -> None:
     description = reference().description
     heard = {wanted.key for wanted in description.inputs}
     assert heard == {
-        "briefing", "adsb/*", "asr/*", "vision/*", "radio/*/audio", "camera/*/info",
+        "briefing", "adsb/*", "asr/*", "asr/*/partial", "vision/*", "radio/*/audio",
+        "camera/*/info",
     }  # fmt: skip
     assert description.modality == "decision"
 
