@@ -15,7 +15,7 @@ from pathlib import Path
 from airhilt import library
 from airhilt.cli import main
 
-LONGEST_S, LONGEST_WITH_CAMERAS_S = 12.0, 2.0
+LONGEST_S, LONGEST_WITH_CAMERAS_S = 12.0, 1.0
 
 
 def shorten(folder: Path) -> None:

@@ -26,12 +26,13 @@ Answer = TypeVar("Answer")
 
 
 def processes_for(scenario: Scenario) -> int:
-    """Return how many processes draw soonest for the cameras of a scenario, at least 1.
+    """Return how many processes draw for the cameras of a scenario, at least 1.
 
-    A fixed camera's background is drawn once; only those that move are worth a process.
+    Half of the cores draw: the run and its detector have the others. A fixed camera's background
+    is drawn once; only those that move are worth a process.
     """
     moving = sum(camera.carrier is not None for camera in scenario.cameras)
-    return max(min(len(os.sched_getaffinity(0)), moving, MOST_PROCESSES), 1)
+    return max(min(len(os.sched_getaffinity(0)) // 2, moving, MOST_PROCESSES), 1)
 
 
 def shared_out(scenario: Scenario, processes: int) -> list[list[str]]:

@@ -53,13 +53,13 @@ def test_each_camera_has_one_process_and_moving_ones_are_shared_out_evenly(
     assert max(counts) - min(counts) <= 1
 
 
-def test_there_are_as_many_processes_as_moving_cameras_and_cores_at_most(
+def test_half_of_the_cores_draw_and_not_more_than_cameras_move(
     scenario: Scenario, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     moving = sum(camera.carrier is not None for camera in scenario.cameras)
-    for cores in (1, 2, 64):
+    for cores in (1, 2, 4, 64):
         monkeypatch.setattr(os, "sched_getaffinity", lambda _, cores=cores: range(cores))
-        assert processes_for(scenario) == min(cores, moving, MOST_PROCESSES)
+        assert processes_for(scenario) == max(min(cores // 2, moving, MOST_PROCESSES), 1)
     fixed = [camera for camera in scenario.cameras if camera.carrier is None]
     assert processes_for(scenario.model_copy(update={"cameras": fixed})) == 1
 
