@@ -55,3 +55,12 @@ def test_a_runner_that_is_stopped_gives_its_run_back(runner: RunnerProcess) -> N
     threading.Timer(0.1, runner.stop).start()
     with pytest.raises(RunnerStopped):
         runner.run(request("hangs"))
+
+
+def test_a_runner_does_not_inherit_how_dask_lets_its_workers_give_memory_back(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("MALLOC_TRIM_THRESHOLD_", "65536")
+    with closing(RunnerProcess("", LIMITS)) as runner:
+        process = psutil.Process(runner.run(request("good")).machine.process)
+        assert "MALLOC_TRIM_THRESHOLD_" not in process.environ()
