@@ -191,6 +191,13 @@ class ChildProcess:
         return f"({exit_text(self._process.returncode)}){cause}"
 
 
+def available_cores() -> int:
+    """Return the number of cores that this process may use, at least 1."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1  # macOS binds no process to cores.
+
+
 def exit_text(code: int | None) -> str:
     """Return how a process ended, in words."""
     return f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"

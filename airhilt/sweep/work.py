@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any, get_args
 
 import psutil
 
+from airhilt.child_process import available_cores
 from airhilt.engines import Package
 from airhilt.errors import AirhiltError
 from airhilt.sweep.clusters import LOCAL
@@ -77,7 +77,7 @@ def default_workers(renderer: str) -> int:
     """Return how many workers this machine has cores and memory for, at least 1."""
     needed_mb = RUN_MB + (CAMERAS_MB if renderer else 0.0)
     by_memory = psutil.virtual_memory().available / MEGABYTE / needed_mb
-    return max(1, min(len(os.sched_getaffinity(0)), int(by_memory)))
+    return max(1, min(available_cores(), int(by_memory)))
 
 
 def require_dashboard(address: str | None) -> None:

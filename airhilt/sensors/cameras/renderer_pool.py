@@ -6,12 +6,12 @@ their number changes no picture.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from typing import TypeVar
 
+from airhilt.child_process import available_cores
 from airhilt.imaging.masks import Mask
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
@@ -32,7 +32,7 @@ def processes_for(scenario: Scenario) -> int:
     is drawn once; only those that move are worth a process.
     """
     moving = sum(camera.carrier is not None for camera in scenario.cameras)
-    return max(min(len(os.sched_getaffinity(0)) // 2, moving, MOST_PROCESSES), 1)
+    return max(min(available_cores() // 2, moving, MOST_PROCESSES), 1)
 
 
 def shared_out(scenario: Scenario, processes: int) -> list[list[str]]:
