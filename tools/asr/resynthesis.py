@@ -62,7 +62,7 @@ class Manner:
 
 @dataclass(frozen=True, slots=True)
 class Voice:
-    """What WORLD takes speech apart into, one row each 5 ms, and of the aperiodicity each 10 ms."""
+    """Parts into which WORLD takes speech: a row each 5 ms, of the aperiodicity each 10 ms."""
 
     pitch_hz: Frames
     """0 where there is none."""

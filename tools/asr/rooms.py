@@ -1,4 +1,4 @@
-"""What is between a mouth and a transmitter: rooms, microphones, codecs, keys, other sounds.
+"""Ways from a mouth to a transmitter: rooms, microphones, codecs, keys, other sounds.
 
 Each function takes speech in [-1, 1] and returns it changed, at about the same level.
 """

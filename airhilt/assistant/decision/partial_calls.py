@@ -30,7 +30,7 @@ class ProvisionalCall(NamedTuple):
 
 @dataclass(slots=True)
 class _Partial:
-    """What was heard last of a call."""
+    """State of a call after its newest partial transcript."""
 
     certain: tuple[Instruction, ...]
     callsign: str | None
