@@ -103,6 +103,16 @@ def test_other_code_has_it_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     assert drawn.times == 2
 
 
+def test_another_processor_has_it_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its instructions decide the last bits of what libraries compute."""
+    drawn = Drawn()
+    backgrounds().get(View(LENS, EYE), 3, drawn)
+    (tmp_path / "cpuinfo").write_text("model name: another one\n")
+    monkeypatch.setattr("airhilt.processor.PROCESSOR", tmp_path / "cpuinfo")
+    backgrounds().get(View(LENS, EYE), 3, drawn)
+    assert drawn.times == 2
+
+
 def frames(*, keeps: bool) -> list[Frame]:
     """Return what a scene renderer draws for a fixed camera, twice."""
     camera = Camera("tower", LENS, EYE)

@@ -64,9 +64,14 @@ def test_a_renderer_casts_no_rays_of_which_another_knows_what_they_meet(
     renderer(field()).landscape(view(), WINDOW)
 
 
-@pytest.mark.parametrize("other", ["view", "window", "landscape", "library"])
-def test_what_rays_meet_is_kept_by_all_that_it_depends_on(other: str, cache: Path) -> None:
+@pytest.mark.parametrize("other", ["view", "window", "landscape", "library", "processor"])
+def test_what_rays_meet_is_kept_by_all_that_it_depends_on(
+    other: str, cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     renderer(field()).landscape(view(), WINDOW)
+    if other == "processor":
+        (tmp_path / "cpuinfo").write_text("model name: another one\n")
+        monkeypatch.setattr("airhilt.processor.PROCESSOR", tmp_path / "cpuinfo")
     mesh = field(31.0) if other == "landscape" else field()
     renderer(mesh, "embreex 2" if other == "library" else "embreex 1").landscape(
         view(0.1 if other == "view" else 0.0),

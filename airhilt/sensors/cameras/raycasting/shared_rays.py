@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import platform
 import zlib
 from collections.abc import Callable
 from dataclasses import astuple
@@ -18,6 +17,7 @@ import airhilt.sensors.cameras
 from airhilt.caches import CacheFolder
 from airhilt.files import source_sha256
 from airhilt.imaging.view import View, Window
+from airhilt.processor import processor_sha256
 from airhilt.shapes.mesh import Floats
 
 Pieces = npt.NDArray[np.intp]
@@ -44,7 +44,7 @@ class SharedRays:
         digest = hashlib.sha256(np.ascontiguousarray(corners).data)
         digest.update(np.ascontiguousarray(piece_of).data)
         self._scene = [
-            _code(), library, np.__version__, platform.machine(), digest.hexdigest(),
+            _code(), library, np.__version__, processor_sha256(), digest.hexdigest(),
         ]  # fmt: skip
         self._type = np.min_scalar_type(int(piece_of.max(initial=0)))
 

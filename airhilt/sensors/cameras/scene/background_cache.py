@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import platform
 import zlib
 from collections.abc import Callable
 from dataclasses import astuple
@@ -21,6 +20,7 @@ import airhilt.sensors.cameras
 from airhilt.caches import CacheFolder
 from airhilt.files import source_sha256
 from airhilt.imaging.view import View
+from airhilt.processor import processor_sha256
 from airhilt.sensors.cameras.renderers import Samples, library_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
@@ -45,7 +45,7 @@ class BackgroundCache:
     ) -> None:
         self._folder = CacheFolder("backgrounds")
         self._scene = [
-            _code(), renderer, library, np.__version__, platform.machine(), _content(landscape),
+            _code(), renderer, library, np.__version__, processor_sha256(), _content(landscape),
             light.sun.tolist(), light.visibility_m, light.overcast, light.background,
         ]  # fmt: skip
 
