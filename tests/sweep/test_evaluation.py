@@ -12,9 +12,10 @@ import pytest
 
 from airhilt.cli.commands.evaluate import COMMAND
 from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import SweepFolder
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed
-from airhilt.sweep.engine import SweepObserver
+from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
@@ -29,6 +30,7 @@ from airhilt.sweep.evaluation.scores import (
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.work import Work
+from sweep_tables import sweep_row, write_sweep
 
 NO_CAMERAS = Choice(1, {"cameras": False})
 EVERYTHING = Choice(1, {})
@@ -284,6 +286,32 @@ def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
     before = (tmp_path / "out" / "evaluation.json").read_bytes()
     evaluate(small, choice, work, unwatched)
     assert (tmp_path / "out" / "evaluation.json").read_bytes() == before
+
+
+def test_what_one_sweep_refuses_is_told_before_the_first_one(tmp_path: Path) -> None:
+    """Without an assistant, as in the first sweep, nobody asks for the recogniser."""
+    chosen = Choice(1, {"cameras": False, "asr": "nonsense"})
+    with pytest.raises(AirhiltError, match="nonsense"):
+        evaluate(full.PRESET, chosen, Work(tmp_path / "out", workers=1), unwatched)
+    assert not (tmp_path / "out").exists()
+
+
+def test_runs_that_failed_are_named_under_each_table(
+    small: Preset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = [sweep_row("short", "none", 0), sweep_row("short", "none", 1, status="failed")]
+    folder = SweepFolder(write_sweep(tmp_path / "out" / "only", rows))
+    result = SweepResult(folder, runs=2, rows=2, failed=1, missing=0)
+    monkeypatch.setattr("airhilt.sweep.evaluation.engine.sweep", lambda *_: result)
+    found = evaluate(small, Choice(2, {"speech": False}), Work(tmp_path / "out"), unwatched)
+    assert found is not None
+    assert found.failed == 1
+    (table,) = found.tables
+    assert table.rows == (("none", 0),)
+    assert table.notes == (
+        "1 run failed and is left out of the tables (1 of `only`): the causes are in "
+        "machine.parquet there.",
+    )
 
 
 def test_presets_are_found_by_their_names() -> None:

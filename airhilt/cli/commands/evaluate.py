@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from airhilt.cli.words import counted
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
 
     The tables are printed, and written to DIR/evaluation.md, .json and .html; each sweep has a
     folder in DIR (`airhilt report DIR/NAME` shows it). The same command again does what is
-    missing. Exit code 0 if every run has a row, 1 if some have not.
+    missing. Exit code 0 if every run finished, 1 if some failed: the tables say how many.
     """
     from airhilt.cli.run_flags import options_given
     from airhilt.sweep.evaluation.engine import evaluate as run_evaluation
@@ -91,7 +92,7 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
     if evaluation is None:
         return INTERRUPTED
     _print(evaluation, given["as_json"], quiet)
-    return 0 if evaluation.rows == evaluation.runs else 1
+    return 1 if evaluation.failed else 0
 
 
 @contextmanager
@@ -110,7 +111,8 @@ def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
         click.echo(json.dumps(evaluation.document(), indent=2))
     elif not quiet:
         click.echo(evaluation.markdown())
-        click.echo(f"{evaluation.rows} rows of {evaluation.runs} runs in {evaluation.folder}")
+        rows, runs = counted(evaluation.rows, "row"), counted(evaluation.runs, "run")
+        click.echo(f"{rows} of {runs} in {evaluation.folder}")
 
 
 def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) -> None:
@@ -119,10 +121,11 @@ def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) 
 
     from airhilt.cli.sweep_output import print_estimate
     from airhilt.sweep.estimate import estimate
+    from airhilt.sweep.evaluation.engine import specifications_of
 
     found = {
         name: estimate(specification, work)
-        for name, specification in preset.specifications(choice).items()
+        for name, specification in specifications_of(preset, choice).items()
     }
     if as_json:
         click.echo(json.dumps({name: asdict(each) for name, each in found.items()}, indent=2))

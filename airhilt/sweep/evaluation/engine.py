@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,9 +12,11 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.files import replace_file, sha256
 from airhilt.report.evaluation.page import render
+from airhilt.sweep.cases import cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.tables import Table
+from airhilt.sweep.specification import Specification
 from airhilt.sweep.work import Work
 
 FORMAT = 1
@@ -50,6 +52,11 @@ class Evaluation:
     def rows(self) -> int:
         """Number of runs that have a row."""
         return sum(each.rows for each in self.sweeps.values())
+
+    @property
+    def failed(self) -> int:
+        """Number of runs that did not finish."""
+        return sum(each.failed for each in self.sweeps.values())
 
     def document(self) -> dict[str, Any]:
         """Return ``evaluation.json``."""
@@ -102,17 +109,51 @@ def evaluate(
         Something that was given is wrong, or the folder cannot be written.
     """
     sweeps: dict[str, SweepResult] = {}
-    for name, specification in preset.specifications(choice).items():
+    for name, specification in specifications_of(preset, choice).items():
         with watched(name) as observer:
             own = replace(work, out=work.out / name)
             sweeps[name] = sweep(specification, own, observer)
             if observer.stops:
                 return None
     rows = {name: _finished(each) for name, each in sweeps.items()}
-    tables = tuple(preset.tables(Results(choice, rows)))
+    failures = _failures({name: each.failed for name, each in sweeps.items()})
+    tables = tuple(
+        table.model_copy(update={"notes": (*table.notes, *failures)})
+        for table in preset.tables(Results(choice, rows))
+    )
     evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)
     _write(evaluation)
     return evaluation
+
+
+def specifications_of(preset: Preset, choice: Choice) -> Mapping[str, Specification]:
+    """Return the sweeps of a preset by their names, once every run of all of them is checked.
+
+    Raises
+    ------
+    AirhiltError
+        A run cannot be as it is asked for.
+    """
+    specifications = preset.specifications(choice)
+    for specification in specifications.values():
+        cases(specification)
+    return specifications
+
+
+def _failures(failed: Mapping[str, int]) -> tuple[str, ...]:
+    """Return a note on the runs that are in no number of the tables, none if all finished.
+
+    Parameters
+    ----------
+    failed
+        Number of runs of each sweep that did not finish.
+    """
+    total = sum(failed.values())
+    if not total:
+        return ()
+    where = ", ".join(f"{count} of `{name}`" for name, count in failed.items() if count)
+    words = "1 run failed and is" if total == 1 else f"{total} runs failed and are"
+    return (f"{words} left out of the tables ({where}): the causes are in machine.parquet there.",)
 
 
 def _finished(result: SweepResult) -> list[dict[str, Any]]:
