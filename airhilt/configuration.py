@@ -51,6 +51,8 @@ def read_configuration(path: Path) -> dict[str, Any]:
         raise AirhiltError(
             f"{path}: no JSON: {error.msg}, line {error.lineno}; expected a JSON object"
         ) from None
+    except RecursionError:
+        raise AirhiltError(f"{path}: nested too deeply; expected a JSON object") from None
     if not isinstance(document, dict):
         raise AirhiltError(f"{path}: found {shown(document)}; expected a JSON object")
     return document

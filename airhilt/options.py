@@ -64,6 +64,8 @@ class Flag:
     in_sweeps
         False for what belongs to one run alone, such as its folder, and for programs that attach
         to it.
+    help_of_one_run
+        Sentence after the help of a single run, about what sweeps have not.
     """
 
     name: str
@@ -73,6 +75,7 @@ class Flag:
     needs: tuple[str, ...] = ()
     former: tuple[str, ...] = ()
     in_sweeps: bool = True
+    help_of_one_run: str = ""
 
 
 def _one_chunk(name: str) -> str:
@@ -127,9 +130,10 @@ class Options(BaseModel):
         Flag(
             "--assistant",
             "Who decides: reference, paper, another assistant that `airhilt doctor` names, the "
-            "address of a service, none, or external (a worker or program of yours).",
+            "address of a service, or none.",
             "NAME",
             default="reference, external if a worker or program of yours may decide",
+            help_of_one_run="Or external: a worker or program of yours.",
         ),
     ] = None
     assistant_config: Annotated[

@@ -64,9 +64,10 @@ def options_given(context: click.Context) -> Options:
 def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:
     spellings = [flag.name, *flag.former, name]
     default = flag.default
+    text = f"{flag.help} {flag.help_of_one_run}".rstrip()
     if field.annotation is bool:
         is_on = bool(field.default)
-        return _Flag(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=flag.help)
+        return _Flag(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=text)
     if not default and field.default not in (None, ()):
         default = f"{field.default:g}" if isinstance(field.default, float) else str(field.default)
     return _Flag(
@@ -74,7 +75,7 @@ def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:
         type=_type(field.annotation),
         multiple=get_origin(field.annotation) is tuple,
         metavar=flag.metavar,
-        help=f"{flag.help}  [default: {default}]" if default else flag.help,
+        help=f"{text}  [default: {default}]" if default else text,
     )
 
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import click
 from click.core import ParameterSource
 
 from airhilt.configuration import read_configuration
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, shown
 from airhilt.options import Options, flag_of
 from airhilt.sweep.axes import Interval, Range, read_values
+from airhilt.sweep.parameters import parameter, swept_options
 from airhilt.sweep.specification import Specification, first_seeds, specification_of
 
 WHOLE = ("latency", "llm")
@@ -20,6 +22,8 @@ CONFIGURATION = "assistant_config"
 """Option that is the content of a file."""
 METHODS = {"lhs": "latin_hypercube", "latin_hypercube": "latin_hypercube", "sobol": "sobol"}
 Json = dict[str, Any]
+Place = Literal["options", "axes", "intervals"]
+"""Part of a sweep file that holds values by their paths."""
 
 
 def value_flags() -> list[click.Parameter]:
@@ -28,11 +32,7 @@ def value_flags() -> list[click.Parameter]:
 
 
 def _swept() -> list[str]:
-    return [
-        name
-        for name, field in Options.model_fields.items()
-        if name != "seed" and (flag := flag_of(field)) is not None and flag.in_sweeps
-    ]
+    return [name for name in swept_options() if name != "seed"]
 
 
 def _option(name: str) -> click.Option:
@@ -60,7 +60,7 @@ def _option(name: str) -> click.Option:
 
 def specification_given(
     context: click.Context,
-    document: Json,
+    file: Path | None,
     scenarios: tuple[str, ...],
     seeds: str | None,
     set_: tuple[str, ...],
@@ -70,8 +70,8 @@ def specification_given(
 
     Parameters
     ----------
-    document
-        Content of the file, empty without one.
+    file
+        A sweep file, which may leave to the flags what they give; None: there is none.
     set_
         Texts such as ``radio.snr_db=0:20:5``.
     sample
@@ -82,25 +82,24 @@ def specification_given(
     AirhiltError
         Something that was given is wrong.
     """
-    document = {"options": {}, "axes": {}, **document}
-    options, axes = dict(document["options"]), dict(document["axes"])
-    intervals: Json = dict((document.get("sample") or {}).get("intervals", {}))
-    for path, values in _given(context, options, set_):
-        if isinstance(values, Range):
-            axes[path] = values.model_dump(by_alias=True, exclude_none=True)
-        elif isinstance(values, Interval):
-            intervals[path] = values.model_dump(by_alias=True)
-        else:
-            axes[path] = list(values)
-    document |= {"options": options, "axes": axes}
+    document, origin = ({}, "sweep") if file is None else (read_configuration(file), str(file))
+    drawn = _object(document, "sample", origin)
+    parts = {name: _object(document, name, origin) for name in ("options", "axes")}
+    parts["intervals"] = _object(drawn, "intervals", origin)
+    for path, (place, value) in _given(context, set_).items():
+        for part in parts.values():
+            _forget(part, path)
+        parts[place][path] = value
+    intervals = parts.pop("intervals")
+    document |= parts
     if scenarios:
         document["scenarios"] = list(scenarios)
     if seeds is not None:
         document["seeds"] = _seeds(seeds)
     if sample is not None:
-        document["sample"] = _sample(sample)
-    if document.get("sample"):
-        document["sample"] = {**document["sample"], "intervals": intervals}
+        drawn = _sample(sample)
+    if drawn:
+        document["sample"] = {**drawn, "intervals": intervals}
     elif intervals:
         path = next(iter(intervals))
         raise AirhiltError(
@@ -109,30 +108,75 @@ def specification_given(
         )
     if "scenarios" not in document:
         raise click.UsageError("Missing option '--scenario'.")
-    return specification_of(document, "sweep")
+    return specification_of(document, origin)
 
 
-def _given(context: click.Context, options: Json, set_: tuple[str, ...]) -> list[tuple[str, Any]]:
-    """Return path and values of what the command line varies; put switches into ``options``."""
-    found: list[tuple[str, Any]] = []
+def _object(document: Json, name: str, origin: str) -> Json:
+    """Return a copy of an object in a document, empty if it is not there.
+
+    Raises
+    ------
+    AirhiltError
+        It is something else; ``origin`` begins the message.
+    """
+    found = document.get(name)
+    if found is not None and not isinstance(found, dict):
+        raise AirhiltError(f"{origin}: {name}: found {shown(found)}; expected a JSON object")
+    return dict(found or {})
+
+
+def _forget(part: Json, path: str) -> None:
+    """Remove a parameter, however it is spelled."""
+    for spelling in [each for each in part if parameter(each).path == path]:
+        del part[spelling]
+
+
+def _given(context: click.Context, set_: tuple[str, ...]) -> dict[str, tuple[Place, Any]]:
+    """Return what the command line says, by path: its place in the file, and its value there.
+
+    Raises
+    ------
+    AirhiltError
+        A path is given twice, or cannot be swept.
+    """
+    found: dict[str, tuple[Place, Any]] = {}
+    for spelling, value in _said(context, set_):
+        path = parameter(spelling).path
+        if path in found:
+            raise AirhiltError(f"parameter {path}: given twice; expected once")
+        found[path] = value
+    return found
+
+
+def _said(context: click.Context, set_: tuple[str, ...]) -> Iterator[tuple[str, tuple[Place, Any]]]:
+    """Yield the paths in the order of the flags, as they are spelled, with place and value."""
     for name in _swept():
         if context.get_parameter_source(name) is not ParameterSource.COMMANDLINE:
             continue
         value = context.params[name]
         if isinstance(value, bool):
-            options[name] = value
+            yield name, ("options", value)
         elif isinstance(value, tuple):
-            options[name] = list(value)
+            yield name, ("options", list(value))
         elif name == CONFIGURATION:
-            options[name] = read_configuration(Path(value))
+            yield name, ("options", read_configuration(Path(value)))
         else:
-            found.append((name, (value,) if name in WHOLE else read_values(value)))
+            yield name, ("axes", [value]) if name in WHOLE else _placed(value)
     for text in set_:
         path, equals, values = text.partition("=")
         if not equals or not path.strip():
             raise AirhiltError(f"--set {text}: expected PATH=VALUES, such as radio.snr_db=0:20:5")
-        found.append((path.strip(), read_values(values)))
-    return found
+        yield path.strip(), _placed(values)
+
+
+def _placed(text: str) -> tuple[Place, Any]:
+    """Return what a text of values is in a sweep file."""
+    values = read_values(text)
+    if isinstance(values, Range):
+        return "axes", values.model_dump(by_alias=True, exclude_none=True)
+    if isinstance(values, Interval):
+        return "intervals", values.model_dump(by_alias=True)
+    return "axes", list(values)
 
 
 def _seeds(text: str) -> Any:

@@ -8,6 +8,7 @@ from dataclasses import asdict
 import click
 
 from airhilt.cli.sweep_progress import duration
+from airhilt.cli.words import counted
 from airhilt.files import sha256
 from airhilt.sweep.engine import SweepResult
 from airhilt.sweep.estimate import Estimate
@@ -19,13 +20,19 @@ def print_estimate(found: Estimate, as_json: bool) -> None:
         click.echo(json.dumps(asdict(found), indent=2))
         return
     click.echo(
-        f"{found.runs} runs; one took {found.run_s:.1f} s and {found.run_mb:.0f} MB, so about "
-        f"{duration(found.total_s)} with {found.workers} workers"
+        f"{counted(found.runs, 'run')}; one took {found.run_s:.1f} s and {found.run_mb:.0f} MB, so "
+        f"about {duration(found.total_s)} with {counted(found.workers, 'worker')}"
     )
 
 
-def print_result(result: SweepResult, as_json: bool, quiet: bool) -> None:
-    """Print what a sweep has come to on standard output."""
+def print_result(result: SweepResult, again: str, as_json: bool, quiet: bool) -> None:
+    """Print what a sweep has come to on standard output.
+
+    Parameters
+    ----------
+    again
+        Command that does what is still to do.
+    """
     table = result.folder.table_path
     if as_json:
         outcome = {
@@ -41,14 +48,10 @@ def print_result(result: SweepResult, as_json: bool, quiet: bool) -> None:
         return
     if quiet:
         return
-    click.echo(f"{_counted(result.rows, 'row')} of {_counted(result.runs, 'run')} in {table}")
+    click.echo(f"{counted(result.rows, 'row')} of {counted(result.runs, 'run')} in {table}")
     if result.failed:
-        failed = _counted(result.failed, "run")
+        failed = counted(result.failed, "run")
         click.echo(f"{failed} failed: the causes are in {result.folder.machine_path}")
     if result.missing:
-        click.echo(f"still to do: {_counted(result.missing, 'run')}, with the same command")
+        click.echo(f"still to do: {counted(result.missing, 'run')}, with {again}")
     click.echo(f"sweep folder: {result.folder.path}")
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'s' * (count != 1)}"

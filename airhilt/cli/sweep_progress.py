@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
+from airhilt.cli.words import counted
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.outcome import Outcome
 
@@ -58,7 +59,7 @@ class SweepProgress(SweepObserver):
         if self._quiet:
             return
         had = f", {finished} of them finished before" if finished else ""
-        self._console.print(f"{total} runs{had}; {workers}", soft_wrap=True)
+        self._console.print(f"{counted(total, 'run')}{had}; {workers}", soft_wrap=True)
         if self._console.is_terminal:
             self._progress = Progress(
                 TextColumn("{task.description}"),

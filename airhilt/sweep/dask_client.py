@@ -238,5 +238,6 @@ def _outcome(client: Client, future: Future[str], request: Request) -> Outcome:
 
 def _lost(client: Client) -> ClusterError:
     return ClusterError(
-        f"{address(client)} is lost; what was finished is kept, and the same command does the rest"
+        f"{address(client)} is lost; what was finished is kept, and the same command with "
+        "the same --out does the rest"
     )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError
@@ -65,23 +63,6 @@ def first_seeds(count: int) -> dict[str, int]:
     if count < 1:
         raise AirhiltError(f"seeds {count}: expected at least 1, for the seed 0")
     return {"from": 0, "to": count - 1, "step": 1}
-
-
-def read_specification(path: Path) -> Specification:
-    """Return the specification in a file.
-
-    Raises
-    ------
-    AirhiltError
-        It cannot be read, or is not valid.
-    """
-    try:
-        document: Any = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise AirhiltError(f"{path}: no JSON: {error}") from None
-    return specification_of(document, str(path))
 
 
 def specification_of(document: Any, origin: str) -> Specification:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from airhilt.cli.words import counted
 from airhilt.errors import AirhiltError
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ class _Progress:
     def __call__(self, drawn: int) -> None:
         """Tell the number of figures drawn."""
         if time.monotonic() >= self._due_s:
-            click.echo(f"{drawn} figures drawn", err=True)
+            click.echo(f"{counted(drawn, 'figure')} drawn", err=True)
             self._due_s = time.monotonic() + PERIOD_S
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from airhilt.cli.work_flags import work_flags, work_given
 
 INTERRUPTED = 130
 """Exit code after a signal."""
+WRITTEN = "airhilt.sweep.written"
+"""Key of the arguments in the context."""
 
 
 class SweepCommand(click.Command):
@@ -25,6 +28,11 @@ class SweepCommand(click.Command):
         if not any(parameter.name == "assistant" for parameter in self.params):
             self.params[2:2] = value_flags()
         return super().get_params(ctx)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Parse the arguments, and keep them as they were written."""
+        ctx.meta[WRITTEN] = tuple(args)
+        return super().parse_args(ctx, args)
 
 
 @click.command(
@@ -71,7 +79,7 @@ Examples:
     "--file",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="A sweep file (`airhilt schema --sweep`); flags add to it.",
+    help="A sweep file (`airhilt schema --sweep`); flags add to it, and replace what it says.",
 )
 @click.option(
     "--out",
@@ -86,8 +94,8 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     """Run a grid of scenarios, parameters, seeds and assistants, and make one table of it.
 
     The table is DIR/sweep.parquet (`airhilt report DIR` shows it, `airhilt.read_sweep` reads it).
-    The same command again does what is missing. Exit code 0 if every run has a row, 1 if some have
-    not.
+    The same command with the same --out does what is missing. Exit code 0 if every run has a row,
+    1 if some have not.
     """
     from airhilt.cli.sweep_flags import specification_given
     from airhilt.cli.sweep_output import print_estimate, print_result
@@ -95,33 +103,31 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     from airhilt.sweep.engine import sweep as run_sweep
     from airhilt.sweep.estimate import estimate
 
-    document = {} if given["file"] is None else _document(given["file"])
     specification = specification_given(
-        context, document, given["scenarios"], given["seeds"], given["set_"], given["sample"]
+        context, given["file"], given["scenarios"], given["seeds"], given["set_"], given["sample"]
     )
     work = work_given(given, given["out"] or _default_folder())
     if given["dry_run"]:
         print_estimate(estimate(specification, work), given["as_json"])
         return 0
+    if given["out"] is None and not given["quiet"]:
+        click.echo(f"sweep folder: {work.out}; to go on with it, add --out {work.out}", err=True)
     with SweepProgress(given["quiet"]) as progress, progress.interruptible():
         result = run_sweep(specification, work, progress)
-    print_result(result, given["as_json"], given["quiet"])
+    print_result(result, _again(context, work.out), given["as_json"], given["quiet"])
     if progress.stops:
         return INTERRUPTED
     return 0 if result.rows == result.runs else 1
 
 
+def _again(context: click.Context, out: Path) -> str:
+    """Return the command that goes on with a sweep: as it was written, and with its folder."""
+    folder = () if context.params["out"] is not None else ("--out", str(out))
+    return f"{context.command_path} {shlex.join((*context.meta[WRITTEN], *folder))}"
+
+
 def _default_folder() -> Path:
     return Path("sweeps") / f"{datetime.now(UTC):%Y%m%dT%H%M%S}-{os.getpid()}"
-
-
-def _document(path: Path) -> dict[str, Any]:
-    from airhilt.sweep.specification import read_specification
-
-    found: dict[str, Any] = read_specification(path).model_dump(
-        mode="json", by_alias=True, exclude_defaults=True
-    )
-    return found
 
 
 COMMAND = sweep

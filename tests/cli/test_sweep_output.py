@@ -1,0 +1,61 @@
+"""Texts of a sweep on the terminal."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.cli.sweep_output import print_estimate
+from airhilt.cli.sweep_progress import SweepProgress
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.sweep.engine import SweepResult
+from airhilt.sweep.estimate import Estimate
+from airhilt.sweep.specification import Specification
+from airhilt.sweep.work import Work
+
+
+@pytest.fixture
+def _stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let sweeps end with two of three runs still to do."""
+
+    def sweep(_specification: Specification, work: Work, _observer: object) -> SweepResult:
+        return SweepResult(SweepFolder(work.out), runs=3, rows=1, failed=0, missing=2)
+
+    monkeypatch.setattr("airhilt.sweep.engine.sweep", sweep)
+
+
+def to_do(printed: str) -> list[str]:
+    """Return the command that a sweep says for what is still to do, from ``sweep`` on."""
+    (line,) = [line for line in printed.splitlines() if line.startswith("still to do: 2 runs")]
+    words = shlex.split(line.partition(", with ")[2])
+    return words[words.index("sweep") :]
+
+
+@pytest.mark.usefixtures("_stopped")
+def test_what_is_left_is_done_by_the_command_that_is_told(airhilt_command: Any) -> None:
+    given = ("sweep", "--scenario", "s01a_*", "--seeds", "3")
+    done = airhilt_command(*given)
+    arguments = to_do(done.stdout)
+    assert tuple(arguments[: len(given)]) == given
+    assert arguments[len(given)] == "--out"
+    assert Path(arguments[-1]).parent == Path("sweeps")
+    assert f"--out {arguments[-1]}" in done.stderr
+    again = airhilt_command(*arguments)
+    assert to_do(again.stdout) == arguments
+
+
+@pytest.mark.usefixtures("_stopped")
+def test_a_quiet_sweep_says_nothing(airhilt_command: Any) -> None:
+    done = airhilt_command("sweep", "--scenario", "s02a_headon", "--quiet")
+    assert (done.stdout, done.stderr) == ("", "")
+
+
+def test_one_run_is_no_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    print_estimate(Estimate(runs=1, run_s=2.0, run_mb=300.0, workers=1, total_s=2.0), False)
+    SweepProgress(quiet=False).begun(1, 0, "1 worker")
+    captured = capsys.readouterr()
+    assert captured.out == "1 run; one took 2.0 s and 300 MB, so about 2 s with 1 worker\n"
+    assert captured.err == "1 run; 1 worker\n"
