@@ -87,16 +87,11 @@ class ExternalPrograms:
         WorkerError
             The message is not what belongs on its key, and the run is strict.
         """
-        if not self.heard:
-            self.heard = True
-            self._event("unregistered", key, "a program that takes no grants has published")
+        self._note_first(key)
         try:
             message = _parse(key, data, self._director.now_ns)
         except WorkerError as error:
-            self._event("refused", key, str(error))
-            if str(error) not in self._refusals:
-                self._refusals.add(str(error))
-                self._observer.notice(str(error))
+            self._refuse(key, str(error))
             if self._is_strict:
                 raise
             return
@@ -107,6 +102,23 @@ class ExternalPrograms:
         self._router.heard(key, stamped, UNREGISTERED)
         if isinstance(stamped, ActorCommand):
             self._obey(key.split("/")[1], stamped.command)
+
+    def take_refused(self, key: str, cause: str) -> None:
+        """Refuse a message that the run before this one refused: a replay has its cause alone."""
+        self._note_first(key)
+        self._refuse(key, cause)
+
+    def _note_first(self, key: str) -> None:
+        """Tell once that such a program has published."""
+        if not self.heard:
+            self.heard = True
+            self._event("unregistered", key, "a program that takes no grants has published")
+
+    def _refuse(self, key: str, cause: str) -> None:
+        self._event("refused", key, cause)
+        if cause not in self._refusals:
+            self._refusals.add(cause)
+            self._observer.notice(cause)
 
 
 def _parse(key: str, data: bytes, now_ns: int) -> Message:

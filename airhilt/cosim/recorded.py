@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from airhilt.messages import Event
 from airhilt.record import Loss
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sim import LatencySpec
@@ -40,6 +41,8 @@ class Recorded:
         Losses of these programs, by name.
     unregistered
         Messages of unregistered programs.
+    refused
+        Events of messages that the earlier run refused: they have key and cause of each.
     unavailable_reason
         Why no pictures could be drawn from the start; empty if they could.
     cameras_lost
@@ -55,6 +58,7 @@ class Recorded:
     programs: tuple[str, ...] = ()
     losses: Mapping[str, Loss] = field(default_factory=dict)
     unregistered: tuple[UnregisteredMessage, ...] = ()
+    refused: tuple[Event, ...] = ()
     unavailable_reason: str = ""
     cameras_lost: tuple[int, str] | None = None
     has_pictures: bool = False

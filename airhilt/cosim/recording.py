@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -94,6 +94,14 @@ def read_recorded(
             for logged in log
             if logged.publisher == UNREGISTERED
         ),
+        refused=tuple(event for event in _events(log) if event.kind == "refused"),
+    )
+
+
+def depends_on_log(info: RunInfo) -> bool:
+    """Return whether a replay takes what other programs or services said from the log."""
+    return (
+        info.unregistered_programs or bool(_elsewhere(info)) or _is_spoken_elsewhere(info.options)
     )
 
 
@@ -126,12 +134,16 @@ def _unavailable_reason(log: Sequence[Logged]) -> str:
 
 def _cameras_lost(log: Sequence[Logged]) -> tuple[int, str] | None:
     """Return when there were no more pictures, and why; None if there were to the end."""
+    for event in _events(log):
+        if event.kind == "cameras_lost":
+            return event.t_ns, event.text
+    return None
+
+
+def _events(log: Sequence[Logged]) -> Iterator[Event]:
     for logged in log:
         if logged.key == "truth/event":
-            event = Event.model_validate_json(logged.data)
-            if event.kind == "cameras_lost":
-                return event.t_ns, event.text
-    return None
+            yield Event.model_validate_json(logged.data)
 
 
 def _is_spoken_elsewhere(options: Options) -> bool:

@@ -328,6 +328,9 @@ class Simulation:
         for message in recorded.unregistered:
             take = partial(self._programs.take, message.key, message.data)
             self._director.at(message.t_ns, take, Priority.SCRIPT)
+        for event in recorded.refused:
+            refuse = partial(self._programs.take_refused, event.subject, event.text)
+            self._director.at(event.t_ns, refuse, Priority.SCRIPT)
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 

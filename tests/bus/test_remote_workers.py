@@ -370,6 +370,8 @@ def test_a_command_from_outside_moves_an_aircraft(encounter: Scenario, tmp_path:
     # Messages on different keys come in any order.
     refused = {event["subject"] for event in events if event["kind"] == "refused"}
     assert refused == {"command/DAL456", "tts/a-1"}
+    verdict = replay(result.folder)
+    assert verdict.identical, verdict.difference
 
 
 def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> None:
