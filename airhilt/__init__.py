@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from airhilt import messages
     from airhilt.cosim.observer import Observer, Result, Snapshot
     from airhilt.options import Options
+    from airhilt.record.run import Run as RecordedRun
     from airhilt.scenario import Scenario
     from airhilt.sim.worker import Input, Output
     from airhilt.workers import Step, Worker
@@ -41,6 +42,7 @@ __all__ = [
     "__version__",
     "load",
     "messages",
+    "open_run",
     "read_sweep",
     "run",
     "run_sweep",
@@ -84,6 +86,26 @@ def load(name_or_file: str | Path) -> Scenario:
     if not isinstance(name_or_file, str | Path):
         raise TypeError(f"scenario {shown(name_or_file)}: expected its name, or a file")
     return load_scenario(name_or_file)
+
+
+def open_run(folder: str | Path) -> RecordedRun:
+    """Open a run folder: its messages, latencies and ``run.json``, and what is damaged in it.
+
+    Python warns of each file that is not as the run wrote it; the rest can be read.
+
+    Parameters
+    ----------
+    folder
+        Folder of a run that has ended, was killed, or is still going on.
+
+    Raises
+    ------
+    AirhiltError
+        There is no run in it, or its ``run.json`` cannot be read.
+    """
+    from airhilt.record.run import open_run as open_folder
+
+    return open_folder(folder)
 
 
 def read_sweep(folder: str | Path, *, machine: bool = False) -> DataFrame:

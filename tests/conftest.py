@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -13,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load
+from airhilt import load, run
 from airhilt.cli import main
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
@@ -39,6 +40,22 @@ def encounter_file(encounter: Scenario, tmp_path: Path) -> Path:
     path = tmp_path / "encounter.json"
     path.write_text(encounter.model_dump_json())
     return path
+
+
+@pytest.fixture(scope="session")
+def recorded_run(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run of 8 s; nobody changes it."""
+    short = encounter.model_copy(update={"duration_s": 8.0})
+    out = tmp_path_factory.mktemp("recorded") / "run"
+    return run(
+        short, out=out, latency="fixed", assistant="adsb_only", speech=False, report=False
+    ).folder
+
+
+@pytest.fixture
+def run_copy(recorded_run: Path, tmp_path: Path) -> Path:
+    """A copy of that run, to be damaged."""
+    return Path(shutil.copytree(recorded_run, tmp_path / "run"))
 
 
 @pytest.fixture

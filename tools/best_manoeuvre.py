@@ -31,7 +31,7 @@ from airhilt.assistant.decision.manoeuvres import (
 from airhilt.geodesy.relative_motion import Minima, Relative, VerticalProfile
 from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import ActorTruth, Briefing
-from airhilt.record import RunFolder, read_log
+from airhilt.record import open_run
 from airhilt.units import (
     DEGREE,
     FOOT,
@@ -77,16 +77,16 @@ def main() -> None:
 
 def best_manoeuvres(run: Path, by: str, past: str, known_at_s: float) -> list[Best]:
     """Return the best manoeuvre of one aircraft for each delay after a time of a run."""
-    folder = RunFolder.open(run)
+    recorded = open_run(run)
     flown: dict[str, list[ActorTruth]] = {by: [], past: []}
-    for logged in read_log(folder.log_path):
+    for logged in recorded.messages():
         if logged.key == "briefing":
             minima = _minima(Briefing.model_validate_json(logged.data))
         callsign = logged.key.removeprefix("truth/state/")
         if callsign in flown and callsign != logged.key:
             flown[callsign].append(ActorTruth.model_validate_json(logged.data))
     (kind,) = (
-        actor["aircraft"] for actor in folder.info().scenario["actors"] if actor["callsign"] == by
+        actor["aircraft"] for actor in recorded.info.scenario["actors"] if actor["callsign"] == by
     )
     own = next(each for each in flown[by] if each.t_ns >= known_at_s * SECOND_NS)
     other = _recorded(own, flown[past])

@@ -14,13 +14,14 @@ from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.observer import Observer
-from airhilt.cosim.recording import read_recorded
+from airhilt.cosim.recording import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.files import content_sha256
 from airhilt.messages import Event
-from airhilt.record import Logged, RunFolder, RunInfo, read_latencies, read_log
+from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
 from airhilt.record.folder import versions
+from airhilt.record.run import untold
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 
@@ -75,13 +76,14 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
     Raises
     ------
     RunFolderError
-        There is no run, or it cannot be read.
+        There is no run, it cannot be read, or what its replay needs is damaged.
     """
-    folder = RunFolder.open(path)
-    info = folder.info()
+    original = open_run(path, untold)
+    folder, info = original.folder, original.info
     _require_comparable(info, folder)
-    latencies = read_latencies(folder.latency_path)
-    recorded_log = list(read_log(folder.log_path))
+    _require_inputs(original)
+    latencies = original.latencies()
+    recorded_log = list(original.messages())
     try:
         scenario = Scenario.model_validate(info.scenario)
     except ValidationError as error:
@@ -100,10 +102,15 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
                 **AS_RECORDED,
             }
         )
-        recorded = read_recorded(folder, info, latencies, recorded_log)
+        try:
+            recorded = read_recorded(folder, info, latencies, recorded_log)
+        except ValidationError as error:
+            raise RunFolderError(
+                f"{folder.log_path}: {first_problem(error)}; expected a log of this version"
+            ) from None
         result = run(scenario, options, observer, recorded)
         repeated = list(read_log(RunFolder(result.folder).log_path))
-    return _compare(recorded_log, repeated, info)
+    return _compare(recorded_log, repeated, original)
 
 
 def _configuration(info: RunInfo) -> dict[str, Any] | None:
@@ -130,8 +137,24 @@ def _require_comparable(info: RunInfo, folder: RunFolder) -> None:
         )
 
 
-def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunInfo) -> Verdict:
-    notes = []
+def _require_inputs(original: Run) -> None:
+    """Refuse a recording that is damaged where what came from outside may have been.
+
+    Raises
+    ------
+    RunFolderError
+        The log is damaged, and has what other programs or services said.
+    """
+    if original.log_damage and depends_on_log(original.info):
+        raise RunFolderError(
+            f"{original.folder.path}: {original.log_damage}; a replay needs it, because other "
+            "programs or services took part in the run"
+        )
+
+
+def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], original: Run) -> Verdict:
+    info = original.info
+    notes = list(original.damage)
     now = versions()
     changed = [
         f"{name} {was} -> {now.get(name)}"
@@ -147,8 +170,11 @@ def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], info: RunIn
     ]
     if info.phase != "finished":
         recorded = list(takewhile(lambda logged: not _is_stop(logged), recorded))
-        repeated = repeated[: len(recorded)]
+        repeated = repeated[: recorded[-1].sequence if recorded else 0]
         notes.append("the recording breaks off; compared up to there")
+    if original.log_damage:
+        left = {logged.sequence for logged in recorded}
+        repeated = [logged for logged in repeated if logged.sequence in left]
     for index, (was, now_is) in enumerate(zip_longest(recorded, repeated)):
         if was != now_is:
             return Verdict(False, index, _difference(index, was, now_is), tuple(notes))
@@ -171,5 +197,8 @@ def _difference(index: int, was: Logged | None, now_is: Logged | None) -> str:
             f"{head}: recorded {was.key} by {was.publisher} at {was.t_ns} ns, "
             f"now {now_is.key} by {now_is.publisher} at {now_is.t_ns} ns"
         )
-    field = first_difference(json.loads(was.data), json.loads(now_is.data), was.key)
+    try:
+        field = first_difference(json.loads(was.data), json.loads(now_is.data), was.key)
+    except (ValueError, RecursionError):
+        field = f"{was.key}: recorded something that is no JSON"
     return f"{head}: {field}"

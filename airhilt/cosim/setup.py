@@ -22,8 +22,9 @@ from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.library import nearest
 from airhilt.options import Options
-from airhilt.record import RunFolder, RunInfo, read_latencies
+from airhilt.record import RunFolder, RunInfo, open_run
 from airhilt.record.folder import WorkerRecord, machine, versions
+from airhilt.record.run import untold
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
@@ -200,8 +201,8 @@ def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
     if spec.replay_of is None:
         # Equipment of the world is as late as it is, however late the assistant is.
         return replace(spec, stages={EQUIPMENT: LatencySpec("fixed"), **spec.stages})
-    earlier = RunFolder.open(Path(spec.replay_of))
-    info = earlier.info()
+    earlier = open_run(spec.replay_of, untold)
+    info = earlier.info
     name = info.scenario.get("name")
     if (name, info.options.seed) != (scenario.name, seed):
         raise AirhiltError(
@@ -215,7 +216,7 @@ def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
             f"{first_difference(info.scenario, document)}; expected the scenario of that run, "
             "which its run.json holds, or a new run to take latencies from"
         )
-    recorded = read_latencies(earlier.latency_path)
+    recorded = earlier.latencies()
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
 
 

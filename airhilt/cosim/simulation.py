@@ -32,7 +32,6 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
-from airhilt.files import sha256
 from airhilt.messages import Clock, Phase, WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
@@ -410,7 +409,7 @@ class Simulation:
                 "phase": "stopped" if cause else "finished",
                 "cause": cause,
                 "unregistered_programs": self._programs.heard,
-                "hashes": {"log.mcap": sha256(self._setup.folder.log_path)},
+                "files": self._setup.folder.manifest(),
             }
         )
 

@@ -14,10 +14,11 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from airhilt._version import __version__
-from airhilt.errors import RunFolderError, first_problem
+from airhilt.errors import RunFolderError, first_line, first_problem, shown
 from airhilt.files import replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
+from airhilt.record.manifest import FileRecord, digest, manifest
 
 FORMAT = 2
 RECORDED_VERSIONS = (
@@ -79,7 +80,9 @@ class RunInfo(BaseModel):
     started_at: str
     versions: dict[str, str]
     platform: dict[str, str]
-    hashes: dict[str, str] = {}
+    files: dict[str, FileRecord] = {}
+    """Manifest: each file of the run by its path in the folder, once the run has ended. What can be
+    made again from them, such as the report, is not in it."""
     renderer: str = ""
     """Renderer that drew, where the options ask for ``auto``; empty if no pictures were drawn."""
     models: dict[str, str] = {}
@@ -87,12 +90,20 @@ class RunInfo(BaseModel):
     other_packages: dict[str, str] = {}
     """Name and version of the package of each member in use that is not AIRHILT's, such as that of
     ``kind moose``."""
+    digest: str = ""
+    """Hash of all of the above; empty in runs of version 0.5."""
 
     @model_validator(mode="before")
     @classmethod
-    def _understand_format_1(cls, given: Any) -> Any:
-        """Return a record of version 0.4 or earlier as one of now."""
-        if not isinstance(given, dict) or given.get("format") != 1:
+    def _understand_earlier(cls, given: Any) -> Any:
+        """Return a record of version 0.5 or earlier as one of now."""
+        if not isinstance(given, dict):
+            return given
+        if isinstance(hashes := given.get("hashes"), dict):
+            records = {name: {"sha256": value} for name, value in hashes.items()}
+            given = {key: value for key, value in given.items() if key != "hashes"}
+            given["files"] = records
+        if given.get("format") != 1:
             return given
         options = dict(given.get("options") or {})
         options["attach"] = options.pop("attached", ())
@@ -132,6 +143,7 @@ class RunFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.info_path = path / "run.json"
+        self.signature_path = path / "run.json.sig"
         self.log_path = path / "log.mcap"
         self.latency_path = path / "latency.jsonl"
         self.summary_path = path / "summary.json"
@@ -190,18 +202,25 @@ class RunFolder:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """All files that a run has written or will write."""
+        """All files that a run has written or will write, and its signature."""
+        return (*self.results, self.info_path, self.signature_path, self.report_path)
+
+    @property
+    def results(self) -> tuple[Path, ...]:
+        """The files that the manifest has: what no other file of the run can give again."""
         return (
             *sorted(self.audio_path.glob("*.wav")),
             *sorted(self.pictures_path.glob("*.png")),
             *sorted(self.pictures_path.glob("*.jpg")),
             *sorted(self.video_path.glob("*.mp4")),
-            self.info_path,
             self.log_path,
             self.latency_path,
             self.summary_path,
-            self.report_path,
         )
+
+    def manifest(self) -> dict[str, FileRecord]:
+        """Return SHA-256 and size of each file that the run has written."""
+        return manifest(self.path, self.results)
 
     @classmethod
     def open(cls, path: Path) -> RunFolder:
@@ -218,8 +237,10 @@ class RunFolder:
         return folder
 
     def write_info(self, info: RunInfo) -> None:
-        """Write ``run.json``, all or nothing."""
-        self._write(self.info_path, info.model_dump_json(indent=2))
+        """Write ``run.json`` with the hash of its content, all or nothing."""
+        document = json.loads(info.model_dump_json())
+        sealed = info.model_copy(update={"digest": digest(document)})
+        self._write(self.info_path, sealed.model_dump_json(indent=2))
 
     def write_summary(self, summary: BaseModel) -> None:
         """Write ``summary.json``, all or nothing."""
@@ -244,7 +265,7 @@ class RunFolder:
             It is damaged or of another format.
         """
         try:
-            return RunInfo.model_validate_json(self.info_path.read_text(encoding="utf-8"))
+            return RunInfo.model_validate_json(self.info_path.read_bytes())
         except OSError as error:
             raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
@@ -253,9 +274,25 @@ class RunFolder:
             ) from None
 
     def summary(self) -> dict[str, Any] | None:
-        """Return ``summary.json``, or None if the run did not write it."""
+        """Return ``summary.json``, or None if the run did not write it.
+
+        Raises
+        ------
+        RunFolderError
+            It cannot be read, or is no JSON object.
+        """
         try:
-            loaded: dict[str, Any] = json.loads(self.summary_path.read_text(encoding="utf-8"))
-        except (OSError, json.JSONDecodeError):
+            loaded = json.loads(self.summary_path.read_bytes())
+        except FileNotFoundError:
             return None
+        except OSError as error:
+            raise RunFolderError(f"{self.summary_path}: cannot be read: {error.strerror}") from None
+        except (ValueError, RecursionError) as error:
+            raise RunFolderError(
+                f"{self.summary_path}: no JSON: {first_line(error)}; expected the summary of a run"
+            ) from None
+        if not isinstance(loaded, dict):
+            raise RunFolderError(
+                f"{self.summary_path}: {shown(loaded)}; expected an object with a run's numbers"
+            )
         return loaded

@@ -15,8 +15,9 @@ from airhilt.audio.wav import write_wav
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
-from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import recorded_pcm
+from airhilt.record.folder import RunFolder
+from airhilt.record.run import Notice, Run, open_run, untold
 from airhilt.units import SECOND_NS
 
 
@@ -54,6 +55,8 @@ class FrequencyRecording:
     frequency_khz: int
     calls: tuple[RecordedCall, ...]
     audio: Audio = field(repr=False)
+    notes: tuple[str, ...] = ()
+    """Files of the run that are damaged."""
 
     @property
     def duration_s(self) -> float:
@@ -63,7 +66,8 @@ class FrequencyRecording:
     def text(self) -> str:
         """Return the transcript for people to read."""
         head = f"{self.run}, {_megahertz(self.frequency_khz)}, {len(self.calls)} calls"
-        return "\n\n".join([head, *map(_paragraph, self.calls)]) + "\n"
+        notes = (f"Damaged: {note}" for note in self.notes)
+        return "\n\n".join([head, *notes, *map(_paragraph, self.calls)]) + "\n"
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything but the sound, for JSON."""
@@ -72,11 +76,15 @@ class FrequencyRecording:
             "frequency_khz": self.frequency_khz,
             "duration_s": self.duration_s,
             "calls": [asdict(call) for call in self.calls],
+            "notes": list(self.notes),
         }
 
 
 def write_frequency(
-    run_folder: Path, frequency_khz: int | None = None, out: Path | None = None
+    run_folder: Path,
+    frequency_khz: int | None = None,
+    out: Path | None = None,
+    notice: Notice = untold,
 ) -> tuple[FrequencyRecording, Path, Path]:
     """Write the sound of a frequency with the timing of the run, and its transcript.
 
@@ -87,6 +95,8 @@ def write_frequency(
     out
         The WAV file; the transcript has the same name with ``.txt``. None writes both into the
         run folder, under the name of the frequency.
+    notice
+        Is told what is damaged; the transcript says it too.
 
     Returns
     -------
@@ -101,9 +111,9 @@ def write_frequency(
     SpeechError
         The run has no sound.
     """
-    folder = RunFolder.open(run_folder)
-    recording = _read(folder, frequency_khz)
-    wav = out or folder.path / f"frequency-{recording.frequency_khz}.wav"
+    run = open_run(run_folder, notice)
+    recording = _read(run, frequency_khz)
+    wav = out or run.folder.path / f"frequency-{recording.frequency_khz}.wav"
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
     text = wav.with_suffix(".txt")
@@ -115,12 +125,13 @@ def write_frequency(
     return recording, wav, text
 
 
-def _read(folder: RunFolder, frequency_khz: int | None) -> FrequencyRecording:
+def _read(run: Run, frequency_khz: int | None) -> FrequencyRecording:
+    folder = run.folder
     transmissions: list[Transmission] = []
     spoken: dict[str, SpokenTruth] = {}
     transcripts: dict[str, list[Transcript]] = {}
     try:
-        for logged in read_log(folder.log_path):
+        for logged in run.messages():
             kind = logged.key.split("/")
             if kind[0] == "radio" and kind[-1] == "tx":
                 transmissions.append(Transmission.model_validate_json(logged.data))
@@ -140,7 +151,7 @@ def _read(folder: RunFolder, frequency_khz: int | None) -> FrequencyRecording:
         key=lambda tx: (tx.t_tx_ns, tx.id),
     )
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
-    return FrequencyRecording(folder.info().run, chosen, calls, _splice(folder, tuned))
+    return FrequencyRecording(run.info.run, chosen, calls, _splice(folder, tuned), run.damage)
 
 
 def _choose(

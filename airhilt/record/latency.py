@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from airhilt.errors import RunFolderError, disk_failed
+from airhilt.errors import RunFolderError, disk_failed, first_line
 from airhilt.sim import StepRecord
 
 
@@ -91,32 +92,45 @@ class RecordedLatencies:
 
 
 def read_latencies(path: Path) -> RecordedLatencies:
-    """Return the steps of a run, up to where the file breaks off.
+    """Return the steps of a run; a last line that breaks off is left out.
 
     Raises
     ------
     RunFolderError
-        The file cannot be read.
+        The file cannot be read, or one of its lines is no step of a worker.
     """
     recorded = RecordedLatencies()
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_bytes().splitlines(keepends=True)
     except OSError as error:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
-    for line in lines:
-        try:
-            row = json.loads(line)
-        except json.JSONDecodeError:
+    for number, line in enumerate(lines, start=1):
+        if not line.endswith(b"\n"):
             break
-        worker = row["worker"]
-        if "lost" in row:
-            recorded.losses[worker] = Loss(row["t_ns"], row["lost"])
-        else:
-            seq = row["seq"]
-            recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
-            recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
-            recorded.wakes_ns.setdefault(worker, {})[seq] = row["wake_ns"]
-            if not row["finished"]:
-                due_ns = row["t_start_ns"] + row["latency_ns"]
-                recorded.unfinished[worker] = UnfinishedStep(seq, due_ns)
+        try:
+            _take(json.loads(line), recorded)
+        except (ValueError, TypeError, LookupError, RecursionError) as error:
+            raise RunFolderError(
+                f"{path}: line {number}: {first_line(error)}; expected a step of a worker"
+            ) from None
     return recorded
+
+
+def _take(row: dict[str, Any], recorded: RecordedLatencies) -> None:
+    """Keep one line of a latency log."""
+    worker = row["worker"]
+    if "lost" in row:
+        if type(row["t_ns"]) is not int:
+            raise TypeError("its time is no whole number")
+        recorded.losses[worker] = Loss(row["t_ns"], row["lost"])
+        return
+    seq = row["seq"]
+    numbers = (seq, row["latency_ns"], row["outputs"], row["t_start_ns"])
+    if not all(type(number) is int for number in (*numbers, row["wake_ns"] or 0)):
+        raise TypeError("a number is no whole one")
+    recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
+    recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
+    recorded.wakes_ns.setdefault(worker, {})[seq] = row["wake_ns"]
+    if not row["finished"]:
+        due_ns = row["t_start_ns"] + row["latency_ns"]
+        recorded.unfinished[worker] = UnfinishedStep(seq, due_ns)

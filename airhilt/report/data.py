@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.metrics.summary import ClosestApproach, Summary
-from airhilt.record import Logged, RunFolder, RunInfo, read_log
+from airhilt.record import Logged, Run, RunFolder, RunInfo
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
 from airhilt.report.sections import GuardedContent
@@ -129,27 +129,22 @@ class RunData:
         }
 
 
-def read_run(folder: RunFolder, page: Path, contents: Sequence[GuardedContent]) -> RunData:
+def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
     """Read a run folder, and give the messages of its log to the sections that ask for them.
 
     Parameters
     ----------
-    folder
-        Folder of a run that has finished, was stopped, was killed or is still going on.
+    recorded
+        A run that has finished, was stopped, was killed or is still going on.
     page
         File that the page is written to.
     contents
         Receivers of messages: each gets those with the keys of its section.
-
-    Raises
-    ------
-    RunFolderError
-        ``run.json`` is damaged.
     """
-    info = folder.info()
-    notes: list[str] = []
+    info, folder = recorded.info, recorded.folder
+    notes = [f"Damaged: {cut(line)}." for line in recorded.damage]
     log = _Log(_points_a_track(info), contents)
-    log.read(folder.log_path, notes)
+    log.read(recorded, notes)
     summary = _summary(folder, notes)
     _note_how_it_ended(info, log, notes)
     airport = _airport(info, notes)
@@ -186,10 +181,10 @@ class _Log:
         self._contents = contents
         self._receivers: dict[str, list[GuardedContent]] = {}
 
-    def read(self, path: Path, notes: list[str]) -> None:
+    def read(self, recorded: Run, notes: list[str]) -> None:
         """Read the log up to where it breaks off."""
         try:
-            for logged in read_log(path):
+            for logged in recorded.messages():
                 self._take(logged)
         except RunFolderError as error:
             notes.append(f"The log cannot be read, so there is nothing to draw: {cut(str(error))}")
@@ -232,7 +227,11 @@ class _Log:
 
 
 def _summary(folder: RunFolder, notes: list[str]) -> Summary | None:
-    loaded = folder.summary()
+    try:
+        loaded = folder.summary()
+    except RunFolderError as error:
+        notes.append(f"The numbers below are missing: {cut(str(error))}")
+        return None
     if loaded is None:
         notes.append(
             "There is no summary.json: the run was killed or is still going on. The numbers below "

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import RunFolderError
-from airhilt.record import RunFolder
+from airhilt.record import Run, open_run
+from airhilt.record.run import Notice, untold
 from airhilt.report.assembly import Assembly
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections
@@ -28,7 +29,7 @@ SHARED = (
 """Scripts that all sections may use, in the order in which they build on each other."""
 
 
-def write_report(run_folder: Path, out: Path | None = None) -> Path:
+def write_report(run_folder: Path, out: Path | None = None, notice: Notice = untold) -> Path:
     """Write the page of a run, by default as ``report.html`` in its folder.
 
     Parameters
@@ -37,6 +38,8 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
         Folder of a run that has finished, was stopped, was killed or is still going on.
     out
         File to write instead.
+    notice
+        Is told what is damaged; the page says it too.
 
     Returns
     -------
@@ -48,8 +51,9 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
     RunFolderError
         There is no run, its ``run.json`` is damaged, or the page cannot be written.
     """
-    folder = RunFolder.open(run_folder)
-    html = render(folder, out or folder.report_path)
+    run = open_run(run_folder, notice)
+    folder = run.folder
+    html = render(run, out or folder.report_path)
     if out is None:
         folder.write_report(html)
         return folder.report_path
@@ -60,11 +64,11 @@ def write_report(run_folder: Path, out: Path | None = None) -> Path:
     return out
 
 
-def render(folder: RunFolder, page: Path) -> str:
+def render(recorded: Run, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
     sections, problems = load_sections()
-    contents = [GuardedContent(section, folder) for section in sections]
-    run = read_run(folder, page, contents)
+    contents = [GuardedContent(section, recorded.folder) for section in sections]
+    run = read_run(recorded, page, contents)
     own = {content.section.name: content.as_json(run) for content in contents}
     problems += [note for content in contents for note in content.notes]
     run.notes.extend(map(cut, problems))

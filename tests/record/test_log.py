@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from airhilt.errors import RunFolderError
-from airhilt.record.log import LogWriter, read_log
+from airhilt.record import LogWriter, read_log
 
 
 def test_a_log_that_ends_before_its_first_message_says_so(tmp_path: Path) -> None:

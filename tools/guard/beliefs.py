@@ -11,7 +11,7 @@ from airhilt.assistant.decision.guard import Guard, call_of
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.messages import AdsbReport, SpokenTruth, Transcript
-from airhilt.record.log import read_log
+from airhilt.record import read_log
 
 Belief = tuple[str, str, str]
 """Callsign, action, and runway or level; empty if that was not heard."""

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from airhilt.cli.notices import tell
+
 FILE_WIDTH = 120
 """Characters of a line where standard output is no terminal."""
 
@@ -61,7 +63,7 @@ def compare(
     """
     from airhilt.report.comparison import compare as found_by
 
-    found = found_by(first, second, assistants)
+    found = found_by(first, second, assistants, tell)
     if as_json:
         click.echo(json.dumps(found.as_json(), indent=2))
     else:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.notices import tell
+
 
 @click.command(
     epilog="""\b
@@ -36,7 +38,7 @@ def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_jso
     """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
     from airhilt.record.frequency import write_frequency
 
-    recording, wav, text = write_frequency(run_folder, frequency_khz, out)
+    recording, wav, text = write_frequency(run_folder, frequency_khz, out, tell)
     if as_json:
         files = {"wav": str(wav), "transcript": str(text)}
         click.echo(json.dumps(recording.as_dict() | files, indent=2))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from airhilt.cli.notices import tell
 from airhilt.cli.words import counted
 from airhilt.errors import AirhiltError
 
@@ -62,7 +63,7 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
     else:
         from airhilt.report import write_report
 
-        click.echo(write_report(folder, out))
+        click.echo(write_report(folder, out, tell))
 
 
 class _Progress:

@@ -7,7 +7,8 @@ from pathlib import Path
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.metrics.frames import frame_of
-from airhilt.record import RunFolder
+from airhilt.record import RunFolder, open_run
+from airhilt.record.run import Notice
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.comparison.runs import RunComparison, compare_runs
 from airhilt.report.comparison.sweeps import Side, SweepComparison, compare_sides
@@ -15,7 +16,10 @@ from airhilt.report.sweeps.data import parameters_of
 
 
 def compare(
-    first: Path, second: Path | None = None, assistants: tuple[str, str] | None = None
+    first: Path,
+    second: Path | None = None,
+    assistants: tuple[str, str] | None = None,
+    notice: Notice | None = None,
 ) -> RunComparison | SweepComparison:
     """Return what differs between two runs, two sweeps, or two assistants of one sweep.
 
@@ -25,6 +29,8 @@ def compare(
         Two run folders or two sweep folders; second is None for two assistants of one sweep.
     assistants
         The two assistants, None for two folders.
+    notice
+        Is told what is damaged in a run. None warns of it, as Python does.
 
     Raises
     ------
@@ -50,7 +56,7 @@ def compare(
         raise AirhiltError(
             f"{first}, {second}: one is a sweep and the other a run; expected two of one kind"
         )
-    return compare_runs(RunFolder.open(first), RunFolder.open(second), names)
+    return compare_runs(open_run(first, notice), open_run(second, notice), names)
 
 
 def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:

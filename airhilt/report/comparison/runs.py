@@ -8,7 +8,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.metrics.columns import Value, metric_columns, metrics_of
-from airhilt.record import RunFolder, RunInfo
+from airhilt.record import Run, RunInfo
 from airhilt.report.data import RunData, read_run
 from airhilt.report.text import cut
 
@@ -76,7 +76,7 @@ class RunComparison:
         }
 
 
-def compare_runs(first: RunFolder, second: RunFolder, names: tuple[str, str]) -> RunComparison:
+def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparison:
     """Return what differs between two runs, which have these names.
 
     Raises
@@ -84,7 +84,7 @@ def compare_runs(first: RunFolder, second: RunFolder, names: tuple[str, str]) ->
     AirhiltError
         One has no summary, or is damaged.
     """
-    runs = [read_run(folder, folder.report_path, []) for folder in (first, second)]
+    runs = [read_run(each, each.folder.report_path, []) for each in (first, second)]
     rows = [_metrics(run) for run in runs]
     differing = [name for name in rows[0] if rows[0][name] != rows[1][name]]
     columns = {each.name: each for each in metric_columns()}

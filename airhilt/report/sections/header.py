@@ -29,7 +29,7 @@ class Origin(Content):
                 *((f"version of {name}", version) for name, version in info.versions.items()),
                 *((f"platform, {name}", value) for name, value in info.platform.items()),
                 ("started at", info.started_at),
-                *((f"SHA-256 of {name}", value) for name, value in info.hashes.items()),
+                *((f"SHA-256 of {name}", file.sha256) for name, file in info.files.items()),
             ],
         }
 

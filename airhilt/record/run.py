@@ -1,0 +1,163 @@
+"""A recorded run: its folder, read and checked against its manifest.
+
+Every command that reads a run opens it with `open_run`, which tells in one line a file what is
+damaged, and from when to when. The rest of the run can be read.
+"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from airhilt.errors import RunFolderError
+from airhilt.record.folder import RunFolder, RunInfo
+from airhilt.record.latency import RecordedLatencies, read_latencies
+from airhilt.record.log_reader import Logged, LogReader, gaps_text
+from airhilt.record.manifest import FileRecord, digest, problem_of
+from airhilt.units import SECOND_NS
+
+Notice = Callable[[str], None]
+"""Tells a person one line."""
+
+
+def untold(_: str) -> None:
+    """Tell nobody, because the result itself says what is damaged."""
+
+
+class DamagedRunWarning(UserWarning):
+    """A file of a run is not as the run wrote it."""
+
+
+class Run:
+    """A run folder whose files that commands read have been compared with its manifest.
+
+    Attributes
+    ----------
+    folder
+        The paths in the folder.
+    info
+        Content of ``run.json``.
+    log_damage
+        From when to when the log is damaged, empty if it is not.
+    damage
+        A line for each file that is not as the run wrote it.
+    """
+
+    def __init__(self, folder: RunFolder) -> None:
+        self.folder = folder
+        self.info: RunInfo = folder.info()
+        self.log_damage = log_problem(folder, self.info)
+        lines = (
+            digest_problem(folder, self.info),
+            self.log_damage,
+            *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
+        )
+        self.damage = tuple(line for line in lines if line)
+
+    def messages(self) -> Iterator[Logged]:
+        """Yield the messages of the log in the order of writing, up to where it breaks off.
+
+        What is damaged is left out. `damage` says where.
+
+        Raises
+        ------
+        RunFolderError
+            The log cannot be read at all.
+        """
+        yield from LogReader(self.folder.log_path).messages()
+
+    def latencies(self) -> RecordedLatencies:
+        """Return the steps of the workers.
+
+        Raises
+        ------
+        RunFolderError
+            They cannot be read, or are not those that the run wrote.
+        """
+        if problem := self._problem(self.folder.latency_path):
+            raise RunFolderError(
+                f"{self.folder.path}: {problem}; expected the latencies that the run had"
+            )
+        return read_latencies(self.folder.latency_path)
+
+    def _problem(self, path: Path) -> str:
+        record = self.info.files.get(path.name)
+        return "" if record is None else problem_of(self.folder.path, path.name, record)
+
+
+def open_run(path: str | Path, notice: Notice | None = None) -> Run:
+    """Open the folder of a run that has ended, was killed, or is still going on.
+
+    Parameters
+    ----------
+    path
+        The run folder.
+    notice
+        Is told each line of the run's ``damage``. None warns of it, as Python does.
+
+    Raises
+    ------
+    RunFolderError
+        There is no run in it, or its ``run.json`` cannot be read.
+    """
+    run = Run(RunFolder.open(Path(path)))
+    for line in run.damage:
+        text = f"{run.folder.path}: {line}"
+        if notice is None:
+            warnings.warn(text, DamagedRunWarning, stacklevel=2)
+        else:
+            notice(text)
+    return run
+
+
+def digest_problem(folder: RunFolder, info: RunInfo) -> str:
+    """Return in words why ``run.json`` is not as the run wrote it, empty if it is.
+
+    One of version 0.5 has no hash of itself.
+    """
+    if not info.digest:
+        return ""
+    try:
+        found = digest(json.loads(folder.info_path.read_bytes()))
+    except (OSError, ValueError, RecursionError):
+        found = ""
+    return "" if found == info.digest else "run.json: damaged or changed: not what its digest says"
+
+
+def log_problem(folder: RunFolder, info: RunInfo) -> str:
+    """Return in words from when to when the log is damaged, empty if it is not.
+
+    A log without a record in the manifest, because its run was killed or goes on, is checked by
+    its own checksums. Nothing is said of one that cannot be read at all and has no record.
+    """
+    path = folder.log_path
+    record = info.files.get(path.name)
+    if record is not None and not problem_of(folder.path, path.name, record):
+        return ""
+    reader = LogReader(path)
+    try:
+        for _ in reader.messages():
+            pass
+    except RunFolderError as error:
+        if record is None:
+            return ""
+        return str(error).replace(str(path), path.name)
+    return _log_text(path.name, reader, record)
+
+
+def _log_text(name: str, reader: LogReader, record: FileRecord | None) -> str:
+    if reader.gaps:
+        return f"{name}: {gaps_text(reader.gaps)}; the rest is read"
+    if record is None:
+        return ""
+    if not reader.is_closed:
+        ended = f"{reader.end_ns / SECOND_NS:.3f} s"
+        return f"{name}: damaged from {ended} to its end: it breaks off there"
+    if reader.is_faultless:
+        return (
+            f"{name}: changed after the run: its own checksums are right, but its SHA-256 is not "
+            "that in run.json"
+        )
+    return f"{name}: damaged outside of its messages, all of which are read"
