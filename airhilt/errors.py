@@ -49,6 +49,10 @@ class RunFolderError(AirhiltError):
     """A run folder cannot be written, or does not hold what it must."""
 
 
+class SignatureError(AirhiltError):
+    """A key is none, or a run cannot be signed."""
+
+
 def disk_failed(path: str, error: OSError) -> RunFolderError:
     """Return the error for a disk that takes no more in the middle of a run."""
     return RunFolderError(

@@ -71,6 +71,7 @@ def cli() -> None:
     airhilt cosim --scenario s02a_headon      run one
     airhilt report RUN                        make its report, one HTML file
     airhilt replay RUN                        run it again and compare
+    airhilt verify RUN                        say whether it is as it was written
     airhilt listen RUN                        write what was said, as sound and as text
     airhilt sweep --scenario 's02a_*' --snr 0:20:5 --seeds 10    run many, into one table
     airhilt evaluate --preset paper           make the paper's table

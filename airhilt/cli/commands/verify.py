@@ -1,0 +1,43 @@
+"""The command that says whether a run is as it was written, and by whom it is signed."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import click
+
+
+@click.command(
+    epilog="""\b
+Examples:
+  airhilt verify runs/s02a_headon-0-20260101T120000
+  airhilt verify RUN --key lab.key.pub
+  airhilt verify RUN --json
+"""
+)
+@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.option(
+    "--key",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="PUBLIC",
+    help="Public key by which the run must be signed.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def verify(run_folder: Path, key: Path | None, as_json: bool) -> None:
+    """Say whether every file of a run is as the run wrote it.
+
+    Without --key this finds damage. Only a signature tells that nobody changed the run on purpose.
+
+    Exit code 0: intact, and signed by the key if one is given. 1: damaged, or not signed by the
+    key. 3: unfinished, because the run was killed or is still going on.
+    """
+    from airhilt.record.verification import verify as verify_run
+
+    found = verify_run(run_folder, key)
+    click.echo(json.dumps(found.as_dict(), indent=2) if as_json else str(found))
+    sys.exit(found.exit_code)
+
+
+COMMAND = verify

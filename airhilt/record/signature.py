@@ -1,0 +1,148 @@
+"""Signatures of runs: Ed25519 (RFC 8032) over the bytes of ``run.json``, which has the manifest.
+
+The signature is ``run.json.sig``: its 64 bytes, as ``openssl pkeyutl -rawin`` reads and writes
+them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+
+from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
+from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey, Ed25519PublicKey
+from cryptography.hazmat.primitives.serialization import (
+    Encoding,
+    NoEncryption,
+    PrivateFormat,
+    PublicFormat,
+    load_pem_private_key,
+    load_pem_public_key,
+)
+
+from airhilt.errors import SignatureError
+from airhilt.files import replace_file
+from airhilt.record.folder import RunFolder
+
+NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
+"""Exceptions of a file that holds no key, or one that needs a password."""
+
+
+def public_file(private: Path) -> Path:
+    """Return the path of the public key that belongs to a private one."""
+    return private.with_name(f"{private.name}.pub")
+
+
+def make_keys(private: Path) -> str:
+    """Write a new private key, which only its owner may read, and its public key beside it.
+
+    Returns
+    -------
+    str
+        The fingerprint of the key.
+
+    Raises
+    ------
+    SignatureError
+        There is such a file already, or it cannot be written.
+    """
+    public = public_file(private)
+    for path in (private, public):
+        if path.exists() or path.is_symlink():
+            raise SignatureError(f"{path}: is there already; choose another name for the key")
+    key = Ed25519PrivateKey.generate()
+    pem = key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
+    _write_new(private, pem, 0o600)
+    _write_new(
+        public,
+        key.public_key().public_bytes(Encoding.PEM, PublicFormat.SubjectPublicKeyInfo),
+        0o644,
+    )
+    return fingerprint(key.public_key())
+
+
+def _write_new(path: Path, data: bytes, mode: int) -> None:
+    try:
+        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
+        with open(descriptor, "wb") as stream:  # noqa: PTH123
+            stream.write(data)
+    except OSError as error:
+        raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def fingerprint(key: Ed25519PublicKey) -> str:
+    """Return the SHA-256 of a public key (its 32 bytes), by which people compare keys."""
+    return hashlib.sha256(key.public_bytes(Encoding.Raw, PublicFormat.Raw)).hexdigest()
+
+
+def private_key(path: Path) -> Ed25519PrivateKey:
+    """Return the private key in a file.
+
+    Raises
+    ------
+    SignatureError
+        It cannot be read, or is no private Ed25519 key without a password.
+    """
+    try:
+        key = load_pem_private_key(_content(path), None)
+    except NO_KEY:
+        key = None
+    if not isinstance(key, Ed25519PrivateKey):
+        raise SignatureError(
+            f"{path}: no private key; expected one that `airhilt keys sign` has made (Ed25519, "
+            "PEM, without a password)"
+        )
+    return key
+
+
+def public_key(path: Path) -> Ed25519PublicKey:
+    """Return the public key in a file.
+
+    Raises
+    ------
+    SignatureError
+        It cannot be read, or is no public Ed25519 key.
+    """
+    try:
+        key = load_pem_public_key(_content(path))
+    except NO_KEY:
+        key = None
+    if not isinstance(key, Ed25519PublicKey):
+        raise SignatureError(
+            f"{path}: no public key; expected the file with .pub that `airhilt keys sign` has made"
+        )
+    return key
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise SignatureError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def sign(folder: RunFolder, key: Ed25519PrivateKey) -> None:
+    """Write the signature of a run beside its manifest.
+
+    Raises
+    ------
+    SignatureError
+        The run is signed already, or the signature cannot be written.
+    """
+    path = folder.signature_path
+    if path.exists():
+        raise SignatureError(f"{path}: the run is signed already; delete it to sign the run anew")
+    try:
+        replace_file(path, key.sign(_content(folder.info_path)))
+    except OSError as error:
+        raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def is_signed_by(folder: RunFolder, key: Ed25519PublicKey) -> bool:
+    """Return whether the signature of a run is of this key, and of ``run.json`` as it is now."""
+    try:
+        key.verify(_content(folder.signature_path), _content(folder.info_path))
+    except InvalidSignature:
+        return False
+    return True

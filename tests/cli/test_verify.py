@@ -1,0 +1,235 @@
+"""`airhilt verify` says what a run folder proves, and signatures say by whom it is."""
+
+from __future__ import annotations
+
+import json
+import stat
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.record import RunFolder
+from airhilt.record.manifest import digest
+from damage import break_third_chunk, flip, kill
+
+
+@pytest.fixture
+def keys(airhilt_command: Any, tmp_path: Path) -> Path:
+    assert airhilt_command("keys", "sign", tmp_path / "lab.key").returncode == 0
+    return tmp_path / "lab.key"
+
+
+@pytest.fixture
+def signed(airhilt_command: Any, keys: Path, run_copy: Path) -> Path:
+    assert airhilt_command("sign", run_copy, "--key", keys).returncode == 0
+    return run_copy
+
+
+def verified(airhilt_command: Any, *arguments: object) -> tuple[int, dict[str, Any]]:
+    done: subprocess.CompletedProcess[str] = airhilt_command("verify", *arguments, "--json")
+    assert done.stderr == ""
+    return done.returncode, json.loads(done.stdout)
+
+
+# --- damage ---------------------------------------------------------------------------------
+
+
+def test_a_run_as_it_was_written_is_intact(airhilt_command: Any, run_copy: Path) -> None:
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"], found["problems"]) == (0, "intact", [])
+    assert found["files"] == len(RunFolder(run_copy).info().files) == 3
+    assert found["signature"] == "absent"
+
+
+def test_every_file_of_a_run_is_in_its_manifest(airhilt_command: Any, encounter_file: Path) -> None:
+    done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
+    assert done.returncode == 0, done.stderr
+    folder = encounter_file.parent / "run"
+    code, found = verified(airhilt_command, folder)
+    assert (code, found["additional"], found["made_again"]) == (0, [], ["report.html"])
+    files = RunFolder(folder).info().files
+    assert any(name.startswith("audio/") for name in files)
+    assert all((folder / name).stat().st_size == file.size_bytes for name, file in files.items())
+
+
+@pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json", "run.json"])
+def test_a_flipped_bit_of_any_file_is_damage(
+    airhilt_command: Any, run_copy: Path, name: str
+) -> None:
+    flip(run_copy / name, 8 * ((run_copy / name).stat().st_size // 2))
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"]) == (1, "damaged")
+    (problem,) = found["problems"]
+    assert problem.startswith(name)
+
+
+def test_damage_of_the_log_has_its_time(airhilt_command: Any, run_copy: Path) -> None:
+    break_third_chunk(run_copy)
+    done = airhilt_command("verify", run_copy)
+    assert done.returncode == 1
+    assert done.stdout.startswith(f"{run_copy}: damaged\n  log.mcap: damaged from 2.")
+    assert "messages are missing" in done.stdout
+
+
+def test_missing_and_additional_files_are_named(airhilt_command: Any, run_copy: Path) -> None:
+    (run_copy / "latency.jsonl").unlink()
+    (run_copy / "audio").mkdir(exist_ok=True)
+    (run_copy / "audio" / "call-99.wav").write_bytes(b"RIFF")
+    (run_copy / "frequency-119100.txt").write_text("Tower")
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["problems"]) == (1, ["latency.jsonl: missing"])
+    assert found["additional"] == ["audio/call-99.wav"]
+    assert found["made_again"] == ["frequency-119100.txt"]
+
+
+def test_an_additional_file_alone_is_no_damage(airhilt_command: Any, run_copy: Path) -> None:
+    (run_copy / "notes.txt").write_text("run on a Tuesday")
+    done = airhilt_command("verify", run_copy)
+    assert done.returncode == 0
+    assert "not written by the run: notes.txt" in done.stdout
+
+
+def test_a_killed_run_is_unfinished(airhilt_command: Any, run_copy: Path) -> None:
+    kill(run_copy)
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"]) == (3, "unfinished")
+    assert found["ended"].startswith("its log has messages up to 7.")
+
+
+def test_a_killed_run_may_be_damaged_too(airhilt_command: Any, run_copy: Path) -> None:
+    kill(run_copy)
+    break_third_chunk(run_copy)
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"]) == (1, "damaged")
+
+
+def test_a_manifest_cannot_name_a_file_elsewhere(airhilt_command: Any, run_copy: Path) -> None:
+    (run_copy.parent / "secret.txt").write_text("secret")
+    tamper(run_copy, lambda document: document["files"].update({"../secret.txt": {"sha256": "0"}}))
+    code, found = verified(airhilt_command, run_copy)
+    assert code == 1
+    assert found["problems"][0].startswith("../secret.txt: outside of the run folder")
+
+
+def test_a_folder_without_a_run_is_a_mistake(airhilt_command: Any, tmp_path: Path) -> None:
+    done = airhilt_command("verify", tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "no run here" in done.stderr
+
+
+# --- signatures -----------------------------------------------------------------------------
+
+
+def tamper(folder: Path, change: Any) -> None:
+    """Change ``run.json``, and make its hash right again, as somebody would on purpose."""
+    path = folder / "run.json"
+    document = json.loads(path.read_text())
+    change(document)
+    document["digest"] = digest(document)
+    path.write_text(json.dumps(document, indent=2))
+
+
+def test_a_signed_run_is_good_by_its_key_alone(
+    airhilt_command: Any, signed: Path, keys: Path, tmp_path: Path
+) -> None:
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["state"], found["signature"]) == (0, "intact", "good")
+    assert found["additional"] == []
+    assert airhilt_command("keys", "sign", tmp_path / "other.key").returncode == 0
+    code, found = verified(airhilt_command, signed, "--key", tmp_path / "other.key.pub")
+    assert (code, found["state"], found["signature"]) == (1, "intact", "bad")
+    code, found = verified(airhilt_command, signed)
+    assert (code, found["signature"]) == (0, "unchecked")
+
+
+def test_a_manifest_that_was_changed_on_purpose_is_not_genuine(
+    airhilt_command: Any, signed: Path, keys: Path
+) -> None:
+    tamper(signed, lambda document: document["options"].update(seed=7))
+    code, found = verified(airhilt_command, signed)
+    assert (code, found["state"]) == (0, "intact")
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["signature"]) == (1, "bad")
+
+
+def test_a_file_that_was_changed_after_signing_is_damage(
+    airhilt_command: Any, signed: Path, keys: Path
+) -> None:
+    (signed / "summary.json").write_text("{}")
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["state"], found["signature"]) == (1, "damaged", "good")
+
+
+@pytest.mark.parametrize("content", [b"", b"x" * 64, b"x" * 1000])
+def test_a_signature_that_is_none_is_bad(
+    airhilt_command: Any, signed: Path, keys: Path, content: bytes
+) -> None:
+    (signed / "run.json.sig").write_bytes(content)
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["signature"]) == (1, "bad")
+
+
+def test_a_run_without_the_signature_that_was_asked_for_is_not_genuine(
+    airhilt_command: Any, run_copy: Path, keys: Path
+) -> None:
+    code, found = verified(airhilt_command, run_copy, "--key", f"{keys}.pub")
+    assert (code, found["signature"]) == (1, "absent")
+
+
+def test_only_a_run_that_is_intact_is_signed_and_only_once(
+    airhilt_command: Any, signed: Path, keys: Path
+) -> None:
+    done = airhilt_command("sign", signed, "--key", keys)
+    assert (done.returncode, "signed already" in done.stderr) == (2, True)
+    (signed / "run.json.sig").unlink()
+    (signed / "latency.jsonl").unlink()
+    done = airhilt_command("sign", signed, "--key", keys)
+    assert done.returncode == 2
+    assert "damaged: latency.jsonl: missing; expected a run that is intact" in done.stderr
+    kill(signed)
+    done = airhilt_command("sign", signed, "--key", keys)
+    assert (done.returncode, "unfinished" in done.stderr) == (2, True)
+    assert not (signed / "run.json.sig").exists()
+
+
+def test_a_run_over_a_signed_one_is_not_signed(airhilt_command: Any, encounter_file: Path) -> None:
+    command = ("cosim", "--scenario", encounter_file, "--assistant", "none", "--no-speech")
+    assert airhilt_command(*command, "--out", "run").returncode == 0
+    assert airhilt_command("keys", "sign").returncode == 0
+    assert airhilt_command("sign", "run", "--key", "airhilt.key").returncode == 0
+    assert airhilt_command(*command, "--out", "run", "--overwrite").returncode == 0
+    code, found = verified(airhilt_command, "run")
+    assert (code, found["signature"]) == (0, "absent")
+
+
+# --- keys -----------------------------------------------------------------------------------
+
+
+def test_a_private_key_is_for_its_owner_alone_and_never_overwritten(
+    airhilt_command: Any, keys: Path
+) -> None:
+    assert stat.S_IMODE(keys.stat().st_mode) == 0o600
+    before = keys.read_bytes()
+    done = airhilt_command("keys", "sign", keys)
+    assert (done.returncode, "is there already" in done.stderr) == (2, True)
+    keys.rename(keys.with_name("kept.key"))
+    done = airhilt_command("keys", "sign", keys)
+    assert (done.returncode, f"{keys}.pub: is there already" in done.stderr) == (2, True)
+    assert keys.with_name("kept.key").read_bytes() == before
+    assert not keys.exists()
+
+
+def test_a_key_of_the_wrong_kind_is_a_named_mistake(
+    airhilt_command: Any, run_copy: Path, keys: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "text").write_text("no key")
+    for key in (keys, tmp_path / "text", run_copy / "log.mcap"):
+        done = airhilt_command("verify", run_copy, "--key", key)
+        assert (done.returncode, "no public key" in done.stderr) == (2, True)
+    for key in (keys.with_name("lab.key.pub"), tmp_path / "text"):
+        done = airhilt_command("sign", run_copy, "--key", key)
+        assert (done.returncode, "no private key" in done.stderr) == (2, True)
+    done = airhilt_command("sign", run_copy, "--key", tmp_path / "missing")
+    assert (done.returncode, "cannot be read" in done.stderr) == (2, True)
