@@ -12,9 +12,17 @@ if TYPE_CHECKING:
 
 
 class AirhiltError(Exception):
-    """A mistake in what AIRHILT was given; the command line prints it and exits with 2."""
+    """A mistake in what AIRHILT was given; the command line prints it and exits with 2.
+
+    Attributes
+    ----------
+    is_of_machine
+        True for what another machine, or another time, might not have: a process was killed, a
+        service does not answer, a disk is full.
+    """
 
     exit_code = 2
+    is_of_machine = False
 
 
 class RunStopped(AirhiltError):
@@ -48,6 +56,8 @@ class BusError(AirhiltError):
 class RunFolderError(AirhiltError):
     """A run folder cannot be written, or does not hold what it must."""
 
+    is_of_machine = True
+
 
 class SignatureError(AirhiltError):
     """A key is none, or a run cannot be signed."""
@@ -77,6 +87,12 @@ class RendererError(AirhiltError):
     """Pictures cannot be drawn: something is not installed, or the renderer has died."""
 
 
+class RendererLost(RendererError):
+    """The process that draws has ended, does not answer, or has no room."""
+
+    is_of_machine = True
+
+
 class VideoError(AirhiltError):
     """A video cannot be written: something is not installed, or FFmpeg refuses."""
 
@@ -87,6 +103,13 @@ class VisionError(AirhiltError):
 
 class LanguageModelError(AirhiltError):
     """A language model does not answer, refuses, or is not at the address that was given."""
+
+
+def is_of_machine(error: BaseException) -> bool:
+    """Return true for what another machine, or another time, might not have."""
+    if isinstance(error, AirhiltError):
+        return error.is_of_machine
+    return isinstance(error, OSError | MemoryError)
 
 
 def first_problem(error: ValidationError) -> str:

@@ -158,7 +158,9 @@ class HttpService:
 
     def error(self, what: str, expected: str) -> AirhiltError:
         """Return the error that says what the service does and what was expected."""
-        return self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
+        error = self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
+        error.is_of_machine = True
+        return error
 
 
 def without_key(text: str, key: str) -> str:

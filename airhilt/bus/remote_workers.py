@@ -99,16 +99,18 @@ class RemoteWorker:
         """
         for reply in replies:
             if reply.err is not None:
-                raise WorkerLost(self._failure(reply.err.payload.to_bytes()))
+                raise self._lost(reply.err.payload.to_bytes())
             if reply.ok is not None:
                 return self._parse(seq, reply.ok)
-        raise WorkerLost(f"worker {self.name!r} is gone: nothing answers {self._key}/step")
+        gone = f"worker {self.name!r} is gone: nothing answers {self._key}/step"
+        raise WorkerLost(gone, is_of_machine=True)
 
-    def _failure(self, payload: bytes) -> str:
+    def _lost(self, payload: bytes) -> WorkerLost:
         text = payload[:400].decode("utf-8", "replace")
         if text == "Timeout":
-            return f"worker {self.name!r} did not answer within {self._timeout_s:g} s"
-        return f"worker {self.name!r} failed: {text}"
+            slow = f"worker {self.name!r} did not answer within {self._timeout_s:g} s"
+            return WorkerLost(slow, is_of_machine=True)
+        return WorkerLost(f"worker {self.name!r} failed: {text}")
 
     def _parse(self, seq: int, sample: zenoh.Sample) -> Reply:
         payload = sample.payload.to_bytes()

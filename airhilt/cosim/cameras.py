@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.assistant.reference import NO_ASSISTANT, NO_DETECTOR
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
@@ -93,7 +94,7 @@ class Vision:
         *,
         state_at_ns: Callable[[], int],
         closest_ns: Callable[[], int | None],
-        lost: Callable[[str], None],
+        lost: Callable[[str, bool], None],
     ) -> None:
         """Add the cameras to a run, and let recorders take what is published.
 
@@ -104,7 +105,8 @@ class Vision:
         closest_ns
             Returns when the pair of the conflict was nearest up to now; None if there is no pair.
         lost
-            Called with the cause when there will be no more pictures.
+            Called when there will be no more pictures, with the cause, and true if that is of the
+            machine.
         """
         if self._renderer is None:
             return
@@ -208,7 +210,7 @@ def open_vision(
     setup: Setup,
     participants: Participants,
     links: Sequence[RendererLink],
-    notice: Callable[[str], None],
+    observer: Observer,
 ) -> Iterator[Vision]:
     """Open the renderer for the time of a run, if somebody might look at its pictures.
 
@@ -216,8 +218,8 @@ def open_vision(
     ----------
     links
         Processes that have been started to draw.
-    notice
-        Called with what a user should know at once, such as why nothing can be drawn.
+    observer
+        Is told what a user should know at once, such as why nothing can be drawn.
 
     Raises
     ------
@@ -244,8 +246,12 @@ def open_vision(
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
                 unavailable_reason = str(error)
-                _tell(f"vision is not evaluated: {unavailable_reason}", options.strict, notice)
-        yield Vision(setup, renderer, unavailable_reason, participants.does("vision"), notice)
+                if error.is_of_machine:
+                    observer.machine_failed(unavailable_reason)
+                text = f"vision is not evaluated: {unavailable_reason}"
+                _tell(text, options.strict, observer.notice)
+        is_watched = participants.does("vision")
+        yield Vision(setup, renderer, unavailable_reason, is_watched, observer.notice)
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:

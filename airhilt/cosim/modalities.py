@@ -42,8 +42,20 @@ class Modalities:
             Status(t_ns=self._director.now_ns, modality=modality, state=state, cause=cause),
         )
 
-    def lose(self, modality: Modality, kind: EventKind, subject: str, cause: str) -> None:
+    def lose(
+        self,
+        modality: Modality,
+        kind: EventKind,
+        subject: str,
+        cause: str,
+        is_of_machine: bool = False,
+    ) -> None:
         """Go on without a modality, and tell everybody.
+
+        Parameters
+        ----------
+        is_of_machine
+            True if another machine, or another time, might not have it.
 
         Raises
         ------
@@ -54,6 +66,8 @@ class Modalities:
         self._event(kind, subject, cause)
         t_s = self._director.now_ns / SECOND_NS
         self._observer.notice(f"lost at {t_s:.1f} s: {cause}")
+        if is_of_machine:
+            self._observer.machine_failed(cause)
         if self._is_strict:
             raise RunStopped(
                 f"stopped at {t_s:.1f} s, as --strict asks: {cause}; run again without --strict "

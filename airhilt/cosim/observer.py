@@ -44,3 +44,6 @@ class Observer:
 
     def notice(self, text: str) -> None:
         """Take note of something that the user should know at once."""
+
+    def machine_failed(self, cause: str) -> None:
+        """Take note that the run goes on without something that another machine might have kept."""

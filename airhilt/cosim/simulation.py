@@ -121,7 +121,7 @@ def _run(
         )
         if participants.programs and options.pace is None and not setup.recorded.programs:
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, links, observer.notice))
+        vision = stack.enter_context(open_vision(setup, participants, links, observer))
         setup.folder.create(options.overwrite)
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)
@@ -446,20 +446,20 @@ class Simulation:
         self._latency_log.step(record)
         self._collector.step(record)
 
-    def _worker_lost(self, worker: WorkerDescription, cause: str) -> None:
+    def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
         if worker.modality == "tts":
             self._advisories.voice_lost()
         self._latency_log.lost(worker.name, self._director.now_ns, cause)
-        self._modalities.lose(worker.modality, "worker_lost", worker.name, cause)
+        self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
 
     def _gone(self, name: str) -> None:
         """Give up a worker or a program of another process that has ended."""
         cause = f"worker {name!r} is gone: its process ended"
         if name in self._participants.programs:
             self._latency_log.lost(name, self._director.now_ns, cause)
-            self._modalities.lose("decision", "worker_lost", name, cause)
+            self._modalities.lose("decision", "worker_lost", name, cause, is_of_machine=True)
         else:
-            self._pool.servers[name].lose(cause)
+            self._pool.servers[name].lose(cause, is_of_machine=True)
 
     # --- what is told -----------------------------------------------------------------------
 

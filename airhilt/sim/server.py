@@ -44,7 +44,8 @@ class Server:
     done
         Called with the record of each finished step.
     lost
-        Called once with the cause when the worker is lost; it is never called again.
+        Called once when the worker is lost, with the cause, and true if that is of the machine;
+        the worker is never called again.
     """
 
     def __init__(
@@ -56,7 +57,7 @@ class Server:
         *,
         deliver: Callable[[Output], None],
         done: Callable[[StepRecord], None],
-        lost: Callable[[str], None],
+        lost: Callable[[str, bool], None],
     ) -> None:
         self.name = name
         self.dropped: Counter[str] = Counter()
@@ -83,12 +84,12 @@ class Server:
             self._busy = True
             self._director.at(self._director.now_ns, self._start, Priority.START)
 
-    def lose(self, cause: str) -> None:
+    def lose(self, cause: str, is_of_machine: bool = False) -> None:
         """Give the worker up: what waits for it is dropped, and nothing more is sent."""
         if not self.is_lost:
             self.is_lost = True
             self._waiting.clear()
-            self._lost(cause)
+            self._lost(cause, is_of_machine)
 
     def unfinished(self) -> StepRecord | None:
         """Return the step in hand, if there is one."""
@@ -163,7 +164,7 @@ class Server:
         try:
             return pending.result()
         except WorkerLost as lost:
-            self.lose(str(lost))
+            self.lose(str(lost), lost.is_of_machine)
             return None
 
     def _finish(self, reply: Reply, step: StepRecord) -> None:

@@ -12,7 +12,17 @@ Policy = Literal["fifo", "latest", "batch"]
 
 
 class WorkerLost(Exception):
-    """The worker died, hung or raised; the text says which and when."""
+    """The worker died, hung or raised; the text says which and when.
+
+    Parameters
+    ----------
+    is_of_machine
+        True if another machine, or another time, might not have it.
+    """
+
+    def __init__(self, text: str, is_of_machine: bool = False) -> None:
+        super().__init__(text)
+        self.is_of_machine = is_of_machine
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,8 +23,9 @@ from shutil import rmtree
 
 import psutil
 
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.simulation import run
-from airhilt.errors import AirhiltError, RunFolderError, failure_in
+from airhilt.errors import AirhiltError, failure_in, is_of_machine
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
@@ -73,18 +74,16 @@ def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outco
     begun_wall, begun_cpu = time.perf_counter(), _cpu_s()
     with tempfile.TemporaryDirectory(prefix="airhilt-run-") as scratch:
         folder = Path(scratch) / "run"
+        losses = _Losses()
         try:
             if request.keep != "none":
                 folder = _emptied(Path(f"{request.folder}.partial"))
-            metrics = metrics_of(_summary(request, folder, keeper))
-        except (OSError, MemoryError) as error:
-            status, cause = "crashed", failure_in(error)
-        except RunFolderError as error:  # A full disk is of this machine alone.
-            status, cause = "crashed", str(error)
-        except AirhiltError as error:
-            status, cause = "failed", " ".join(str(error).split())
+            metrics = metrics_of(_summary(request, folder, keeper, losses))
         except Exception as error:  # A mistake in any part of a run is a row, not the sweep's end.
-            status, cause = "failed", failure_in(error)
+            status = "crashed" if is_of_machine(error) else "failed"
+            cause = " ".join(_told(error).split()).replace(f"{folder}/", "")
+        if losses.causes and status != "crashed":  # A result that another machine would not have.
+            status, cause, metrics = "crashed", losses.causes[0], {}
         is_kept = request.keep == "all" or (request.keep == "failed" and status != "finished")
         is_kept = _settle(folder, Path(request.folder), is_kept)
     machine = Machine(
@@ -104,12 +103,29 @@ def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outco
     )
 
 
-def _summary(request: Request, folder: Path, keeper: RendererKeeper | None) -> Summary:
+class _Losses(Observer):
+    """Keeps the causes of what a run lost through its machine."""
+
+    def __init__(self) -> None:
+        self.causes: list[str] = []
+
+    def machine_failed(self, cause: str) -> None:
+        """Keep a cause."""
+        self.causes.append(" ".join(cause.split()))
+
+
+def _told(error: Exception) -> str:
+    return str(error) if isinstance(error, AirhiltError) else failure_in(error)
+
+
+def _summary(
+    request: Request, folder: Path, keeper: RendererKeeper | None, observer: Observer
+) -> Summary:
     scenario = Scenario.model_validate(request.scenario)
     options = Options.model_validate(
         request.options | {"out": folder, "report": request.keep == "all"}
     )
-    return run(scenario, options, keeper=keeper).summary
+    return run(scenario, options, observer, keeper=keeper).summary
 
 
 def _emptied(folder: Path) -> Path:

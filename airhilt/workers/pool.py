@@ -72,7 +72,8 @@ class WorkerPool:
     done
         Called with the record of each finished step.
     lost
-        Called with description and cause when a worker is lost.
+        Called when a worker is lost, with its description, the cause, and true if that is of the
+        machine.
 
     Raises
     ------
@@ -89,7 +90,7 @@ class WorkerPool:
         *,
         publish: Publish,
         done: Callable[[StepRecord], None],
-        lost: Callable[[WorkerDescription, str], None],
+        lost: Callable[[WorkerDescription, str, bool], None],
     ) -> None:
         self._director = director
         self._publish = publish

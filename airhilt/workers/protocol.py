@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from airhilt.errors import WorkerError, first_line, shown
+from airhilt.errors import WorkerError, first_line, is_of_machine, shown
 from airhilt.messages import WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
@@ -160,7 +160,7 @@ class LocalWorker:
             step, compute_s = timed_step(self._worker, t_ns, inputs)
         except (Exception, SystemExit) as error:
             failure = f"worker {name!r} failed: {type(error).__name__}: {error}"
-            return LocalStep(name, None, 0.0, failure)
+            return LocalStep(name, None, 0.0, WorkerLost(failure, is_of_machine(error)))
         return LocalStep(name, step, compute_s, None)
 
 
@@ -171,7 +171,7 @@ class LocalStep:
     worker: str
     step: Step | None
     compute_s: float
-    failure: str | None
+    failure: WorkerLost | None
 
     def result(self) -> Reply:
         """Return the reply.
@@ -184,6 +184,6 @@ class LocalStep:
             The worker returned something else than a step.
         """
         if self.failure is not None:
-            raise WorkerLost(self.failure)
+            raise self.failure
         step = checked(self.worker, self.step)
         return Reply(step.outputs, self.compute_s, step.wake_ns)

@@ -396,5 +396,5 @@ def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> 
             0,
             publish=lambda *_, **__: None,
             done=lambda record: None,
-            lost=lambda worker, cause: None,
+            lost=lambda *_: None,
         )

@@ -63,7 +63,7 @@ class Bench:
             self.latency,
             deliver=lambda output: self.out.append((self.director.now_ns, output.payload)),
             done=self.steps.append,
-            lost=self.losses.append,
+            lost=lambda cause, _: self.losses.append(cause),
         )
 
     def dispatch(self, seq: int, t_ns: int, inputs: tuple[Input]) -> Answer:

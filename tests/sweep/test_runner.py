@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import signal
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from airhilt.errors import AirhiltError, ScenarioError, disk_failed
+from airhilt import load
+from airhilt.errors import AirhiltError, RendererLost, ScenarioError, disk_failed
+from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
 from airhilt.sweep.outcome import Request
 
@@ -19,6 +25,7 @@ FULL = OSError(28, "No space left on device")
         (disk_failed("log.mcap", FULL), "crashed"),
         (FULL, "crashed"),
         (MemoryError(), "crashed"),
+        (RendererLost("the process that draws has ended"), "crashed"),
         (ScenarioError("a speed that nothing flies"), "failed"),
         (AirhiltError("an engine that is not there"), "failed"),
         (ZeroDivisionError(), "failed"),
@@ -36,3 +43,41 @@ def test_a_disk_or_memory_that_is_full_is_no_result_of_the_run(
     assert outcome.status == status
     assert outcome.cause
     assert outcome.metrics == {}
+
+
+def test_the_cause_of_a_full_disk_is_the_same_in_every_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_: Request, folder: Path, *__: object) -> None:
+        raise disk_failed(str(folder / "log.mcap"), FULL)
+
+    monkeypatch.setattr(runner, "_summary", fail)
+    kept = Request(key="k", scenario={}, options={}, keep="all", folder=str(tmp_path / "run"))
+    causes = {
+        runner.run_request(each).cause for each in (kept, kept.model_copy(update={"keep": "none"}))
+    }
+    assert len(causes) == 1
+    assert causes.pop().startswith("log.mcap: cannot be written any more: No space left")
+
+
+@pytest.mark.parametrize("strict", [False, True])
+def test_a_run_whose_renderer_was_killed_is_no_result_of_it(
+    strict: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The run itself goes on without pictures, and would finish on any machine with them."""
+    views = RendererProcess.views
+
+    def killed(process: RendererProcess, *asked: Any) -> Any:
+        with suppress(ProcessLookupError):
+            os.kill(process.process_id, signal.SIGKILL)
+        return views(process, *asked)
+
+    monkeypatch.setattr(RendererProcess, "views", killed)
+    scenario = load("s02a_headon").model_dump(mode="json") | {"duration_s": 0.5}
+    options = {"speech": False, "latency": "fixed", "renderer": "embree", "strict": strict}
+    folder = str(tmp_path / "run")
+    request = Request(key="k", scenario=scenario, options=options, keep="failed", folder=folder)
+    outcome = runner.run_request(request)
+    assert (outcome.status, outcome.metrics) == ("crashed", {})
+    assert "the process of renderer embree has ended (signal 9)" in outcome.cause
+    assert outcome.is_kept

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.errors import WorkerError
+from airhilt.errors import SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     AdvisoryAudio,
     InputSpec,
@@ -18,6 +18,7 @@ from airhilt.messages import (
     Transmission,
     WorkerDescription,
 )
+from airhilt.services import HttpService
 from airhilt.sim import Director, Input, Output, Priority, Virtual, WorkerLost, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step
@@ -83,6 +84,7 @@ class Run:
         self.raw: list[bytes | None] = []
         self.steps: list[Any] = []
         self.losses: list[tuple[str, Any]] = []
+        self.losses_of_machine = 0
         self.pool = WorkerPool(
             self.director,
             [Participant(w.description, LocalWorker(w), where="in process") for w in self.workers],
@@ -90,8 +92,12 @@ class Run:
             1,
             publish=self.publish,
             done=self.steps.append,
-            lost=lambda description, cause: self.losses.append((description.name, cause)),
+            lost=self.lost,
         )
+
+    def lost(self, description: WorkerDescription, cause: str, is_of_machine: bool) -> None:
+        self.losses.append((description.name, cause))
+        self.losses_of_machine += is_of_machine
 
     def publish(
         self,
@@ -174,6 +180,25 @@ def test_a_worker_that_raises_is_lost_and_the_others_go_on() -> None:
     run.director.run()
     assert run.losses == [("bad", "worker 'bad' failed: ZeroDivisionError: by zero")]
     assert len(good.heard) == 2
+
+
+@pytest.mark.parametrize(
+    ("failure", "is_of_machine"),
+    [
+        (ZeroDivisionError("by zero"), False),
+        (VisionError("a model that is none"), False),
+        (MemoryError(), True),
+        (HttpService("asr", "http://h/", 1.0, 1, SpeechError).error("is slow", "haste"), True),
+    ],
+)
+def test_a_worker_that_another_machine_would_have_kept_is_told_apart(
+    failure: Exception, is_of_machine: bool
+) -> None:
+    run = Run([Listener("asr/*", "bad", failure=failure)])
+    run.say("asr/1")
+    run.director.run()
+    assert len(run.losses) == 1
+    assert run.losses_of_machine == is_of_machine
 
 
 def test_a_worker_that_ends_the_interpreter_is_lost_and_the_run_goes_on() -> None:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from airhilt.child_process import Ended, NoAnswer, environment_with, exit_text
-from airhilt.errors import CameraError, RendererError, ScenarioError
+from airhilt.errors import CameraError, RendererError, RendererLost, ScenarioError
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
@@ -67,7 +67,7 @@ class RendererProcess:
     CameraError
         There is no such camera, or it could see nothing.
     RendererError
-        The renderer cannot be opened, or its process has died.
+        The renderer cannot be opened; `RendererLost` if its process has died.
     """
 
     def __init__(
@@ -119,7 +119,7 @@ class RendererProcess:
         ------
         CameraError
             A pose is not finite, or a camera is mounted on something that is not there.
-        RendererError
+        RendererLost
             The renderer's process has died, or does not answer.
         """
         views = self.views(names, bodies)
@@ -204,7 +204,7 @@ class RendererProcess:
         except OSError as error:
             if link is not None:
                 link.release()
-            raise RendererError(
+            raise RendererLost(
                 f"the renderer {self.renderer} has no room for pictures of {size / 1e6:.0f} MB and "
                 f"for what it prints: {error.strerror}; expected that much memory, and a few kB "
                 "where temporary files are (TMPDIR)"
@@ -214,13 +214,13 @@ class RendererProcess:
         try:
             answer = self._link.ask(question, patience_s)
         except NoAnswer:
-            raise RendererError(
+            raise RendererLost(
                 f"the renderer {self.renderer} has not answered for {patience_s:.0f} s, "
                 f"with pictures of {_sizes(self._cameras.values())} pixels; no more are "
                 "drawn: take smaller ones (width_px, height_px) or another --renderer"
             ) from None
         except Ended as ended:
-            raise RendererError(
+            raise RendererLost(
                 f"the process of renderer {self.renderer} has ended {ended}; no more pictures "
                 "are drawn"
             ) from None

@@ -84,7 +84,8 @@ class CameraSensor:
     state_at_ns
         Returns the time that the states of the actors are of.
     lost
-        Called with the cause when there will be no more pictures.
+        Called when there will be no more pictures, with the cause, and true if that is of the
+        machine.
     """
 
     def __init__(
@@ -98,7 +99,7 @@ class CameraSensor:
         is_adaptive: bool = False,
         state_at_ns: Callable[[], int],
         publish: PublishPictures,
-        lost: Callable[[str], None],
+        lost: Callable[[str, bool], None],
     ) -> None:
         self._director = director
         self._source = source
@@ -152,7 +153,7 @@ class CameraSensor:
         try:
             left_out, pictures = self._look(able, now_ns) if able else ({}, {})
         except (CameraError, RendererError) as error:
-            self._lost(str(error))
+            self._lost(str(error), error.is_of_machine)
             return
         for name in able:
             if name in left_out:

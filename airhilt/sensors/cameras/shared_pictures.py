@@ -43,7 +43,7 @@ class SharedPictures:
         self._drawn = DrawnPictures(process)
         self._folder = CacheFolder("pictures")
         self._states: dict[str, Any] = dict.fromkeys(process.states, CameraState().to_json())
-        self._failure = ""
+        self._failure: RendererError | None = None
         """Reason why pixels that somebody wanted to read could not be drawn."""
 
     def take(
@@ -133,9 +133,9 @@ class SharedPictures:
         try:
             return bytes(self._drawn.take([name], bodies, t_ns)[0].pixels)
         except RendererError as error:
-            self._failure = str(error)
+            self._failure = error
             raise
 
     def _require_renderer(self) -> None:
-        if self._failure:
-            raise RendererError(self._failure)
+        if self._failure is not None:
+            raise self._failure

@@ -60,10 +60,12 @@ class Flite:
                 *("-t", text),
             )
             if done.returncode:
-                raise SpeechError(
+                error = SpeechError(
                     f"voice flite: {self._command} failed with exit code {done.returncode}: "
                     f"{_last_line(done.stderr)}"
                 )
+                error.is_of_machine = done.returncode < 0  # A signal has ended it.
+                raise error
             return read_wav(path)
 
     def _run(self, *arguments: str) -> subprocess.CompletedProcess[bytes]:
@@ -76,10 +78,12 @@ class Flite:
                 stdin=subprocess.DEVNULL,
             )
         except subprocess.TimeoutExpired:
-            raise SpeechError(
+            slow = SpeechError(
                 f"voice flite: {self._command} has not answered for {TIMEOUT_S:g} s; expected "
                 "speech within a second"
-            ) from None
+            )
+            slow.is_of_machine = True
+            raise slow from None
         except (OSError, ValueError) as error:
             raise SpeechError(f"voice flite: {self._command} cannot be run: {error}") from None
 

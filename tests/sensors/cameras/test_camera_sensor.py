@@ -85,7 +85,7 @@ class Run:
             is_adaptive=is_adaptive,
             state_at_ns=lambda: 0,
             publish=lambda key, message, *, raw=None: self.published.append((key, message, raw)),
-            lost=lambda cause: self.losses.append((self.director.now_ns, cause)),
+            lost=lambda cause, _: self.losses.append((self.director.now_ns, cause)),
         )
         end_ns = round(until_s * SECOND_NS)
         self.director.at(end_ns, self.director.stop, Priority.OBSERVE)

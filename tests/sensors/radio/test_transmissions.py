@@ -380,7 +380,7 @@ class Failing(AudioRadio):
 
 def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:
     lost: list[str] = []
-    air = Air(FallbackRadio(Failing(11.0), 160.0, lost.append))
+    air = Air(FallbackRadio(Failing(11.0), 160.0, lambda cause, _: lost.append(cause)))
     air.say(10.0, "first", 3.0)
     air.say(11.2, "second", 3.0, listens_first=False)
     air.run()

@@ -83,7 +83,9 @@ class HttpDetector:
             self._failures += 1
             if self._failures < MOST_FAILURES:
                 raise PictureMissed(str(error)) from None
-            raise VisionError(f"{error} ({MOST_FAILURES} times in a row)") from None
+            lost = VisionError(f"{error} ({MOST_FAILURES} times in a row)")
+            lost.is_of_machine = error.is_of_machine
+            raise lost from None
         self._failures = 0
         return answer
 

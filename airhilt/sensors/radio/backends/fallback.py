@@ -29,11 +29,11 @@ class FallbackRadio:
     words_per_minute
         Rate of speaking without sound.
     lost
-        Called once with the cause when the backend fails.
+        Called once when the backend fails, with the cause, and true if that is of the machine.
     """
 
     def __init__(
-        self, backend: RadioBackend, words_per_minute: float, lost: Callable[[str], None]
+        self, backend: RadioBackend, words_per_minute: float, lost: Callable[[str, bool], None]
     ) -> None:
         self._backend = backend
         self._text = TextRadio(words_per_minute)
@@ -76,4 +76,4 @@ class FallbackRadio:
 
     def _lose(self, error: SpeechError) -> None:
         self.is_lost = True
-        self._lost(str(error))
+        self._lost(str(error), error.is_of_machine)
