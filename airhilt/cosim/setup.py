@@ -4,44 +4,36 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from airhilt.caches import cache_folder, cache_limit_bytes, write_problem
-from airhilt.cosim.differences import first_difference
 from airhilt.cosim.equipment import with_requested_equipment
-from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.provenance import engines_in_use, model_files, other_packages
 from airhilt.cosim.recorded import Recorded
+from airhilt.cosim.requested_latency import requested_latency
+from airhilt.cosim.requested_radio import with_requested_radio
 from airhilt.cosim.requested_sensors import with_requested_sensors
-from airhilt.errors import AirhiltError, first_problem
-from airhilt.library import nearest
+from airhilt.errors import AirhiltError
 from airhilt.options import Options
-from airhilt.record import RunFolder, RunInfo, open_run
+from airhilt.record import RunFolder, RunInfo
 from airhilt.record.folder import WorkerRecord, machine, versions
-from airhilt.record.run import untold
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
-from airhilt.scenario.models import Radio
 from airhilt.scenario.perturbation import Draw
 from airhilt.sensors.base import SensorType, load_sensor_types
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
-from airhilt.sim import LatencySpec, Pace, parse_latency, parse_pace
-from airhilt.workers.pool import EQUIPMENT
+from airhilt.sim import LatencySpec, Pace, parse_pace
 from airhilt.world.actors import Actor, build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
-STAGES = ("adsb", "enhancement", "asr", "vision", "decision", "tts", EQUIPMENT)
-"""Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 
@@ -118,12 +110,12 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     if not recorded.is_replay:
         check_options(options, given)
     scenario, draws = draw(given, options.seed)
-    scenario = _with_visibility_of(options, _with_radio_of(options, scenario))
+    scenario = _with_visibility_of(options, with_requested_radio(options, scenario))
     scenario = with_requested_sensors(
         scenario, options.radar, options.cockpit, options.surface_surveillance
     )
     scenario = with_requested_equipment(scenario, options.equipment)
-    latency = recorded.latency or _latency(options.latency, given, options.seed)
+    latency = recorded.latency or requested_latency(options.latency, given, options.seed)
     _require_not_measured(options, latency)
     pace = parse_pace(options.pace or "virtual")
     name = options.run_name or f"{given.name}-{options.seed}"
@@ -188,53 +180,6 @@ def _require_not_measured(options: Options, latency: LatencySpec) -> None:
             f"--share-pictures: with --latency {options.latency} a detection would be as late as a "
             "cache is fast; expected a latency of vision that is not measured, such as fixed"
         )
-
-
-def _latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
-    spec = parse_latency(text, PRESETS)
-    for stage in spec.stages:
-        if stage not in STAGES:
-            raise AirhiltError(
-                f"latency {text}: there is no stage {stage!r}; expected some of "
-                f"{', '.join(STAGES)}{nearest(stage, list(STAGES))}"
-            )
-    if spec.replay_of is None:
-        # Equipment of the world is as late as it is, however late the assistant is.
-        return replace(spec, stages={EQUIPMENT: LatencySpec("fixed"), **spec.stages})
-    earlier = open_run(spec.replay_of, untold)
-    info = earlier.info
-    name = info.scenario.get("name")
-    if (name, info.options.seed) != (scenario.name, seed):
-        raise AirhiltError(
-            f"latency {text}: that run is of {name!r} with seed {info.options.seed}; expected "
-            f"the same scenario and seed as this one, {scenario.name!r} with {seed}"
-        )
-    document = scenario.model_dump(mode="json")
-    if info.scenario != document:
-        raise AirhiltError(
-            f"latency {text}: the scenario {name!r} has changed since that run, at "
-            f"{first_difference(info.scenario, document)}; expected the scenario of that run, "
-            "which its run.json holds, or a new run to take latencies from"
-        )
-    recorded = earlier.latencies()
-    return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
-
-
-def _with_radio_of(options: Options, scenario: Scenario) -> Scenario:
-    """Return a scenario with those settings of its radio that the options give."""
-    given = {
-        "snr_db": options.snr_db,
-        "profile": options.radio_profile,
-        "topology": options.topology,
-    }
-    changes = {name: value for name, value in given.items() if value is not None}
-    if not changes:
-        return scenario
-    try:
-        radio = Radio.model_validate(scenario.radio.model_dump() | changes)
-    except ValidationError as error:
-        raise AirhiltError(f"radio: {first_problem(error)}") from None
-    return scenario.model_copy(update={"radio": radio})
 
 
 def _with_visibility_of(options: Options, scenario: Scenario) -> Scenario:

@@ -61,6 +61,18 @@ def locate(document: Json, path: str) -> tuple[Json, str | int]:
     return container, key
 
 
+def place_of(document: Json, path: str) -> tuple[str | int, ...]:
+    """Return the keys that lead to a value, one for each spelling of its path.
+
+    Raises
+    ------
+    PathError
+        There is no such value.
+    """
+    chunks = path.strip("/").split("/")
+    return tuple(locate(document, "/".join(chunks[: end + 1]))[1] for end in range(len(chunks)))
+
+
 def _index(entries: list[Json], chunk: str) -> int:
     named = {
         str(entry[field]): index

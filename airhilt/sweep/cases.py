@@ -7,8 +7,9 @@ import hashlib
 import itertools
 import json
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +17,16 @@ from pydantic import JsonValue, ValidationError
 
 from airhilt import library
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.cosim.option_checks import check_options
 from airhilt.engines import ASSISTANT
 from airhilt.errors import AirhiltError, ScenarioError, first_problem, shown
-from airhilt.files import content_sha256
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.problems import error_for, problems_of
 from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
+from airhilt.sweep.checks import RunChecks, require_different_places
 from airhilt.sweep.environment import Environment
+from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
 from airhilt.sweep.parameters import Parameter, Plan, parameter
 from airhilt.sweep.sampling import points
@@ -51,12 +52,15 @@ class Case:
         Options of the run that differ from their defaults, as JSON has them.
     parameters
         Value of each parameter of the grid, by its path.
+    files
+        SHA-256 of each file or folder that scenario or options name, by the text that names it.
     """
 
     document: Json
     options: Json
     seed: int
     parameters: dict[str, JsonValue]
+    files: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def scenario(self) -> str:
@@ -86,11 +90,11 @@ class Case:
 
     def key(self, environment: Environment) -> str:
         """Return what tells this run from all others: a SHA-256 in hexadecimal."""
-        options = {name: _content(value) for name, value in self.options.items()}
         whole = {
             "scenario": self.document,
-            "options": options,
+            "options": self.options,
             "seed": self.seed,
+            "files": dict(self.files),
             "environment": environment.model_dump(),
         }
         text = json.dumps(whole, sort_keys=True, separators=(",", ":"))
@@ -111,22 +115,23 @@ def cases(specification: Specification) -> list[Case]:
     seeds = _seeds(specification)
     _require_countable(specification, len(scenarios) * len(seeds))
     combinations = list(_combinations(specification))
+    checks, files = RunChecks(seeds), NamedFiles()
     found: list[Case] = []
-    problems: list[str] = []
+    problems = _Problems()
     for scenario in scenarios:
         document = scenario.model_dump(mode="json")
+        require_different_places([each for each, _ in combinations[0]], document)
         for combination in combinations:
             try:
-                plan = _plan(document, specification.options, combination)
+                plan = _plan(document, specification.options, combination, checks)
+                named = files.of(plan.document, plan.options)
             except AirhiltError as error:
-                problems.append(_told(scenario.name, combination, error))
+                told = getattr(error, "problems", (str(error),))
+                problems.add(scenario.name, combination, told)
                 continue
             parameters = {each.path: each.value(plan) for each, _ in combination}
-            found += [Case(plan.document, plan.options, seed, parameters) for seed in seeds]
-    if problems:
-        more = len(problems) - SHOWN_PROBLEMS
-        tail = f"\n... and {more} more" if more > 0 else ""
-        raise AirhiltError("\n".join(dict.fromkeys(problems[:SHOWN_PROBLEMS])) + tail)
+            found += [Case(plan.document, plan.options, seed, parameters, named) for seed in seeds]
+    problems.require_none()
     return found
 
 
@@ -198,7 +203,50 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
     return list(first.values())
 
 
-def _plan(document: Json, options: Json, combination: Combination) -> Plan:
+class _Refused(AirhiltError):
+    """Runs that cannot be, with all that is wrong with them."""
+
+    def __init__(self, problems: Sequence[str]) -> None:
+        super().__init__("\n".join(problems))
+        self.problems = problems
+
+
+class _Problems:
+    """Problems of a grid; one that many combinations have is told once, with the first of them."""
+
+    def __init__(self) -> None:
+        self._first: dict[str, str] = {}
+        self._more: Counter[str] = Counter()
+
+    def add(self, scenario: str, combination: Combination, problems: Sequence[str]) -> None:
+        """Add the problems of a scenario with a combination of values."""
+        values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
+        for problem in problems:
+            if problem in self._first:
+                self._more[problem] += 1
+            else:
+                self._first[problem] = f"{scenario} with {values}" if values else scenario
+
+    def require_none(self) -> None:
+        """Complain about all of them.
+
+        Raises
+        ------
+        AirhiltError
+            There are some.
+        """
+        lines = [
+            f"{where}: {problem}"
+            + (f" ({self._more[problem]} more)" if self._more[problem] else "")
+            for problem, where in self._first.items()
+        ]
+        if lines:
+            more = len(lines) - SHOWN_PROBLEMS
+            tail = [f"... and {more} more"] if more > 0 else []
+            raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
+
+
+def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:
     """Return a checked run in the making; options are those that were given, as JSON has them.
 
     Raises
@@ -206,15 +254,19 @@ def _plan(document: Json, options: Json, combination: Combination) -> Plan:
     AirhiltError
         A value is not what the scenario or the option takes.
     """
-    plan = Plan(document, {ASSISTANT_OPTION: ASSISTANT, **options})
+    plan = Plan(document, {ASSISTANT_OPTION: None, **options})
     for each, value in combination:
         plan = each.put(plan, value)
+    assistant = plan.options[ASSISTANT_OPTION] or ASSISTANT
+    plan = Plan(plan.document, plan.options | {ASSISTANT_OPTION: assistant})
     scenario = _scenario(plan.document)
     if plan.document is not document:
         check(scenario, scenario.name)
         plan = Plan(scenario.model_dump(mode="json"), plan.options)
     checked = _options(plan.options)
-    check_options(checked, scenario)
+    problems = checks.problems(checked, scenario)
+    if problems:
+        raise _Refused(problems)
     return Plan(plan.document, checked.model_dump(mode="json", exclude_defaults=True))
 
 
@@ -230,22 +282,3 @@ def _options(given: Json) -> Options:
         return Options(**given)
     except ValidationError as error:
         raise AirhiltError(f"option {first_problem(error)}") from None
-
-
-def _told(scenario: str, combination: Combination, error: AirhiltError) -> str:
-    """Return a problem, after the scenario and the values that it comes with."""
-    values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
-    with_values = f"{scenario} with {values}" if values else scenario
-    return f"{with_values}: {error}"
-
-
-def _content(value: Any) -> Any:
-    """Return an option's value, with the SHA-256 of a file or folder that it names."""
-    if isinstance(value, list):
-        return [_content(each) for each in value]
-    if not isinstance(value, str):
-        return value
-    argument = value.partition(":")[2]
-    path = Path(argument or value)
-    is_file = argument or "/" in value or path.suffix
-    return f"{value} {content_sha256(path)}" if is_file and path.exists() else value

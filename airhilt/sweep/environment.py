@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
@@ -11,9 +10,8 @@ from pydantic import BaseModel, ConfigDict
 from airhilt import library
 from airhilt.errors import AirhiltError
 from airhilt.record.folder import versions
+from airhilt.sweep.other_packages import PACKAGE_FILES, files_sha256, other_packages, package_sha256
 
-PACKAGE_FILES = (".py", ".onnx", ".json", ".csv", ".txt", ".npz")
-"""Endings of the files of the package that decide results: code, models and their data."""
 NOT_RESULTS = ("cli", "library", "report", "sweep")
 """Parts of the package that decide no results, and its copy of `LIBRARY`."""
 LIBRARY = ("aircraft", "airports")
@@ -30,6 +28,10 @@ class Environment(BaseModel):
     """SHA-256 of AIRHILT's code and models, and of its aircraft and airports."""
     renderer: str
     """Renderer that draws; empty without cameras."""
+    packages: dict[str, str] = {}
+    """Versions of the other packages that add something to AIRHILT, by their names."""
+    packages_sha256: dict[str, str] = {}
+    """SHA-256 of their code and data, by their names."""
 
 
 def environment(renderer: str) -> Environment:
@@ -50,7 +52,14 @@ def environment(renderer: str) -> Environment:
         from airhilt.sensors.cameras.renderers import require_renderer
 
         taken = require_renderer(renderer)
-    return Environment(versions=versions(), code_sha256=_code_sha256(), renderer=taken)
+    others = other_packages()
+    return Environment(
+        versions=versions(),
+        code_sha256=_code_sha256(),
+        renderer=taken,
+        packages={name: each.version for name, each in others.items()},
+        packages_sha256={name: package_sha256(each) for name, each in others.items()},
+    )
 
 
 def require_same(expected: Environment, found: Environment, where: str) -> None:
@@ -61,12 +70,9 @@ def require_same(expected: Environment, found: Environment, where: str) -> None:
     AirhiltError
         Something differs; the message names the worker and all of it.
     """
-    names = sorted(expected.versions.keys() | found.versions.keys())
     differences = [
-        f"{name} {found.versions.get(name, 'missing')} instead of "
-        f"{expected.versions.get(name, 'none')}"
-        for name in names
-        if found.versions.get(name) != expected.versions.get(name)
+        *_different_versions(expected.versions, found.versions),
+        *_different_versions(expected.packages, found.packages),
     ]
     if found.renderer != expected.renderer:
         differences.append(
@@ -75,6 +81,13 @@ def require_same(expected: Environment, found: Environment, where: str) -> None:
         )
     if not differences and found.code_sha256 != expected.code_sha256:
         differences.append("other code, models, aircraft or airports of AIRHILT")
+    if not differences and found.packages_sha256 != expected.packages_sha256:
+        names = [
+            name
+            for name, code in found.packages_sha256.items()
+            if code != expected.packages_sha256.get(name)
+        ]
+        differences.append(f"other code of {', '.join(sorted(names))}")
     if differences:
         raise AirhiltError(
             f"worker {where}: {'; '.join(differences)}; expected the same software everywhere, or "
@@ -82,12 +95,16 @@ def require_same(expected: Environment, found: Environment, where: str) -> None:
         )
 
 
+def _different_versions(expected: Mapping[str, str], found: Mapping[str, str]) -> list[str]:
+    return [
+        f"{name} {found.get(name, 'missing')} instead of {expected.get(name, 'none')}"
+        for name in sorted(expected.keys() | found.keys())
+        if found.get(name) != expected.get(name)
+    ]
+
+
 def _code_sha256() -> str:
-    digest = hashlib.sha256()
-    for root, path in _files():
-        content = hashlib.sha256(path.read_bytes()).hexdigest()
-        digest.update(f"{path.relative_to(root).as_posix()}\0{content}\n".encode())
-    return digest.hexdigest()
+    return files_sha256(_files())
 
 
 def _files() -> Iterator[tuple[Path, Path]]:

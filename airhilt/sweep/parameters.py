@@ -16,7 +16,7 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.options import Options, flag_of
-from airhilt.scenario.perturbation import PathError, locate
+from airhilt.scenario.perturbation import PathError, locate, place_of
 
 Json = dict[str, Any]
 
@@ -66,6 +66,17 @@ class Parameter:
             settings = _with_setting(plan.options.get("assistant_config"), rest.split("."), value)
             return Plan(plan.document, plan.options | {"assistant_config": settings})
         return Plan(_with_value(plan.document, self.path, value), plan.options)
+
+    def place(self, document: Json) -> tuple[str | int, ...]:
+        """Return the keys that lead to its value; empty for an option, or if it is not there."""
+        if self.path in Options.model_fields:
+            return ()
+        if self.path.partition(".")[0] == ASSISTANT:
+            return tuple(self.path.split("."))
+        try:
+            return place_of(document, self.path.replace(".", "/"))
+        except PathError:
+            return ()
 
     def value(self, plan: Plan) -> Any:
         """Return the value that a checked plan has of it."""

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import JsonValue
 
 import airhilt
+from airhilt import load
 from airhilt.errors import AirhiltError
+from airhilt.files import content_sha256
+from airhilt.scenario import Scenario
+from airhilt.sweep import files
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.environment import PACKAGE_FILES, Environment, require_same
+from airhilt.sweep.environment import Environment, environment, require_same
+from airhilt.sweep.files import NamedFiles
+from airhilt.sweep.other_packages import PACKAGE_FILES
 from airhilt.sweep.specification import Specification, specification_of
+from engine_package import installed
 
 HERE = Environment(versions={"airhilt": "1"}, code_sha256="0", renderer="embree")
 
@@ -113,13 +122,17 @@ def test_a_folder_that_an_option_names_is_part_of_the_key(
     monkeypatch.chdir(tmp_path)
     model = tmp_path / "mine" / "model.bin"
     model.parent.mkdir()
-    (plain,) = grid()
-    for name in ("whisper:mine", "./mine"):
-        case = Case(plain.document, plain.options | {"asr": name}, plain.seed, {})
-        model.write_text("one")
-        before = case.key(HERE)
-        model.write_text("another")
-        assert case.key(HERE) != before
+    for options in (
+        {"asr": "whisper:mine"},
+        {"asr": "./mine"},
+        {"assistant_config": {"a": "./mine"}},
+    ):
+        found = []
+        for content in ("one", "another"):
+            model.write_text(content)
+            case = Case({"name": "x"}, options, 0, {}, NamedFiles().of({}, options))
+            found.append(case.key(HERE))
+        assert found[0] != found[1]
 
 
 def test_every_kind_of_file_of_the_package_is_known_to_decide_results_or_not() -> None:
@@ -136,6 +149,54 @@ def test_all_values_that_a_scenario_refuses_are_told_at_once() -> None:
     told = str(refused.value)
     assert all(value in told for value in ("9000", "-3", "99"))
     assert "cas_kt=250, snr_db=0" not in told
+
+
+def test_all_values_that_a_run_would_refuse_are_told_at_once(tmp_path: Path) -> None:
+    latencies = ["fixed,foo=fixed:1", "bad:3", f"replay:{tmp_path}/none", "fixed"]
+    with pytest.raises(AirhiltError) as refused:
+        grid(
+            axes={"latency": latencies, "snr_db": {"from": 0, "to": 19, "step": 1}},
+            options={"assistant": "external", "radio_profile": "missing.onnx"},
+        )
+    told = str(refused.value)
+    assert "there is no stage 'foo'" in told
+    assert "latency 'bad:3': expected" in told
+    assert f"{tmp_path}/none" in told
+    assert "learned channel missing.onnx: no such file" in told
+    assert "--assistant external: no worker or program of yours attaches" in told
+    assert len(told.splitlines()) == 5
+    assert "(79 more)" in told
+
+
+def test_a_recorded_latency_is_of_one_seed(encounter: Scenario, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    airhilt.run(encounter_of_a_second(encounter), out=out, latency="fixed", speech=False)
+    path = tmp_path / "short.json"
+    path.write_text(encounter_of_a_second(encounter).model_dump_json())
+    asked = {"scenarios": [str(path)], "options": {"latency": f"replay:{out}", "speech": False}}
+    assert len(grid(**asked, seeds=[0])) == 1
+    with pytest.raises(AirhiltError, match="with seed 0; expected the same scenario and seed"):
+        grid(**asked, seeds=[0, 1])
+
+
+def encounter_of_a_second(encounter: Scenario) -> Scenario:
+    return encounter.model_copy(update={"duration_s": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("actors.0.initial.cas_kt", "actors.AAL123.initial.cas_kt"),
+        ("actors.AAL123.initial", "actors.0.initial.cas_kt"),
+    ],
+)
+def test_two_spellings_of_one_place_are_refused_by_name(one: str, other: str) -> None:
+    with pytest.raises(AirhiltError, match=f"parameters {one} and {other}: one would replace"):
+        grid(axes={one: [250], other: [260]})
+
+
+def test_no_assistant_named_is_the_one_that_a_run_has() -> None:
+    assert keys(grid(options={"assistant": None})) == keys(grid())
 
 
 def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
@@ -177,9 +238,65 @@ def test_a_model_that_was_trained_again_is_another_run(tmp_path: Path) -> None:
     found = []
     for content in (b"one", b"two", b"one"):
         model.write_bytes(content)
-        case = Case({"name": "x"}, {"asr": f"embedded:{model}"}, 0, {})
+        (case,) = grid(options={"asr": f"embedded:{model}"})
         found.append(case.key(HERE))
     assert found[0] == found[2] != found[1]
+
+
+def test_a_channel_that_a_scenario_names_is_part_of_the_key(tmp_path: Path) -> None:
+    channel = tmp_path / "mine.onnx"
+    found = []
+    for content in (b"one", b"two", b"one"):
+        channel.write_bytes(content)
+        path = scenario_with(tmp_path, radio={"profile": str(channel)})
+        (case,) = grid(scenarios=[str(path)], options={"speech": False})
+        found.append(case.key(HERE))
+    assert found[0] == found[2] != found[1]
+
+
+def scenario_with(folder: Path, **changes: dict[str, JsonValue]) -> Path:
+    """Write a scenario with some other values."""
+    document = load("s02a_headon").model_dump(mode="json")
+    for part, values in changes.items():
+        document[part] |= values
+    path = folder / "mine.json"
+    path.write_text(json.dumps(document))
+    return path
+
+
+def test_a_model_is_read_once_however_many_runs_have_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = tmp_path / "mine.onnx"
+    model.write_bytes(b"one")
+    reads: list[Path] = []
+
+    def counted(path: Path) -> str:
+        reads.append(path)
+        return content_sha256(path)
+
+    monkeypatch.setattr(files, "content_sha256", counted)
+    found = grid(options={"asr": f"embedded:{model}"}, seeds=[0, 1], axes={"snr_db": [0, 5]})
+    assert len(keys(found)) == 4
+    assert reads == [model]
+
+
+def test_another_package_that_has_changed_makes_other_keys(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (case,) = grid()
+    here = [environment("")]
+    for code in ("ENGINE = 1", "ENGINE = 2", "ENGINE = 1"):
+        with installed(tmp_path, monkeypatch, "airhilt.asr", "keyed", code):
+            here.append(environment(""))
+    assert here[1].packages == here[0].packages | {"outside_keyed": "1.0"}
+    found = [case.key(each) for each in here]
+    assert found[1] == found[3]
+    assert len(set(found)) == 3
+    with pytest.raises(AirhiltError, match=r"outside_keyed missing instead of 1\.0"):
+        require_same(here[1], here[0], "tcp://a")
+    with pytest.raises(AirhiltError, match="tcp://a: other code of outside_keyed; expected"):
+        require_same(here[1], here[2], "tcp://a")
 
 
 def test_software_that_differs_is_told_by_name() -> None:

@@ -1,0 +1,87 @@
+"""Checks of the runs of a sweep, before the first of them; what is costly is done once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from airhilt.assistant.reference import EXTERNAL
+from airhilt.cosim.option_checks import check_options
+from airhilt.cosim.requested_latency import requested_latency
+from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.errors import AirhiltError
+from airhilt.options import Options
+from airhilt.scenario import Scenario
+from airhilt.sensors.radio.backends.selection import DEFAULT_PROFILE, select_channel
+from airhilt.sweep.parameters import Parameter
+
+REPLAY = "replay:"
+"""Beginning of the latency sources that are a run, of one scenario and one seed."""
+
+
+class RunChecks:
+    """Says what is wrong with runs; a radio channel is loaded once however many have it."""
+
+    def __init__(self, seeds: Sequence[int]) -> None:
+        self._seeds = seeds
+        self._channels: dict[str, str] = {}
+
+    def problems(self, options: Options, scenario: Scenario) -> list[str]:
+        """Return all that is wrong with the runs of a scenario with some options."""
+        checks: tuple[Callable[[], None], ...] = (
+            lambda: check_options(options, scenario),
+            lambda: _require_own_assistant(options),
+            lambda: self._require_latency(options, scenario),
+            lambda: self._require_channel(options, scenario),
+        )
+        return [problem for check in checks for problem in _problems(check)]
+
+    def _require_latency(self, options: Options, scenario: Scenario) -> None:
+        seeds = self._seeds if options.latency.startswith(REPLAY) else self._seeds[:1]
+        for seed in seeds:
+            requested_latency(options.latency, scenario, seed)
+
+    def _require_channel(self, options: Options, scenario: Scenario) -> None:
+        """Complain about a radio channel that cannot be loaded."""
+        if not options.speech:
+            return
+        profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
+        if profile not in self._channels:
+            self._channels[profile] = next(_problems(lambda: select_channel(profile)), "")
+        if self._channels[profile]:
+            raise AirhiltError(self._channels[profile])
+
+
+def require_different_places(parameters: Sequence[Parameter], document: dict[str, Any]) -> None:
+    """Complain about two parameters of which one would replace the value of the other.
+
+    Raises
+    ------
+    AirhiltError
+        Both are one place, or one is within the other.
+    """
+    places = [(each.path, place) for each in parameters if (place := each.place(document))]
+    for index, (path, place) in enumerate(places):
+        for other, inner in places[:index]:
+            shorter = min(len(place), len(inner))
+            if place[:shorter] == inner[:shorter]:
+                raise AirhiltError(
+                    f"parameters {other} and {path}: one would replace the other in "
+                    f"{document['name']!r}; expected only one of them"
+                )
+
+
+def _require_own_assistant(options: Options) -> None:
+    if options.assistant == EXTERNAL:
+        raise AirhiltError(
+            "--assistant external: no worker or program of yours attaches to the runs of a sweep, "
+            "so nobody would decide; expected an assistant that `airhilt doctor` names, one of a "
+            "package of yours, or the address of a service (docs/decision.md)"
+        )
+
+
+def _problems(check: Callable[[], object]) -> Iterator[str]:
+    try:
+        check()
+    except AirhiltError as error:
+        yield str(error)
