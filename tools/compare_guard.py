@@ -111,7 +111,7 @@ def _row(folder: Path, tts: str, scenario: str, seed: int, snr: str, tau_asr: fl
         has_conflict=loaded.conflict is not None,
         avoided=summary.avoided is True,
         questions=summary.clarifications,
-        nuisances=summary.nuisance_alerts,
+        nuisances=summary.nuisance_alerts or 0,  # None only where exposures are left out.
         wrong=len(wrong(heard.held, said.held)),
         missing=len(said.held - heard.held),
         right=len(said.held & heard.held),

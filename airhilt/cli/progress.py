@@ -153,7 +153,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         *_incursion_rows(summary),
         *_declared_rows(summary),
         ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
-        ("nuisance alerts", str(summary.nuisance_alerts)),
+        ("nuisance alerts", _nuisance(summary.nuisance_alerts)),
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
         *_vision_rows(summary.vision),
@@ -161,6 +161,10 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         ("modalities", ", ".join(_modalities(summary))),
         *((f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()),
     ]
+
+
+def _nuisance(alerts: int | None) -> str:
+    return "not counted: cameras left exposures out" if alerts is None else str(alerts)
 
 
 def _conflict_window(summary: Summary) -> str:

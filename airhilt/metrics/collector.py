@@ -186,6 +186,7 @@ class Collector:
     def summary(self, run: Mapping[str, Any], now_ns: int) -> Summary:
         """Return the summary; ``run`` holds the fields that only the run knows."""
         incursions = self._outcome.incursions()
+        vision = self._detections.statistics(run["inputs_dropped"])
         return Summary(
             scenario=self._scenario.name,
             duration_s=now_ns / SECOND_NS,
@@ -193,7 +194,9 @@ class Collector:
             **self._warning_fields(now_ns),
             **self._outcome_fields(),
             unassisted_as_declared=self._as_declared(run["assistant"]),
-            nuisance_alerts=self._advisories.nuisance_alerts(incursions),
+            nuisance_alerts=(
+                None if vision.exposures_left_out else self._advisories.nuisance_alerts(incursions)
+            ),
             clarifications=self._advisories.clarifications(),
             advisories=self._advisories.summaries(incursions),
             equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
@@ -201,7 +204,7 @@ class Collector:
                 roster_of(self._scenario),
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
-            vision=self._detections.statistics(run["inputs_dropped"]),
+            vision=vision,
             language_model=self._language_model.statistics(),
             latencies=self._latencies.statistics(),
             evidence=self._evidence.statistics(now_ns),

@@ -336,8 +336,9 @@ class Summary(BaseModel):
         "to the outcome that the scenario declares as unassisted, or to a more severe one; null "
         "with an assistant, without a conflict, or if equipment of the world averted it",
     )
-    nuisance_alerts: int = Field(
-        description="advisories of CAUTION or above about traffic that was in no conflict"
+    nuisance_alerts: int | None = Field(
+        description="advisories of CAUTION or above about traffic that was in no conflict; null if "
+        "cameras left exposures out, because what is really there decided on them"
     )
     clarifications: int = Field(
         default=0, description="advisories that ask to confirm what was heard in doubt"

@@ -58,6 +58,7 @@ def test_only_what_cameras_show_is_left_out_and_everything_else_comes_when_it_di
     assert turns(logs["full"]) == turns(logs["adaptive"])
     assert (full.vision.taken, full.vision.exposures_left_out) == (34, 0)
     assert (adaptive.vision.taken, adaptive.vision.exposures_left_out) == (6, 28)
+    assert (full.nuisance_alerts, adaptive.nuisance_alerts) == (0, None)
     assert replay(tmp_path / "adaptive").identical
 
 

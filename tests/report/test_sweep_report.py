@@ -51,6 +51,16 @@ def read(folder: Path) -> SweepData:
     return read_sweep_data(SweepFolder.open(folder), folder / "report.html")
 
 
+def test_runs_whose_cameras_left_exposures_out_are_told(tmp_path: Path) -> None:
+    rows = [
+        sweep_row("s02a_headon", "reference", seed, vision_exposures_left_out=seed)
+        for seed in range(3)
+    ]
+    (note,) = small(tmp_path / "adaptive", rows).notes
+    assert "in 2 of 3 runs" in note
+    assert not small(tmp_path / "full", rows[:1]).notes
+
+
 def small(folder: Path, rows: list[Row]) -> SweepData:
     return read(write_sweep(folder, rows))
 

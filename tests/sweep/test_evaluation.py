@@ -84,7 +84,12 @@ def test_a_margin_over_well_clear_is_that_of_the_same_run() -> None:
 
 
 def test_nuisance_is_counted_in_hours_of_nominal_traffic() -> None:
-    rows = [row(nuisance_alerts=9), row(nominal=True), row(nominal=True, nuisance_alerts=3)]
+    rows = [
+        row(nuisance_alerts=9),
+        row(nominal=True),
+        row(nominal=True, nuisance_alerts=3),
+        row(nominal=True, nuisance_alerts=None),
+    ]
     assert nuisance_per_hour(rows).value == 3.0
 
 

@@ -43,7 +43,7 @@ class Row(Case):
     collision: bool
     runway_incursion_category: str | None
     time_to_first_warning_s: float | None
-    nuisance_alerts: int
+    nuisance_alerts: int | None
     nuisances: list[str]
     """Kind, severity and traffic of each nuisance."""
 

@@ -48,7 +48,7 @@ def nuisances(rows: Sequence[Row]) -> Table:
             groups[row.assistant].append(row)
     for assistant, own in sorted(groups.items()):
         alerts = [f"{row.scenario} {row.seed}: {what}" for row in own for what in row.nuisances]
-        with_alerts = sum(row.nuisance_alerts > 0 for row in own)
+        with_alerts = sum(bool(row.nuisance_alerts) for row in own)
         table.add_row(assistant, str(len(own)), str(with_alerts), "\n".join(alerts))
     return table
 

@@ -24,7 +24,9 @@ function numberTiles() {
   ];
   const nearest = closest ? tile("Closest approach", distance(closest.horizontal_m), `and ${feet(closest.vertical_m / METRE_PER_FT)}${closeUp ? "" : ` (${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m)`}`,
     `at ${seconds(closest.t_s)}, nearest in three dimensions${closeUp ? ", between centres" : ""}`) : tile("Closest approach", none, "", "no pair was followed");
-  const nuisance = tile("Nuisance alerts", String(s.nuisance_alerts), "", "of CAUTION or above, about traffic in no conflict", s.nuisance_alerts ? "warn" : "");
+  const nuisance = known(s.nuisance_alerts)
+    ? tile("Nuisance alerts", String(s.nuisance_alerts), "", "of CAUTION or above, about traffic in no conflict", s.nuisance_alerts ? "warn" : "")
+    : tile("Nuisance alerts", none, "", "not counted: cameras left exposures out");
   if (closeUp) return [incursionTile(), ...outcomeTiles(), ...warnings, nearest, failuresTile(), nuisance, ...staleTile()];
   return [
     ...warnings,

@@ -24,6 +24,8 @@ BEFORE_PARAMETERS = ("key", "scenario", "family", "assistant", "seed")
 AFTER_PARAMETERS = "status"
 MEASURED = tuple(column for each in MEASURES for column in each.columns)
 """Columns that measures are made of."""
+EXPOSURES_LEFT_OUT = "vision_exposures_left_out"
+"""Column with the number of exposures that a run left out."""
 OTHER_FAMILY = "other"
 """Name of the group of scenarios without a family."""
 ALL_FAMILIES = "all"
@@ -134,7 +136,23 @@ def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
         columns={each.name: _column_info(each) for each in table.schema},
         parameters=parameters,
         page=page,
+        notes=_notes(table),
     )
+
+
+def _notes(table: pa.Table) -> list[str]:
+    """Return sentences on numbers that not all runs have."""
+    import pyarrow.compute as pc
+
+    if EXPOSURES_LEFT_OUT not in table.column_names:
+        return []
+    count = pc.sum(pc.greater(table[EXPOSURES_LEFT_OUT], 0)).as_py() or 0
+    if not count:
+        return []
+    return [
+        f"Cameras left exposures out in {count} of {table.num_rows} runs (--camera-rate adaptive). "
+        "Nuisance alerts are not counted there: what is really there decided on the exposures."
+    ]
 
 
 def parameters_of(table: pa.Table, origin: str) -> tuple[str, ...]:

@@ -102,8 +102,8 @@ def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimat
 
 
 def nuisance_per_hour(rows: Sequence[Row]) -> Estimate:
-    """Return the nuisance alerts in an hour of nominal traffic."""
-    nominal = [row for row in rows if row["nominal"] is True]
+    """Return the nuisance alerts in an hour of nominal traffic, where they were counted."""
+    nominal = [row for row in rows if row["nominal"] is True and row["nuisance_alerts"] is not None]
     return rate_of(
         [row["nuisance_alerts"] for row in nominal], [row["duration_s"] / HOUR_S for row in nominal]
     )
