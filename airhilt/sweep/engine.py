@@ -14,7 +14,7 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.clusters import FAMILY, Cluster
+from airhilt.sweep.clusters import FAMILY, Cluster, openness
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared, quiet_dask
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment, environment
@@ -183,6 +183,8 @@ def _run_missing(
     """
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
     with quiet_dask(), cluster.connect(count, work.dashboard) as client:
+        if notice := openness(client.scheduler_info()["address"]):
+            observer.notice(notice)
         workers = Workers(client, observer.notice)
         workers.wait(lambda: observer.stops)
         with prepared(client, plugin):

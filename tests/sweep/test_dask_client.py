@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from airhilt.errors import AirhiltError
-from airhilt.sweep.clusters import FAMILY, ClusterError
+from airhilt.sweep.clusters import FAMILY, ClusterError, openness
 from airhilt.sweep.dask_client import Workers, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment
@@ -101,6 +101,20 @@ def test_another_version_of_dask_is_refused_by_name(where: str, name: str) -> No
     ):
         pass
     assert other.plugins == []
+
+
+@pytest.mark.parametrize(
+    ("where", "is_told"),
+    [
+        ("tcp://10.1.2.3:8786", True),
+        ("ws://head:8786", True),
+        ("tls://head:8786", False),
+        ("tcp://127.0.0.1:8786", False),
+        ("tcp://[::1]:8786", False),
+    ],
+)
+def test_a_scheduler_that_a_whole_network_reaches_is_told(where: str, is_told: bool) -> None:
+    assert ("no TLS" in openness(where)) is is_told
 
 
 def test_nothing_of_a_sweep_stays_on_the_workers() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from urllib.parse import urlsplit
 
 from airhilt.engines import EngineFamily
 from airhilt.errors import AirhiltError
@@ -16,10 +17,30 @@ if TYPE_CHECKING:
 
 LOCAL = "local"
 """Cluster of a sweep unless another is named."""
+ENCRYPTED = ("tls", "wss")
+"""Protocols of Dask that ask for a certificate."""
 
 
 class ClusterError(AirhiltError):
     """A scheduler or its workers cannot be reached or started."""
+
+
+def openness(address: str) -> str:
+    """Return a notice on a scheduler that anybody in its network can reach, empty if nobody can.
+
+    Parameters
+    ----------
+    address
+        Address of the scheduler, such as ``tcp://host:8786``.
+    """
+    scheme, _, _ = address.partition("://")
+    host = urlsplit(address).hostname or ""
+    if scheme in ENCRYPTED or host == "localhost" or host.startswith("127.") or host == "::1":
+        return ""
+    return (
+        f"scheduler {address} has no TLS: whoever reaches it, or one of its workers, can run "
+        "programs as their user (docs/clusters.md, Who can reach it)"
+    )
 
 
 @runtime_checkable

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
+from distributed.security import Security
 
 from airhilt.engines import Engine
 from airhilt.sweep.clusters import LOCAL, Cluster, ClusterError
@@ -28,7 +29,11 @@ class Uninterrupted(WorkerPlugin):
 
 
 class LocalWorkers:
-    """A scheduler in this process, and workers beside it, on the loopback interface."""
+    """A scheduler in this process, and workers beside it, on the loopback interface.
+
+    They know each other by a certificate that lives as long as they do, in their memory alone, so
+    other users of the machine cannot reach them.
+    """
 
     @contextmanager
     def connect(self, workers: int, dashboard: str | None) -> Iterator[Client]:
@@ -42,6 +47,7 @@ class LocalWorkers:
                         threads_per_worker=1,
                         processes=True,
                         host=HOST,
+                        security=Security.temporary(),  # A port of the loopback is everybody's.
                         dashboard_address=dashboard or f"{HOST}:0",
                         silence_logs=False if is_logged else logging.CRITICAL,
                         memory_limit=0,  # Of the runs, each runner's own process is watched.
