@@ -35,5 +35,7 @@ def _by_first_word() -> dict[str, tuple[Form, ...]]:
 
 FORMS = _by_first_word()
 """Forms of actions, by their first words."""
-NUMBER_FORMS = (surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM, speeds.LIMITED_FORM)
+NUMBER_FORMS = (
+    surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM, speeds.ON_SPEED_FORM, speeds.LIMITED_FORM,
+)  # fmt: skip
 """Forms that begin with a number."""

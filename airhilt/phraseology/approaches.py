@@ -84,5 +84,6 @@ FORMS: Listed = (
     ("execute executing", "missed_approach", r"execut(?:e|ing) (?:the )?missed(?: approach)?",
      alone),
     ("on", "missed_approach", r"on the missed", alone),
+    ("go going", "missed_approach", r"go(?:ing)? missed", alone),
 )  # fmt: skip
 """Forms of approaches."""

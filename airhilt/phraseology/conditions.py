@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 from airhilt.phraseology.call import CLEARANCES, Action, Instruction
-from airhilt.phraseology.forms import NO_VALUE, Read
+from airhilt.phraseology.forms import BARE_RUNWAY, NO_VALUE, Read
 from airhilt.phraseology.scan import Found, Span
 
 Reads = list[tuple[Read, Found]]
@@ -27,16 +28,30 @@ WITHDRAWN: dict[Action, Action] = {
 }
 """Clearances by the actions that cancel them."""
 _FOLLOWING = re.compile(
-    r"at pilot discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
+    r"at (?:pilot|your|own) discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
 )
 """Conditions that belong to the action right before them if there is one."""
 _WHEN_ABLE = re.compile(r"(?:when|if) able$")
-"""Conditions that belong to the turn off a runway right before them."""
+"""Conditions that belong to the action right behind them, or else to the one right before."""
 _FILED = frozenset({"airport", "filed"})
 _AS_FILED = re.compile(r"(?<!\S)(?:as filed|cleared to .* airport)(?!\S)")
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
+_TURNING = re.compile(r"before turning(?!\S)")
+"""A limit of the climb before it."""
+_CONSEQUENCE = re.compile(
+    r"(?<!\S)(?:come back|come to me|call me|let me know|return|advise|tell me|give me|back to me"
+    r"|try me|say so|remain|stay with)(?!\S)"
+)
+"""Words of what is to be done under a condition that are no action of this grammar."""
+_AIRBORNE = re.compile(r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)")
 AIRBORNE = "when airborne"
 DEPARTED = "after departure"
+_RIVALS: dict[Action, Callable[[Instruction], float | None]] = {
+    "heading": lambda told: told.heading_deg,
+    "altitude": lambda told: None if told.bound else told.altitude_ft,
+    "speed": lambda told: None if told.bound else told.speed_kt,
+}
+"""Actions of which one call gives one value for a time, with that value."""
 _EXCLUSIVE = frozenset({"cleared_to_land", "cleared_for_takeoff", "line_up"})
 """Clearances of which one aircraft gets one at a time, except line-up and take-off."""
 
@@ -52,11 +67,12 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
         before = [i for i, (read, _) in enumerate(reads) if read.start < span.start]
         after = [i for i, (read, _) in enumerate(reads) if read.start >= span.end]
         kind = words.split()[0] if words else ""
-        if kind == "until":
+        if kind == "until" or (kind == "before" and before and _TURNING.match(words)):
             if before and " " in words:
                 _set(reads, before[-1], until=words)
         elif kind in ("if", "event") and len(words.split()) > 2:
-            for index in after or before[-1:]:
+            is_told = not after and _CONSEQUENCE.search(words)
+            for index in after or ([] if is_told else before[-1:]):
                 _set(reads, index, condition=words)
         elif before and _is_of_expected(reads[before[-1]][0], text, span):
             _set(reads, before[-1], condition=words)
@@ -67,12 +83,13 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
             own = before[-1:] if is_own or not after else after[:1]
             for index in own:
                 _set(reads, index, condition=words)
-        elif (
-            _WHEN_ABLE.match(words)
-            and _is_right_behind(reads, before, text, span)
-            and reads[before[-1]][0].instruction.action == "vacate"
-        ):
-            _set(reads, before[-1], condition=words)
+        elif _WHEN_ABLE.match(words):
+            between = text[span.end : reads[after[0]][0].start].strip() if after else ""
+            is_next = bool(after) and between in ("", "proceed", "then")
+            is_exit = bool(before) and reads[before[-1]][0].instruction.action == "vacate"
+            is_own = _is_right_behind(reads, before, text, span) and (is_exit or not is_next)
+            for index in before[-1:] if is_own or not after else after[:1]:
+                _set(reads, index, condition=words)
         else:
             _attach_to_one(words, kind, before, after, reads)
 
@@ -91,6 +108,12 @@ def _is_of_expected(read: Read, text: str, span: Span) -> bool:
 def _attach_to_one(
     words: str, kind: str, before: list[int], after: list[int], reads: Reads
 ) -> None:
+    if not after and _CONSEQUENCE.search(words):
+        return  # What is to be done then is in the words of the condition.
+    if after and _AIRBORNE.search(words):
+        after = [i for i in after if reads[i][0].instruction.action not in CLEARANCES]
+        if not after:
+            return  # Nobody is airborne before the take-off.
     is_again = False
     if kind == "behind":
         if len(after) > 1:
@@ -161,6 +184,8 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
+        if told.runway is None and told.action in ("backtrack", "line_up"):
+            _share_runway(reads, index, text)
         if told.condition is not None:
             continue
         if is_takeoff and told.action in IN_FLIGHT:
@@ -171,6 +196,24 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
         elif _waits(told, reads[:index], is_then=texts[max(each.first - 1, 0)] == "then"):
             _set(reads, index, condition="then")
+
+
+def _share_runway(reads: Reads, index: int, text: str) -> None:
+    """Give a backtrack and a line-up that "and" joins the runway that is named once."""
+    read, each = reads[index]
+    for other, between in (
+        (index + 1, slice(read.end, reads[index + 1][0].start if index + 1 < len(reads) else 0)),
+        (index - 1, slice(reads[index - 1][0].end if index else 0, read.start)),
+    ):
+        if not 0 <= other < len(reads) or text[between].strip() != "and":
+            continue
+        told = reads[other][0].instruction
+        if told.runway and told.action in ("backtrack", "line_up"):
+            shared = replace(
+                read.instruction, runway=told.runway, confidence=min(told.confidence, BARE_RUNWAY)
+            )
+            reads[index] = read._replace(instruction=shared), each
+            return
 
 
 def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
@@ -195,14 +238,35 @@ def _waits_with(before: Read, read: Read, text: str) -> bool:
     )
 
 
+def _without_rivals(instructions: list[Instruction]) -> list[Instruction]:
+    """Return instructions with low confidence in two values for one thing and one time.
+
+    The speaker may have begun again without saying so.
+    """
+    seen: dict[Action, set[float | None]] = {}
+    for each in instructions:
+        if each.action in _RIVALS and each.condition is None and each.until is None:
+            seen.setdefault(each.action, set()).add(_RIVALS[each.action](each))
+    doubted = {action for action, values in seen.items() if len(values - {None}) > 1}
+    if not doubted:
+        return instructions
+    return [
+        replace(each, confidence=min(each.confidence, NO_VALUE))
+        if each.action in doubted and each.condition is None and each.until is None
+        else each
+        for each in instructions
+    ]
+
+
 def doubtful(instructions: list[Instruction]) -> list[Instruction]:
-    """Return instructions with low confidence in clearances that exclude each other.
+    """Return instructions with low confidence in those that exclude each other.
 
     Nobody lines up, or takes off, and is cleared to land in one call, and nobody is cleared twice
-    for one thing on two runways.
+    for one thing on two runways, or told two headings, levels or speeds for one time.
     """
     if len(instructions) < 2:
         return instructions
+    instructions = _without_rivals(instructions)
     now = [each for each in instructions if each.action in _EXCLUSIVE and each.condition is None]
     actions = {each.action for each in now}
     runways = {each.runway for each in now if each.runway}

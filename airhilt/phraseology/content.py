@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field, fields, replace
 from itertools import accumulate
+from typing import NamedTuple
 
-from airhilt.phraseology.bare_values import bare_values
+from airhilt.phraseology.bare_routes import bare_route
+from airhilt.phraseology.bare_values import bare_values, without_courtesies
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
-from airhilt.phraseology.conditions import Reads, attach, merge_levels, put_in_order, withdraw
-from airhilt.phraseology.denials import is_meant
+from airhilt.phraseology.conditions import YIELDED, Reads, attach, merge_levels, put_in_order, withdraw
+from airhilt.phraseology.denials import AFTERWARDS, is_expected, is_meant
 from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.scan import Found, Scan, Span
@@ -19,6 +22,13 @@ from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
 """Details of an action."""
+_OR = re.compile(r" or (?:[0-9]|flight level|left|right)")
+_OR_INSIDE = re.compile(r"[0-9] or [0-9]")
+"""Two values of which one is meant."""
+_DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
+"""Words behind a clearance that was denied."""
+LEAST_CONDITION = 2
+"""Least number of words of a whole condition."""
 CLEAR = (1.0, 1.0)
 """Confidences of a recogniser that has no doubt about the action and its details."""
 
@@ -32,6 +42,8 @@ class Content:
     """True if each is being done now, as in "climbing"."""
     expected: list[Instruction] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
+    pressure_hpa: float | None = None
+    """Altimeter setting that was read back without its word."""
 
 
 def content_of(words: Words) -> Content:
@@ -54,9 +66,8 @@ def content_of(words: Words) -> Content:
     merge_levels(reads)
     withdraw(reads)
     put_in_order(reads, texts, text)
-    if texts[:1] != [NAME]:
-        for told in _bare(reads, scan, plain, starts, words):
-            _add(content, told, is_doing=False)
+    gaps = _gaps(reads, scan, plain, starts, words)
+    _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
     for read, each in reads:
         after_action = bisect_right(starts, each.match.end() - 1)
         action = words.confidences[each.first : after_action]
@@ -82,6 +93,8 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     """
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
+    if _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end):
+        return True
     before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
         return False
@@ -104,24 +117,78 @@ def _heard(told: Instruction, action: float, details: float) -> Instruction:
     )
 
 
-def _bare(
-    reads: Reads, scan: Scan, text: str, starts: list[int], words: Words
-) -> list[Instruction]:
-    """Return the values that stand alone between the actions of a readback."""
+class _Gap(NamedTuple):
+    """Words that belong to no action."""
+
+    start: int
+    first: str
+    """The first of them."""
+    words: list[str]
+    """The words without courtesies."""
+    heard: float
+    """Least confidence of the recogniser in them."""
+
+
+def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) -> list[_Gap]:
+    """Return the words between the actions, without courtesies."""
     taken = [(read.start, read.end) for read, _ in reads]
     taken += [(span.start, span.end) for span in scan.spans]
-    told: list[Instruction] = []
+    gaps: list[_Gap] = []
     at = 0
     for start, end in [*sorted(taken), (len(text), len(text))]:
         gap = text[at:start].strip(" |")
-        if not gap:
-            at = max(at, end)
-            continue
-        between = words.confidences[bisect_right(starts, at - 1) : bisect_right(starts, start - 1)]
-        heard = min(between, default=1.0)
-        told += (_heard(each, heard, heard) for each in bare_values(PRESSURE.sub("", gap).split()))
+        if gap:
+            first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)
+            heard = min(words.confidences[first:last], default=1.0)
+            said = without_courtesies(PRESSURE.sub("", gap).split())
+            gaps.append(_Gap(at, gap.split()[0], said, heard))
         at = max(at, end)
-    return told
+    return gaps
+
+
+def _take_bare(
+    content: Content, gaps: list[_Gap], reads: Reads, scan: Scan, text: str, *, is_called: bool
+) -> None:
+    """Add the routes and values that stand alone.
+
+    Values alone are read back: a call that begins with its callsign has none.
+    """
+    beside = {read.instruction.action for read, _ in reads if not read.is_expected}
+    has_route = any(read.instruction.via for read, _ in reads) or NAME not in text
+    if is_called and not reads and len(gaps) > 1:
+        return
+    for gap in gaps:
+        if not gap.words:
+            continue
+        before = max((read for read, _ in reads if read.end <= gap.start + 1),
+                     key=lambda read: read.end, default=None)  # fmt: skip
+        is_behind = before is not None and not text[before.end : gap.start].strip()
+        last = before.instruction.action if before is not None and is_behind else None
+        route = (
+            None
+            if has_route or (is_called and not beside)
+            else bare_route(gap.words, beside, last, is_joined=gap.first in ("and", "then"))
+        )
+        if route is not None:
+            condition = _condition_before(gap.start, scan.spans, text)
+            if condition is None and last in YIELDED:
+                condition = "then"
+            route = replace(route, condition=condition)
+            _add(content, _heard(route, gap.heard, gap.heard), is_doing=False)
+        elif not is_called:
+            bare = bare_values(gap.words, beside)
+            content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
+            for each in bare.instructions:
+                _add(content, _heard(each, gap.heard, gap.heard), is_doing=False)
+
+
+def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
+    """Return the words of a condition right before some others."""
+    for span in spans:
+        words = text[span.start : span.end].strip()
+        if not span.is_traffic and not text[span.end : start].strip() and span.end <= start:
+            return None if words.startswith("until") else words
+    return None
 
 
 def _end_of_limit(spans: list[Span], begin: int, each: Found, starts: list[int]) -> int:
@@ -140,6 +207,20 @@ def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
     return each.first if is_behind and each.first - bisect_right(starts, begun) > 0 else 0
 
 
+def _end_before_runway(spans: list[Span], text: str, start: int, starts: list[int]) -> int:
+    """Return the index of the runway of a clearance right behind a condition, else 0.
+
+    "Before turning right, runway 23, cleared for takeoff": the runway ends the condition.
+    """
+    for span in spans:
+        is_whole = len(text[span.start : span.end].split()) > 0 and span.end == start
+        if is_whole and not span.is_traffic and text.startswith("runway ", start):
+            first = bisect_right(starts, span.start)
+            index = bisect_right(starts, start) - 1
+            return index if index - first >= LEAST_CONDITION else 0
+    return 0
+
+
 def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads:
     """Return the instructions of the actions that are meant."""
     reads: Reads = []
@@ -152,15 +233,29 @@ def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads
             continue
         taken = read.end
         after = bisect_right(starts, max(each.match.end(), read.end) - 1)
-        if each.form.action == "cleared_approach" and reads:
-            floor = max(floor, _end_of_limit(scan.spans, reads[-1][0].end, each, starts))
+        if each.form.action == "cleared_approach":
+            begin = reads[-1][0].end if reads else 0
+            floor = max(floor, _end_of_limit(scan.spans, begin, each, starts))
         if scan.spans and each.form.action not in CLEARANCES:
             floor = max(floor, _end_of_condition(scan.spans, each, starts))
+        elif scan.spans:
+            floor = max(floor, _end_before_runway(scan.spans, plain, read.start, starts))
         is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
-        floor = after
         if is_said:
             reads.append((read, each))
+        elif each.form.action not in REPORTS and is_expected(texts, each.first, floor):
+            reads.append((read._replace(is_expected=True), each))
+        floor = after if is_said else _end_of_denial(texts, after)
     return reads
+
+
+def _end_of_denial(texts: list[str], after: int) -> int:
+    """Return the index after the words that deny an action behind it: "clearance not given"."""
+    if _DENIED.isdisjoint(texts[after : after + 3]):
+        return after
+    while after < len(texts) and (texts[after] in _DENIED or texts[after] in ("clearance", "is")):
+        after += 1
+    return after
 
 
 def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:

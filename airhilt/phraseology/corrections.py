@@ -14,6 +14,7 @@ from airhilt.phraseology.slots import (
     NAMED_RUNWAY,
     RUNWAY,
     SIDED_RUNWAY,
+    TAXIWAY,
     designator,
     frequency_khz,
     level_confidence,
@@ -26,11 +27,17 @@ _DISREGARDED = re.compile(
     r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
     r"|landing|instruction|instructions|all|it))*(?!\S)"
 )
-_LEVEL = r"(?:(?:flight )?level [0-9]{2,3}|[0-9]{1,2} thousand(?: [1-9]00)?(?: feet)?)"
-_NUMBER = r"[0-9]{3,5}(?: knots| feet| degrees)?"
+_LEVEL = r"(?:(?:flight )?level [0-9]{1,3}|[0-9]{1,2} thousand(?: [1-9]00)?(?: feet)?)"
+_NUMBER = r"(?:[0-9]{3,5}|(?<!decimal )[0-9]{1,2})(?: knots| feet| degrees)?"
 _SLIP = re.compile(
     rf"(?:({_LEVEL})|(?<!\S)({_NUMBER})) correction (?=({_LEVEL})|({_NUMBER})(?!\S))"
 )
+_VERBS = (
+    "turn", "taxi", "hold", "cross", "climb", "descend", "maintain", "contact", "monitor", "fly",
+    "via", "follow", "continue", "reduce", "increase", "proceed", "direct", "line", "exit", "go",
+    "stop", "squawk", "expect",
+)  # fmt: skip
+"""First words of instructions."""
 _RUNWAY_SLIP = re.compile(
     rf"(?<!\S)(?:runway )?{SIDED_RUNWAY} correction (?=(?:runway )?{SIDED_RUNWAY})"
 )
@@ -38,8 +45,19 @@ _MEANT = re.compile(
     r"(?<!\S)(?:(?:no|oh|actually|negative) )*(?:(?:i )?sorry|make that|scratch that|i mean|i meant"
     r"|(?<=no )(?:it|that|make it)(?: is)?)(?: (?:it|that|make that|that is|it is))*"
     r"(?= (?:(?:runway|heading|flight|level|left|right|turn)(?!\S)|[0-9]))"
+    r"|(?<=[0-9] )no(?= [0-9])|(?<=thousand )no(?= [0-9])"
+)
+_INSTEAD = re.compile(
+    r"(?<!\S)(?:no|oh|negative|actually|er|sorry) (?:sorry )?(?:(?:i )?(?:make|scratch) that|i meant?)"
+    rf"(?= (?:{'|'.join(_VERBS)})(?!\S))"
+)
+"""Words that mean "correction", between an instruction and another one."""
+_TURN_SLIP = re.compile(
+    rf"(?<!\S)(?:left|right) (?:on|onto|at) {TAXIWAY} correction"
+    rf"(?= (?:left|right) (?:on|onto|at) {TAXIWAY})"
 )
 """Words that mean "correction", between a value and another one."""
+_TURNS_BEFORE = re.compile(rf"(?:left|right) (?:on|onto|at) {TAXIWAY}")
 _MEANING = frozenset({"sorry", "mean", "meant", "make", "scratch", "no"})
 
 
@@ -51,7 +69,7 @@ def without_slips(words: Words) -> Words:
     words = _with_correction(words)
     while "correction" in words.texts:
         text = " ".join(words.texts)
-        runway = _RUNWAY_SLIP.search(text)
+        runway = _RUNWAY_SLIP.search(text) or _TURN_SLIP.search(text)
         if runway:
             first, last = (len(text[: runway.start()].split()), len(text[: runway.end()].split()))
             mended = Words(words.texts[:first], words.confidences[:first])
@@ -86,7 +104,12 @@ def _with_correction(words: Words) -> Words:
         return words
     text = " ".join(words.texts)
     found = _MEANT.search(text)
-    if found is None or not any(sign.isdigit() for sign in text[: found.start()]):
+    is_value = found is not None and (
+        any(sign.isdigit() for sign in text[: found.start()]) or _TURNS_BEFORE.search(text)
+    )
+    if not is_value:
+        found = _INSTEAD.search(text)
+    if found is None:
         return words
     first, last = len(text[: found.start()].split()), len(text[: found.end()].split())
     mended = Words(words.texts[:first], words.confidences[:first])
@@ -131,6 +154,7 @@ class Corrections:
                 part = Words(part.texts[size:], part.confidences[size:])
         new = self._read(part)
         content.traffic += new.traffic
+        content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
         if marker == "correction" and content.instructions:
             if _corrects_itself(content.instructions[-1], new):
                 _replace(content, new)

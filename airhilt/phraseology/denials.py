@@ -7,7 +7,7 @@ from airhilt.phraseology.hits import NAME
 
 DENIALS = frozenset(
     {"no", "not", "never", "without", "unable", "neither", "nor", "cancelled", "refuse", "do",
-     "cancel", "cancelling", "ignore"}
+     "cancel", "cancelling", "ignore", "nobody"}
 )  # fmt: skip
 """Words before an action that deny it."""
 OPEN = frozenset(
@@ -15,9 +15,14 @@ OPEN = frozenset(
      "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
      "confirm", "confirming", "verify", "except", "like", "want", "possible", "possibly",
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
-     "need", "intend", "plan", "planning", "chance", "assigned", "expects", "supposed", "told"}
+     "need", "intend", "plan", "planning", "chance", "assigned", "expects", "supposed", "told",
+     "might", "possibility", "thought", "waited"}
 )  # fmt: skip
 """Words before an action that is asked for, asked about, or only expected."""
+EXPECTS = frozenset(
+    {"expect", "expecting", "plan", "planning", "anticipate", "anticipating", "prepare", "prepared"}
+)
+"""Words before an action that is to be expected."""
 ASKED = frozenset(
     {"did", "does", "why", "what", "who", "how", "could", "would", "should", "can", "may",
      "might", "plan"}
@@ -49,7 +54,7 @@ BETWEEN = frozenset(
 """Words that may stand between a denial and its action."""
 STOPS = DENIALS | OPEN | {"delay"}
 """Words that are never passed over."""
-AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative"})
+AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative", "was"})
 """Words after a clearance that deny it: "cleared to land, cancelled"."""
 CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
 """Words after "cancel" that deny the clearance before it: "line up and wait, cancel that"."""
@@ -57,8 +62,16 @@ _PHRASES = frozenset(
     {("are", "you"), ("are", "we"), ("are", "they"), ("am", "i"), ("is", "he"), ("were", "you"),
      ("were", "we"), ("was", "i"), ("was", "that"), ("is", "that"), ("have", "we"), ("have", "i"),
      ("can", "we"), ("can", "i"), ("may", "we"), ("may", "i"),
-     ("ready", "to"), ("ready", "for"), ("able", "to")}
+     ("ready", "to"), ("ready", "for"), ("able", "to"), ("standby", "for"), ("by", "for")}
 )  # fmt: skip
+_QUESTIONS = frozenset(
+    {("was", "that"), ("is", "that"), ("did", "you"), ("do", "you"), ("you", "want"),
+     ("want", "us"), ("should", "we"), ("shall", "we"), ("should", "i"), ("how", "about"),
+     ("what", "about")}
+)  # fmt: skip
+"""Word pairs before an action that make it a question."""
+_NOT_DENIED = frozenset({"above", "below", "before", "contact"})
+"""Words behind "not" and "negative" that belong to them, so that what is before is not denied."""
 
 
 def is_meant(
@@ -83,13 +96,16 @@ def is_meant(
         return False
     if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
         return False
+    if not _QUESTIONS.isdisjoint(zip(words[floor:first], words[floor + 1 : first], strict=False)):
+        return False
     at = first - 1
     skips = action in CLEARANCES
     while at >= floor:
         if tuple(words[at : at + 2]) in _PHRASES:
             return False
         if words[at] not in BETWEEN and not words[at][0].isdigit():
-            if not skips or words[at] in STOPS or at == floor:
+            is_on = words[at] == "on" and at > floor and words[at - 1] in EXPECTS
+            if not is_on and (not skips or words[at] in STOPS or at == floor):
                 break
             skips = words[at] == "or"
         at -= 1
@@ -103,8 +119,20 @@ def is_meant(
     return words[at] not in OPEN or is_thanked or action in REPORTS
 
 
+def is_expected(words: list[str], first: int, floor: int) -> bool:
+    """Return whether the words before an action say that it is to be expected."""
+    at = first - 1
+    while at >= floor and (words[at] in BETWEEN or words[at] in ("on", "that")):
+        at -= 1
+    if at < floor or DENIALS.intersection(words[max(at - 1, floor) : at]):
+        return False
+    is_ready = words[at] == "ready" and words[at - 1] == "be" and at > floor
+    return words[at] in EXPECTS or is_ready
+
+
 def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
     """Return whether a clearance belongs to the one who is called or reads it back."""
+    after += words[after : after + 1] == ["clearance"]
     ends = words[after : after + 2]
     if words[max(first - 2, floor) : first] in (["cleared", "to"], ["clear", "to"]):
         first -= 2
@@ -121,7 +149,8 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
         or (before[:1] == ("ready",) and last.isdigit())
         or (is_cleared and last in OTHERS and before not in OWN)
         or is_cancelled
-        or (AFTERWARDS.intersection(ends[:1]) and ends[1:] != ["contact"])
+        or (AFTERWARDS.intersection(ends[:1]) and _NOT_DENIED.isdisjoint(ends[1:]))
+        or (ends[:1] == ["is"] and AFTERWARDS.union(["for"]).intersection(ends[1:]))
         or ASKED.intersection(words[floor:first])
         or ASKS.intersection(opening)
     )

@@ -58,6 +58,9 @@ def expected_on_runway(segment: Segment, action: Action) -> Read | None:
         runway = designator(number, segment.found["side"])
     elif ahead:
         runway = designator(*ahead.groups())
+    else:
+        said = {designator(*each.groups()) for each in _RUNWAYS.finditer(segment.before_all)}
+        runway = said.pop() if len(said) == 1 else None
     immediate = "immediate" in segment.found[0]
     read = Instruction(action, runway, immediate=immediate)
     return Read(read, segment.start, segment.found.end(), is_expected=True)
@@ -69,6 +72,7 @@ def _level_in_a_while(text: str) -> tuple[float | None, float, int]:
 
 
 _IN_A_WHILE = re.compile(r"(?: to)? [1-6][0-9]{2} (?:in|by|at|within)(?!\S)")
+_RUNWAYS = re.compile(rf"(?<!\S)(?:runway |(?={SIDED_RUNWAY})){RUNWAY}")
 _BARE_RUNWAY = re.compile(rf" (?={SIDED_RUNWAY}|[0-9]+(?:$| \|)){RUNWAY}")
 _EXPECT = r"(?:expect(?:ing)?|plan on)"
 _RUNWAY = RUNWAY.replace("(0?", "(?P<number>0?", 1).replace("(left|", "(?P<side>left|", 1)

@@ -67,6 +67,12 @@ class Segment(NamedTuple):
         return self.text[self.begin : self.start].rstrip()
 
 
+    @property
+    def before_all(self) -> str:
+        """All words of the call before the action."""
+        return self.text[: self.start]
+
+
 class Read(NamedTuple):
     """An instruction, with the begin and the end of its words."""
 
@@ -142,7 +148,8 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     after = _runway_after(segment)
     if action in _BY_OPENING and not (inside or before or after):
         opening = _OPENING.match(segment.text)
-        if opening and not NAMED_RUNWAY.search(segment.text, opening.end()):
+        others = NAMED_RUNWAY.finditer(segment.text, opening.end()) if opening else ()
+        if opening and all(segment.text[: other.start()].endswith("short of ") for other in others):
             number, side = opening.group(2, 3)
             confidence = min(BARE_RUNWAY, runway_confidence(number))
             read = Instruction(

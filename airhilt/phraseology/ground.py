@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from typing import cast
 
+from airhilt.phraseology.alphabet import LETTER_OF, LETTERS
 from airhilt.phraseology.call import Action, Instruction, Turn
 from airhilt.phraseology.forms import (
     BARE_RUNWAY,
@@ -33,6 +34,7 @@ from airhilt.phraseology.slots import (
     taxiway,
 )
 
+LETTERS_OF = "|".join(LETTERS)
 _PIECE = rf"(?:{TAXIWAY}|{NUMBERED_LINK})"
 """Pattern of a taxiway, or of a link between two that has a number."""
 _LISTED = rf"(?:(?!q n h)(?:(?:and|then|taxiway) )*{_PIECE}(?: |$))+"
@@ -44,10 +46,13 @@ _GOES_ON = re.compile(
     rf" ?(?:$|\||#|{FIX_ENDS}(?!\S)|(?:give|pass|without|use|give|back|full)(?!\S))"
 )
 _EACH_TAXIWAY = re.compile(rf"(?<!\S){_PIECE}")
+_NOT_PLACE = "runway|to|via|and|then|cleared|wind|line|hold"
 _PLACE = re.compile(
-    r" (?:to )?(?:the )?("
-    r"(?:(?!(?:runway|to|via|and|then|cleared|wind|line|hold)(?!\S))[a-z]+ ?){1,4}(?:[0-9]+)?)"
+    rf" (?:to )?(?:the )?((?!(?:{_NOT_PLACE})(?!\S))[a-z]+"
+    rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+)?|[0-9]{{2,4}})(?!\S)"
 )
+"""Another aircraft; a letter behind its name belongs to a route."""
+_FOLLOWED_TO = re.compile(rf"(?: [a-z]+){{0,4}} to runway {RUNWAY}")
 _TAXI_RUNWAY = re.compile(
     rf"(?: to)?(?: the)?(?: holding(?: point| decimal)?(?: {TAXIWAY})?)?(?: for)? runway {RUNWAY}"
 )
@@ -59,6 +64,17 @@ _RUNWAY_BEHIND = re.compile(
 _POINT = re.compile(
     rf"(?: (?:to|at) (?:taxiway |{_HOLDING_POINT} )?| {_HOLDING_POINT} )({TAXIWAY})"
 )
+STAND = (
+    r"(?:(?:stand|gate|spot|bay|hangar|pad|parking(?: stand)?|ramp|apron|terminal)(?!\S)"
+    rf"(?: (?:{LETTER} )?[0-9]{{1,3}}(?!\S)(?: {LETTER}(?= \||$| via| hold))?)?)"
+)
+"""Pattern of a place on the apron, with its number."""
+_STAND = re.compile(rf"(?: to(?: the)?)? ({STAND})(?!\S)")
+_NAME_OF_PLACE = rf"(?:(?!(?:{LETTERS_OF}|{FIX_ENDS})(?!\S))[a-z]+)"
+_PLACE_BEHIND = re.compile(
+    rf"(?: and)? to (?:the )?({_NAME_OF_PLACE}(?: {_NAME_OF_PLACE}){{0,3}})(?= |$)"
+)
+"""A place behind its route."""
 _TAXI_TO = re.compile(
     r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
 )
@@ -87,27 +103,49 @@ def taxi(segment: Segment, action: Action) -> Read | None:
     ahead = None if runway or via is None else runway_before(segment)
     point = _POINT.match(after) or (via and _POINT.match(after, via.end() - via[0].endswith(" ")))
     to = re.split(r" (?:via|and|at|on)(?!\S)", after)[0]
-    place = None if runway or point else _TAXI_TO.match(to)
-    position = taxiway(point[1]) if point else place[1].strip() if place else None
-    taken = max((each.end() for each in (runway, via, point) if each), default=0)
+    place = None if runway or point else _STAND.match(after)
+    if place and via is None:
+        via = _HERE.match(after, place.end())
+    if place is None and via and not (runway or point):
+        place = _place_behind(after, via)
+    stand = place if place and place.re is not _TAXI_TO else None
+    place = place or (None if runway or point else _TAXI_TO.match(to))
+    position = taxiway(point[1]) if point else place_name(place[1]) if place else None
+    taken = max((each.end() for each in (runway, via, point, stand) if each), default=0)
     number, side = runway.group(1, 2) if runway else ahead.group(2, 3) if ahead else (None, None)
-    is_read = bool(number or position or (via and not to.strip()))
+    is_read = bool(number or position or (via and (via.start() == 0 or not to.strip())))
     confidence = runway_confidence(number) if number else 1.0 if is_read else NO_VALUE
     if runway is not None and "runway" not in runway[0]:
         confidence = min(confidence, BARE_RUNWAY)
     is_lost = number is None and "runway" in segment.before.split()
-    is_request = number is not None and via is None and not after.startswith(" to")
+    is_request = number is not None and not (via or point or after.startswith(" to"))
     if is_lost or is_request or (taken and _GOES_ON.match(after, taken) is None):
         confidence = NO_VALUE  # A word may be missing, or be the rest of the route.
     read = Instruction(
         action,
         designator(number, side) if number else None,
         position,
-        via=_route(via[1]) if via else (),
+        via=route_of(via[1]) if via else (),
         confidence=confidence,
     )
     start = segment.begin + ahead.start() if ahead else segment.start
     return Read(read, start, segment.found.end() + taken)
+
+
+def _place_behind(text: str, via: re.Match[str]) -> re.Match[str] | None:
+    """Return the place behind a route."""
+    end = via.end() - via[0].endswith(" ")
+    return _STAND.match(text, end) or _PLACE_BEHIND.match(text, end)
+
+
+def place_name(words: str) -> str:
+    """Return the name of a place on the apron, with its designator: stand B46."""
+    *name, last = words.split()
+    if name and last.isdigit() and name[-1] in LETTER_OF:
+        return " ".join((*name[:-1], LETTER_OF[name[-1]] + last))
+    if name and last in LETTER_OF and name[-1].isdigit():
+        return " ".join((*name[:-1], name[-1] + LETTER_OF[last]))
+    return words.strip()
 
 
 def on_taxiways(segment: Segment, action: Action) -> Read | None:
@@ -115,15 +153,21 @@ def on_taxiways(segment: Segment, action: Action) -> Read | None:
     via = _HERE.match(segment.after)
     if via is None:
         return None
-    is_cut = _GOES_ON.match(segment.after, via.end()) is None
-    end = segment.found.end() + via.end()
-    read = Instruction(action, via=_route(via[1]), confidence=NO_VALUE if is_cut else 1.0)
+    place = _place_behind(segment.after, via)
+    is_cut = place is None and _GOES_ON.match(segment.after, via.end()) is None
+    end = segment.found.end() + (place or via).end()
+    read = Instruction(
+        action,
+        position=place_name(place[1]) if place else None,
+        via=route_of(via[1]),
+        confidence=NO_VALUE if is_cut else 1.0,
+    )
     return Read(read, segment.start, end)
 
 
 def turns(segment: Segment, action: Action) -> Read | None:
     """Read a route of turns: "left on C then right on B"."""
-    read = Instruction(action, via=_route(segment.found["turns"]), confidence=BARE_VALUE)
+    read = Instruction(action, via=route_of(segment.found["turns"]), confidence=BARE_VALUE)
     return Read(read, segment.start, segment.found.end())
 
 
@@ -135,12 +179,13 @@ def route(segment: Segment, action: Action) -> Read | None:
         return None
     confidence = min(BARE_VALUE, runway_confidence(found[1]))
     read = Instruction(
-        action, designator(found[1], found[2]), via=_route(via[1]), confidence=confidence
+        action, designator(found[1], found[2]), via=route_of(via[1]), confidence=confidence
     )
     return Read(read, segment.start, found.end())
 
 
-def _route(text: str) -> tuple[str, ...]:
+def route_of(text: str) -> tuple[str, ...]:
+    """Return the taxiways and numbered links among some words."""
     return tuple(
         each if each.startswith(("link", "exit", "spur")) else taxiway(each)
         for each in _EACH_TAXIWAY.findall(text)
@@ -173,13 +218,17 @@ def about_other(segment: Segment, action: Action) -> Read | None:
     words = place[1].strip() if place else None
     end = segment.found.end() + (place.end() if place else 0)
     read = Instruction(action, position=words, confidence=1.0 if words else NO_VALUE)
-    return Read(read, segment.start, end)
+    to = _FOLLOWED_TO.match(segment.text, end, segment.limit) if action == "follow" else None
+    if to is None:
+        return Read(read, segment.start, end)
+    route = Instruction("taxi", designator(*to.groups()), confidence=SHORTENED)
+    return Read(read, segment.start, to.end(), (route,))
 
 
 FORMS: Listed = (
     ("enter entering join joining make", "proceed",
      r"(?:(?:enter|join)(?:ing)?|make)(?: the| a)?(?: (?:left|right)(?: hand)?)?"
-     r" (?:downwind|base|crosswind|final|pattern|traffic|360|orbit|turns?|short|straight)",
+     r" (?:downwind|base|crosswind|final|pattern|traffic|360|orbit|turns|turn (?:on|out|to|into)|short|straight)",
      nothing),
     ("proceed proceeding enter entering", "proceed", r"(?:proceed|enter)(?:ing)?", proceed),
     ("join joining", "taxi", rf"join(?:ing)?(?= (?:taxiway )?{LETTER})", on_taxiways),
@@ -189,7 +238,10 @@ FORMS: Listed = (
      on_taxiways),
     ("turn left right", "taxi",
      rf"(?:turn )?(?P<turns>(?:left|right) (?:on|onto) {_PIECE}"
-     rf"(?: (?:and|then|and then))?(?: turn)? (?:left|right) (?:on|onto) {_PIECE})", turns),
+     rf"(?:(?: (?:and|then|and then))?(?: turn)? (?:left|right)(?: on| onto)? {_PIECE})+)", turns),
+    ("and then left right", "taxi",
+     rf"(?<=without delay )(?:and )?(?:then )?(?P<turns>(?:left|right)(?: on| onto)? {_PIECE})",
+     turns),
     ("vacate vacating exit exiting", "vacate",
      r"(?:vacat(?:e|ing)|exit(?:ing)?(?! [0-9]))(?: the runway)?", vacate),
     ("take", "vacate",
@@ -220,8 +272,9 @@ FORMS: Listed = (
      alone),
     ("stopping", "stop", r"stopping(?= \||$| immediately| on)", alone),
     ("pushback push", "push_back",
-     r"push(?:back)?(?: (?:is )?approved|(?= and start(?:up)? (?:is )?approved))", alone),
-    ("startup start", "start_up", r"start(?:up)? (?:is )?approved", alone),
+     r"push(?:back)?(?: (?:is )?(?:approved|at (?:your|own) discretion)|(?= and start(?:up)? (?:is )?approved))", alone),
+    ("startup start", "start_up",
+     r"start(?:up)? (?:is )?(?:approved|at (?:your|own) discretion)", alone),
     ("startup start", "start_up", r"start(?:up)?(?= and push(?:back)? (?:is )?approved)", alone),
     ("follow", "follow", r"follow(?! me)", about_other),
     ("give giving", "give_way", r"giv(?:e|ing) way(?: to)?", about_other),

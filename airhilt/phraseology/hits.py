@@ -115,5 +115,5 @@ def is_spoken_of(words: list[str], start: int, end: int) -> bool:
         return False
     if end < len(words):
         return True
-    is_again = words[at] == "behind" and "behind" in words[:at]
+    is_again = words[at] in ("behind", "after") and words[at] in words[:at]
     return not is_again and words[max(at - 1, 0) : at + 1] != ["traffic", "departing"]

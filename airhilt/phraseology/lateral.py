@@ -82,10 +82,18 @@ def hold_at(segment: Segment, action: Action) -> Read | None:
     """Read a hold at a fix, with the side of its turns."""
     fix, confidence = fix_of(segment)
     turn = cast(Turn | None, segment.found["turn"])
+    if turn is None and ON_GROUND.search(segment.before_all):
+        held = Instruction("hold_short", hold_short=fix, confidence=confidence)
+        return Read(held, segment.start, segment.found.end())
     read = Instruction(action, position=fix, turn=turn, confidence=confidence)
     return Read(read, segment.start, segment.found.end())
 
 
+ON_GROUND = re.compile(
+    rf"(?<!\S)(?:taxi(?:ing)?|link|holding (?:point|decimal)|stand|gate|push(?:back)?|cross runway"
+    rf"|via {LETTER}|{LETTER} {LETTER})(?!\S)"
+)
+"""Words of a taxi clearance, behind which a hold at a name is no holding pattern."""
 _HEADING = (
     r"(?P<number>[0-9]{3})(?!\S)(?! (?:knots|thousand|feet|miles?|decimal))"
     r"(?: degrees(?! (?:left|right)))?"
@@ -103,13 +111,14 @@ _DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?:
 
 FORMS: Listed = (
     ("clear cleared", "direct",
-     rf"clear(?:ed)? (?:to proceed )?direct(?: to)?(?: (?P<fix>{FIX}))?", direct),
+     rf"clear(?:ed)? (?:to proceed )?direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?", direct),
     ("clear cleared", "hold_at",
      rf"clear(?:ed)? to (?P<fix>{FIX}) hold(?: {_COMPASS})?{_TURNS}", hold_at),
     ("hold holding", "hold_at",
      rf"hold(?:ing)?(?: {_COMPASS}(?: of)?| at| over) (?P<fix>(?!position|short|for){FIX}){_TURNS}",
      hold_at),
-    ("proceed proceeding", "direct", rf"proceed(?:ing)? direct(?: to)?(?: (?P<fix>{FIX}))?",
+    ("proceed proceeding", "direct",
+     rf"proceed(?:ing)? direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?",
      direct),
     ("maintain maintaining fly flying continue present runway", "heading",
      r"(?:(?:maintain|fly)(?:ing)? |continue )?(?P<kept>runway|present) heading", heading),
@@ -128,10 +137,15 @@ FORMS: Listed = (
     ("turn turning", "heading",
      rf"turn(?:ing)? (?P<turn>left|right)(?! base| downwind| final| crosswind)"
      rf"(?: now| immediately)?(?: to)?(?: heading)?(?: {_HEADING})?", heading),
+    ("make making", "direct",
+     rf"mak(?:e|ing)(?: a| your)? (?P<turn>left|right) turn {_DIRECT} (?P<fix>{FIX})", direct),
+    ("make making", "heading",
+     r"mak(?:e|ing)(?: a| your)? (?P<turn>left|right) turn(?! (?:out|on|to|at|into|onto|base|final)(?!\S))"
+     rf"(?: to)?(?: heading)?(?: {_HEADING})?", heading),
     ("left right", "heading",
      rf"(?P<turn>left|right)(?: turn)?(?: to)?(?: a)? heading {_HEADING}", heading),
     ("left right", "heading",
-     r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )"
+     r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?!(?:left|right) 360 for)"
      rf"(?P<turn>left|right)(?: turn)?(?: to)? (?P<bare>){_HEADING}", heading),
     ("left right", "heading",
      r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)"
@@ -140,8 +154,8 @@ FORMS: Listed = (
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),
     ("heading", "heading", rf"heading {_HEADING}", heading),
-    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own navigation", alone),
-    ("direct", "direct", rf"direct(?: to)?(?: (?P<fix>{FIX}))?", direct),
+    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own nav(?:igation)?", alone),
+    ("direct", "direct", rf"direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?", direct),
     ("intercept", "heading", r"intercept", nothing),
 )  # fmt: skip
 """Forms of headings, directs and holds."""

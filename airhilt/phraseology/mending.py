@@ -85,7 +85,7 @@ _BEFORE_FIX = frozenset({"cross", "crossing", "direct", "over", "by", "depart", 
 _ILS = "YElEs"
 """Sounds of the letters I L S."""
 _NAMES = frozenset(word for name in TELEPHONY.values() for word in name.split())
-_OWN = frozenset(_TARGETS) | (PHONEMES.keys() - _NAMES)
+_OWN = frozenset({*_TARGETS, "correct"}) | (PHONEMES.keys() - _NAMES)
 """Words of the phraseology, which are never replaced."""
 
 

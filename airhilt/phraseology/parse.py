@@ -19,7 +19,7 @@ from airhilt.phraseology.corrections import Corrections, without_slips
 from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.scan import CONDITIONS
-from airhilt.phraseology.slots import LEVEL, NO_SENSE, pressure_of, wind_of
+from airhilt.phraseology.slots import LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
 from airhilt.phraseology.words import MENDED, Words, words_of
 
 DISTRESS = "mayday"
@@ -29,6 +29,8 @@ LONGEST_TRAFFIC = 9
 """Most words from "traffic" to the type of an aircraft, which may sound like a callsign."""
 NO_CALLSIGN = 0.5
 """Confidence in a call that names no callsign on the frequency, or two ambiguous ones."""
+_WINDY = frozenset({"wind", "land", "takeoff", "option", "touch"})
+"""Words beside which a wind is given."""
 _ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
 _REQUESTS = frozenset({"request", "requesting", "requests"})
 _SAY_AGAIN = re.compile(
@@ -119,6 +121,10 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         parts.append(0.0)
     elif not content.instructions:
         parts.append(min(rest.confidences, default=0.0))
+    pressure_hpa = pressure_of(text) if present & {"altimeter", "qnh", "q"} else None
+    if pressure_hpa is None and content.pressure_hpa is not None:
+        pressure_hpa = content.pressure_hpa
+        parts.append(SHORTENED)
     place = None if naming.addressed_first and kind == "instruction" else _PLACES.search(text)
     return Call(
         match=match,
@@ -134,8 +140,8 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
         position=place[0] if place else None,
         traffic=tuple(content.traffic),
-        wind=wind_of(text) if "wind" in present else None,
-        pressure_hpa=pressure_of(text) if present & {"altimeter", "qnh", "q"} else None,
+        wind=wind_of(text) if present & _WINDY else None,
+        pressure_hpa=pressure_hpa,
         confidence=min(parts),
         text=text,
     )

@@ -15,6 +15,7 @@ from airhilt.phraseology.forms import (
     Segment,
     alone,
     is_next_runway,
+    nothing,
     on_runway,
 )
 from airhilt.phraseology.slots import (
@@ -36,10 +37,16 @@ PLACES = (
     "mountain", "run", "springs", "bay", "harbor", "harbour", "woods", "pass", "field",
 )  # fmt: skip
 """Words after an animal in the name of a place: Deer Park."""
-_POINT = re.compile(rf" (?:at |of )?(?:taxiway |intersection |point )?({TAXIWAY})")
-_LINK = re.compile(rf" (?:of )?({NUMBERED_LINK})")
+_POINT = re.compile(
+    rf" (?:at |of )?(?:the )?(?:taxiway |intersection |(?:holding )?(?:point|decimal) )?({TAXIWAY})"
+)
+_LINK = re.compile(rf" (?:of |at )?({NUMBERED_LINK})")
 _DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER})(?= \||$)")
 """Pattern of a taxiway of two letters, behind which the call ends."""
+_OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
+"""Words of an approach, which "continue" belongs to."""
+_HEARSAY = re.compile(r"(?<!\S)(?:reported|reports|earlier|previous)(?!\S)")
+"""Words of what somebody else saw before."""
 _READY = re.compile(r"(?<!\S)ready(?!\S)")
 
 
@@ -68,7 +75,12 @@ def continue_approach(segment: Segment, action: Action) -> Read | None:
 def continues(segment: Segment, action: Action) -> Read | None:
     """Read "continue" beside a runway, which is the approach to it."""
     read = continue_approach(segment, action)
-    return read if read and read.instruction.runway else None
+    if read is None or read.instruction.runway:
+        return read
+    if _OF_LANDING.search(segment.text) is None:
+        return None
+    told = replace(read.instruction, confidence=NO_RUNWAY)
+    return read._replace(instruction=told)
 
 
 def hold_short(segment: Segment, action: Action) -> Read | None:
@@ -89,7 +101,7 @@ def hold_short(segment: Segment, action: Action) -> Read | None:
 def bare_hold_short(segment: Segment, action: Action) -> Read | None:
     """Read "short of" without "hold", as it is read back."""
     read = hold_short(segment, action)
-    if read is None:
+    if read is None or _READY.search(segment.text, segment.start):
         return None
     told = read.instruction
     return read._replace(instruction=replace(told, confidence=min(told.confidence, BARE_VALUE)))
@@ -102,6 +114,8 @@ def wildlife(segment: Segment, action: Action) -> Read | None:
         return Read(Instruction(action, confidence=NO_RUNWAY), segment.start, segment.found.end())
     told = read.instruction
     confidence = 1.0 if told.runway is None else told.confidence
+    if _HEARSAY.search(segment.before_all):
+        confidence = min(confidence, NO_RUNWAY)
     return Read(Instruction(action, told.runway, told.position, confidence=confidence), *read[1:3])
 
 
@@ -137,6 +151,11 @@ FORMS: Listed = (
     ("short", "hold_short",
      r"(?<!hold )(?<!we )(?<!i )(?<!you )(?<!are )(?<!is )(?<!am )(?<!just )(?<!landed )(?<!stop )"
      r"short of", bare_hold_short),
+    (" ".join(str(count) for count in range(1, 10)), "cleared_to_land",
+     r"(?<!runway )[1-9] (?:more )?(?:aircraft )?(?:to|for) (?:vacate|exit|depart|departure|land|go|roll|cross)", nothing),
+    ("hold holding", "hold_short",
+     rf"hold(?:ing)? at(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
+     hold_short),
     ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
     ("holding", "hold_position", r"holding(?= \||$)", alone),
     ("hold holding", "hold_position", r"(?<!will )hold(?:ing)? (?:your |my |present |in )?position",
@@ -153,7 +172,8 @@ FORMS: Listed = (
     ("continue continuing", "continue_approach", r"continu(?:e|ing) (?:the |your )?approach",
      continue_approach),
     ("continue", "continue_approach",
-     r"continue(?: for)?(?= runway|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
+     r"continue(?: for)?(?: now)?"
+     r"(?= runway|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
      continues),
     ("continue", "continue_approach", r"continue(?= number [0-9])", continue_approach),
     ("backtrack backtracking", "backtrack", r"backtrack(?:ing)?", on_runway),

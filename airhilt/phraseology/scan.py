@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
+from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
@@ -23,6 +24,11 @@ LONGEST_CONDITION = 9
 """Most words in a condition."""
 LONGEST_TRAFFIC = 16
 """Most words from "traffic" to what the traffic does, such as "climbing"."""
+_HAPPENED = frozenset(
+    {"passes", "passed", "lands", "landed", "departs", "departed", "vacates", "vacated", "clears",
+     "rolls", "goes"}
+)  # fmt: skip
+"""Last words of a condition, behind which a route may begin."""
 LONGEST_STATION = 6
 """Most words from "contact" to the frequency."""
 RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
@@ -38,7 +44,7 @@ _VERB = (
 )
 _MARKER = r"the (?:outer |middle |inner )?marker"
 _EVENTS = {
-    "at": rf"at (?:pilot discretion|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
+    "at": rf"at (?:(?:pilot|your|own) discretion|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
     "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
@@ -47,10 +53,13 @@ _EVENTS = {
     "depart": rf"depart {FIX}(?= heading)",
     "leave": rf"leave {FIX}(?= heading)",
     "event": rf"event of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
-    "when": r"when ready",
+    "when": r"when (?:ready|able)",
+    "if": r"if able",
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
+_BEHIND_AGAIN = re.compile(rf"(?: (?:runway )?{RUNWAY})? (?:behind|after) \|$")
+"""The end of a readback of a condition."""
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
 _TO_TURN = re.compile(rf" (?:runway {RUNWAY} )?(?:(?:next|first) )?(?:to the )?")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
@@ -105,9 +114,8 @@ class Scan:
         if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
             self._open(start, index, is_traffic=True)
             return 0
-        is_condition = word in CONDITIONS and self._texts[max(index - 2, 0) : index][:1] != [
-            "number"
-        ]
+        is_number = "number" in self._texts[max(index - 4, 0) : index]
+        is_condition = word in CONDITIONS and not is_number
         if is_condition and (self._open_at is None or self._is_traffic):
             self._close(start)
             self._open(start, index, is_traffic=False)
@@ -123,7 +131,7 @@ class Scan:
         if self._open_at is not None:
             longest = LONGEST_TRAFFIC if self._is_traffic else LONGEST_CONDITION
             is_others = word.endswith("ing") and each.form.action != "visual_separation"
-            if is_others and index - self._begun <= longest:
+            if is_others and index - self._begun <= longest and not self._is_own(each):
                 return each.match.end()
             if self._texts[index - 1] in CONDITIONS:
                 return 0
@@ -135,6 +143,18 @@ class Scan:
             self._close(end)
         self.found.append(each)
         return each.match.end()
+
+    def _is_own(self, each: Found) -> bool:
+        """Return whether a pilot lines up, or crosses, behind whom the condition names.
+
+        The words that end the call are "behind" and the callsign.
+        """
+        text = self._text
+        return (
+            not self._is_traffic
+            and self._texts[0] != NAME
+            and _BEHIND_AGAIN.match(text, each.match.end()) is not None
+        )
 
     def _event_at(self, start: int, index: int, word: str) -> re.Match[str] | None:
         """Return the condition that begins with a word and ends with its own words."""
@@ -174,7 +194,12 @@ class Scan:
             if word == NAME:
                 self._close(start)
             return
-        ends = word in (NAME, "runway") or index - self._begun >= LONGEST_CONDITION
+        has_happened = self._texts[index - 1] in _HAPPENED and (
+            word in LETTER_OF or word[0].isdigit()
+        )
+        ends = (
+            word in (NAME, "runway") or has_happened or index - self._begun >= LONGEST_CONDITION
+        )
         if ends and not (word == "runway" and self._texts[index - 1] in ("crossing", "the", "of")):
             self._close(start)
 

@@ -39,7 +39,8 @@ NUMBER_ENDS = (
 """Pattern after a number that is not followed by a unit, and so may be a runway."""
 SIDE = (
     r"(?: (left|right|centre|l|r|c)(?!\S)"
-    r"(?! (?:downwind|base|crosswind|closed|pattern|heading|turn(?! (?:left|right)))))"
+    r"(?! (?:downwind|base|crosswind|closed|pattern|heading|turn(?! (?:left|right))"
+    r"|traffic(?: \||$| approved))))"
 )
 """Pattern of the side of a parallel runway; "runway 01 left downwind" is about the circuit."""
 RUNWAY = rf"(0?[1-9]|[12][0-9]|3[0-6])(?!\S){NUMBER_ENDS}{SIDE}?"
@@ -70,7 +71,7 @@ LEVEL_WORDS = (
     r"|[1-9][0-9]{3,4}(?: feet)?)"
 )
 """Pattern of the words of any level."""
-CONTINUES = re.compile(r" [0-9]|(?: [a-z]+){1,2} hundred(?!\S)")
+CONTINUES = re.compile(r" [0-9](?![0-9]* (?:knots|on the)(?!\S))|(?: [a-z]+){1,2} hundred(?!\S)")
 """Pattern after a level whose number goes on, so that it may be the rest of another one."""
 BARE_FEET = re.compile(
     r"(?: (?:to|at|and|now|altitude|an|of|immediately))* ([1-9][0-9]{3,4})(?!\S)"
@@ -90,14 +91,20 @@ FIX_ENDS = (
     r"|negative|unable|intercept|join|continue|make|go|line|taxi|cancel|delete|amend|depart|leave"
     r"|in|position|flight|left turns|right turns|outbound|inbound|approach|approved|identified"
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
-    r"|number|squawking|below|above|remain|circle|change|published|enter)"
+    r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
+    r"|vortac|ndb|v|by|own)"
 )
 """Words that end the name of a fix."""
 _NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"
+_UNIT_IN_NAME = (
+    r"(?:ground|tower|centre)(?= \||$| (?:when|if|once|rest|and|then|after|at|climb|descend|maintain"
+    r"|cross|expect|as)(?!\S))"
+)
+"""Pattern of a word for a unit behind which no frequency stands: Battle Ground is a navaid."""
 FIX = (
     rf"(?:(?:[0-9]{{1,2}} (?!{FIX_ENDS}(?!\S)|{_NO_UNIT}))?"
     rf"(?!{_NOT_NAMES})[a-z]+(?!\S)"
-    rf"(?: (?!{FIX_ENDS}(?!\S))[a-z]+(?!\S)){{0,2}})"
+    rf"(?: (?:(?!{FIX_ENDS}(?!\S))[a-z]+(?!\S)|{_UNIT_IN_NAME})){{0,2}})"
 )
 """Pattern of the name of a fix or navaid: up to three words."""
 DIGITS_GO_ON = re.compile(r" [a-z]+ [0-9]{1,2}(?!\S)")
@@ -106,8 +113,17 @@ FREQUENCY = re.compile(r"(?<!\S)(1[1-3][0-9]) decimal ([0-9]{1,3})(?!\S)")
 SHORT_FREQUENCY = re.compile(r"(?<!\S)(?:on )?decimal ([0-9]{1,3})(?!\S)")
 WIND = re.compile(
     r"(?<!\S)wind (?:is )?(?:(calm)|(variable|[0-9]{3})(?: degrees)?(?: at)? ?([0-9]{1,2})(?!\S)"
-    r"(?: knots)?(?: gust(?:s|ing)?(?: to)? ([0-9]{1,2})(?!\S))?)"
+    r"(?: knots)?(?: (?:gust(?:s|ing)?|maximum|max|peak|peaks|up)(?: up)?(?: to)?"
+    r" ([0-9]{1,2})(?!\S))?)"
 )
+BARE_WIND = re.compile(
+    r"(?:^|(?<=\| )|(?<=left )|(?<=right )|(?<=centre )|(?<=check )|(?<=land )|(?<=takeoff ))()"
+    r"([0-3][0-9]0)(?: degrees at| at| degrees) ([0-9]{1,2})(?!\S)"
+    r"(?: knots)?(?: (?:gust(?:s|ing)?|maximum)(?: up)?(?: to)? ([0-9]{1,2})(?!\S))?"
+    r"(?= (?:runway|cleared|traffic|\||[0-9]{1,2} (?:left|right|centre|cleared))|$)"
+)
+"""A wind without the word."""
+_AT_RUNWAY = re.compile(r"(?<!\S)(?:land|takeoff|option|touch and go|wind)(?!\S)")
 PRESSURE = re.compile(
     r"(?<!\S)(?:altimeter|qnh|q n h) (?:is )?([0-9]{3,4}|[0-9]{2} decimal [0-9]{2})(?!\S)"
 )
@@ -179,8 +195,10 @@ def frequency_khz(mhz: str, fraction: str) -> int | None:
 
 
 def wind_of(text: str) -> Wind | None:
-    """Return the wind in a call."""
+    """Return the wind in a call; beside a clearance to land or take off, "wind" may be left out."""
     found = WIND.search(text)
+    if not found and _AT_RUNWAY.search(text):
+        found = BARE_WIND.search(text)
     if not found:
         return None
     calm, direction, speed, gust = found.groups()
@@ -195,9 +213,12 @@ def wind_of(text: str) -> Wind | None:
 def pressure_of(text: str) -> float | None:
     """Return the altimeter setting in a call, given in inches of mercury or hectopascals."""
     found = PRESSURE.search(text)
-    if not found:
-        return None
-    value = int(found[1].replace(" decimal ", ""))
+    return hpa_of(found[1].replace(" decimal ", "")) if found else None
+
+
+def hpa_of(digits: str) -> float | None:
+    """Return an altimeter setting from its digits, in inches of mercury or hectopascals."""
+    value = int(digits)
     if 2700 <= value <= 3150:
         return value / 100.0 * HPA_PER_INHG
     return float(value) if 900 <= value <= 1060 else None

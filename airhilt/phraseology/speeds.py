@@ -17,6 +17,8 @@ def speed(segment: Segment, action: Action) -> Read | None:
     bound, end, sure = bound_after(segment.text[: segment.limit], segment.found.end())
     if parts.get("most"):
         bound = "or_less"
+    distance = _TO_DISTANCE.match(segment.text, end)
+    end = distance.end() if distance else end
     confidence = NO_SENSE if parts.get("feet") else min(sure, speed_confidence(speed_kt))
     read = Instruction(action, speed_kt=speed_kt, bound=bound, confidence=confidence)
     return Read(read, segment.start, end)
@@ -58,6 +60,10 @@ def mach(segment: Segment, action: Action) -> Read | None:
                 segment.start, end)  # fmt: skip
 
 
+_TO_DISTANCE = re.compile(
+    r" to (?:the )?(?:(?:outer )?marker|[0-9]{1,2}(?: (?:miles?|d m e|dme))?(?: final)?)(?!\S)"
+)
+"""The distance from the threshold to which a speed is kept."""
 _NUMBER = (
     r"(?P<number>[1-9][0-9]{2}|[6-9][0-9])(?!\S)(?! (?:thousand|degrees|miles?|decimal))"
     r"(?: knots)?(?P<feet> feet)?"
@@ -106,12 +112,16 @@ KNOTS_FORM = Form(
     bare_speed,
 )
 """Form of a speed without a verb."""
+ON_SPEED_FORM = Form(
+    "speed", re.compile(r"(?P<number>[1-3][0-9]0)(?= on the speed(?!\S))"), bare_speed
+)
+"""Form of a speed that is read back as "one seventy on the speed"."""
 LIMITED_FORM = Form(
     "speed",
     re.compile(
         r"(?<!heading )(?<!level )(?P<number>[1-3][0-9]0)(?= or (?:better|greater|less|more)(?!\S)"
-        r"| (?:to|until) (?:the )?(?:(?:outer )?marker|[0-9]{1,2} (?:miles?|d m e)|short final)"
-        r"(?!\S))"
+        r"| (?:to|until) (?:the )?(?:(?:outer )?marker|[0-9]{1,2} (?:miles?|d m e|dme)|short final"
+        r"|(?:[2-9]|1[0-5])(?= \||$| (?:and|then|contact|tower)(?!\S)))(?!\S))"
     ),
     bare_speed,
 )

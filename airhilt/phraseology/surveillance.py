@@ -27,6 +27,7 @@ from airhilt.phraseology.slots import (
     FIX_ENDS,
     FREQUENCY,
     GROUND_MHZ,
+    LETTER,
     LEVEL_WORDS,
     SHORT_FREQUENCY,
     SHORTENED,
@@ -118,21 +119,34 @@ def station_frequency(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, found.end())
 
 
+def hold_on(segment: Segment, action: Action) -> Read | None:
+    """Read "hold on", which asks to wait for a call, in words of no phraseology."""
+    read = Instruction(action, confidence=LONG_NAME)
+    return Read(read, segment.start, segment.found.end())
+
+
 def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
     what = (event or segment.found["other"]).strip()
+    if _SEEN.fullmatch(what):
+        is_field = _FIELD.search(segment.before_all) is not None
+        what = "field in sight" if is_field else "traffic in sight"
     is_named = event is not None and segment.found[0].startswith("report")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
 
 
+_SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
+_FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")
 _NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
 _EVENT = (
-    rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s))?"
-    rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it) in sight|in sight"
+    rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s"
+    r"|downwind|approach))?"
+    rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic) in sight"
+    rf"|in sight|turning (?:left |right )?(?:base|final|downwind|crosswind)"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
-    rf"(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|(?:runway )?vacated"
+    rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|(?:runway )?vacated"
     rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
     rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
 )
@@ -160,6 +174,7 @@ FORMS: Listed = (
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
     ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),
+    ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|{LETTER})(?!\S))", hold_on),
     ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
     ("maintain maintaining", "visual_separation",
      r"maintain(?:ing)? (?:(?:visual|your own|own) separation|visual(?= \||$| cleared))", alone),

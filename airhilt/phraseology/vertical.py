@@ -18,6 +18,7 @@ from airhilt.phraseology.forms import (
 from airhilt.phraseology.slots import (
     BARE_FEET,
     FIX,
+    FIX_ENDS,
     HIGHEST_LEVEL,
     LEVEL,
     LEVEL_HERE,
@@ -114,8 +115,13 @@ def altitude(segment: Segment, action: Action) -> Read | None:
         sense = None
     bound = bound_of(segment.found.groupdict().get("bound"))
     feet, confidence, taken = level_in(segment.after, is_here=bound is not None)
-    if feet is None and (sense != "maintain" or words[0] != "maintain"):
+    is_passed = _PASSED.match(segment.after) is not None
+    if feet is None and (sense != "maintain" or words[0] != "maintain") and not is_passed:
         feet, confidence, taken = bare_level(segment.after)
+    along = _ALONG.match(segment.text, segment.found.end()) if feet is None else None
+    if along is not None:
+        feet, confidence, _ = level_in(segment.text[along.end() :], is_here=True)
+        taken = 0
     if feet is None and sense in ("maintain", None):
         return None
     end = segment.found.end() + taken
@@ -130,7 +136,63 @@ def altitude(segment: Segment, action: Action) -> Read | None:
         immediate=is_immediate(segment, end),
         confidence=confidence,
     )
+    by_fix = _BY_FIX.match(segment.text, end, segment.limit) if feet is not None else None
+    if by_fix is None:
+        return Read(read, segment.start, end)
+    reached = Instruction(
+        "cross_fix", position=by_fix["fix"], altitude_ft=feet, confidence=confidence
+    )
+    return Read(read, segment.start, by_fix.end(), (reached,))
+
+
+def limited_level(segment: Segment, action: Action) -> Read | None:
+    """Read a level that is not to be passed, or one that holds until a fix or over it."""
+    found = segment.found
+    bound = bound_of(found["bound"])
+    if found[0].startswith("not"):
+        bound = "or_more" if found["bound"] == "below" else "or_less"
+    feet, confidence, taken = level_in(segment.after, is_here=True)
+    if feet is None:
+        return None
+    end = found.end() + taken
+    fix = segment.before.split()
+    if len(fix) == 1 and segment.found[0].startswith("at") and _IS_NAME.fullmatch(fix[0]):
+        action, sure = "cross_fix", min(confidence, BARE_VALUE)
+        crossed = Instruction(
+            action, position=fix[0], altitude_ft=feet, bound=bound, confidence=sure
+        )
+        return Read(crossed, segment.begin, end)
+    read = Instruction(action, altitude_ft=feet, bound=bound, confidence=confidence)
     return Read(read, segment.start, end)
+
+
+def level_over_fix(segment: Segment, action: Action) -> Read | None:
+    """Read a bound for a level over a fix that is named behind it."""
+    found = segment.found
+    fix, confidence = fix_of(segment)
+    feet, sure, _ = level_in(f" {found['level']}", is_here=True)
+    if feet is None:
+        return None
+    read = Instruction(
+        action, position=fix, altitude_ft=feet, bound=bound_of(found["bound"]),
+        confidence=min(confidence, sure),
+    )  # fmt: skip
+    return Read(read, segment.start, found.end())
+
+
+def by_discretion(segment: Segment, action: Action) -> Read | None:
+    """Read a level that the pilot may go to at any time."""
+    feet, confidence, taken = level_in(segment.after, is_here=True)
+    if feet is None:
+        feet, confidence, taken = bare_level(segment.after)
+    if feet is None:
+        return None
+    sense: Sense | None = "descend" if " down" in segment.found[0] else None
+    read = Instruction(
+        action, sense=sense, altitude_ft=feet, condition="at pilot discretion",
+        confidence=confidence,
+    )  # fmt: skip
+    return Read(read, segment.start, segment.found.end() + taken)
 
 
 def cross_fix(segment: Segment, action: Action) -> Read | None:
@@ -139,6 +201,9 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
     fix, confidence = fix_of(segment)
     bound = bound_of(found["bound"])
     feet, sure, taken = level_in(segment.after, is_here=True)
+    bare = _BARE_CROSSING.match(segment.after) if feet is None else None
+    if bare:
+        feet, sure, taken = float(bare[1]) * 1000.0, SHORTENED, bare.end()
     end = found.end() + taken
     if feet is not None and bound is None:
         bound, end, or_sure = bound_after(segment.text[: segment.limit], end)
@@ -165,6 +230,14 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, end, (kept,) if found["kept"] and feet is not None else ())
 
 
+_ALONG = re.compile(r" (?:on )?(?:runway|present) heading(?= to(?!\S))")
+"""A heading between a climb and its level."""
+_PASSED = re.compile(r" through(?!\S)")
+"""A level that is only passed: the climb or the descent goes on."""
+_BY_FIX = re.compile(rf" by (?!the(?!\S)|time(?!\S))(?P<fix>{FIX})(?!\S)")
+_IS_NAME = re.compile(rf"(?!(?:{FIX_ENDS})$)[a-z]{{3,}}")
+_BARE_CROSSING = re.compile(r" ([4-9]|[12][0-9])(?= (?:and|at) [12][0-9]0(?!\S)|$| \|)")
+"""Thousands of feet over a fix without the word."""
 _MORE_NUMBERS = re.compile(r" (?:and )?at [0-9]")
 _CROSSING_SPEED = re.compile(
     r" (?:(?:and )?at |and |(?=[0-9]{3} knots))([1-3][0-9]{2})"
@@ -223,11 +296,14 @@ CROSSINGS: Listed = (
     ("cross crossing", "cross_fix",
      rf"cross(?:ing)? (?!{SIDED_RUNWAY})"
      rf"(?P<fix>(?:[0-9]{{1,3}} miles? (?:[a-z]+ )?(?:of|from|before) )?{FIX})"
-     r"(?: at(?: or (?P<bound>above|below)| (?P<kept>and maintain))?|(?= flight level))",
+     r"(?: at(?: or (?P<bound>above|below)| (?P<kept>(?:and )?maintain))?|(?= flight level))",
      cross_fix),
     ("climb climbing descend descending", "cross_fix",
      r"(?:climb|descend)(?:ing)? to (?:be level|reach|be at)(?: at)?"
      rf" (?P<level>{LEVEL_WORDS}) by (?P<fix>{FIX})", level_by_fix),
+    ("at", "cross_fix",
+     rf"at or (?P<bound>above|below) (?P<level>{LEVEL_WORDS}) (?:at|over) (?P<fix>{FIX})",
+     level_over_fix),
     ("level", "cross_fix", rf"level by (?P<fix>{FIX})", level_by_fix),
 )  # fmt: skip
 """Forms of crossing restrictions, which come before those of crossing a runway."""
@@ -254,9 +330,14 @@ FORMS: Listed = (
     ("expedite expediting", "altitude", r"expedit(?:e|ing) to(?= flight| level| [0-9])", altitude),
     ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)", altitude),
     ("expedite expediting", "altitude",
-     r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: through| to| and maintain)?"
+     r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: to| and maintain)?"
      rf"{_OR}",
      altitude),
+    ("not", "altitude", r"not (?P<bound>above|below)(?= [0-9]| flight| level)", limited_level),
+    ("at", "altitude", r"at or (?P<bound>above|below)(?= [0-9]| flight| level)", limited_level),
+    ("discretion pilot", "altitude",
+     r"(?:pilot )?discretion(?: down)? to(?= [0-9]| flight| level)", by_discretion),
+    ("recleared", "altitude", r"recleared(?: to)?(?= flight| level| [0-9])", altitude),
     ("except", "altitude", r"except maintain", altitude),
     ("maintain maintaining remain", "altitude",
      r"(?:maintain(?:ing)?|remain)(?: v f r| vfr)? at or (?P<bound>above|below)", altitude),

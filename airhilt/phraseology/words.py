@@ -87,6 +87,11 @@ UNITS = frozenset(
 """Words before which a number ends."""
 WIDTHS = {"runway": 2, "heading": 3, "level": 3, "decimal": 3}
 """Number of digits that follow a word."""
+_DISTANCES = frozenset({"d", "dme"})
+"""First words of a unit of distance behind a number, besides `UNITS`."""
+_SPEEDS = range(140, 260)
+"""Speeds in knots that are kept to a distance from the threshold; no frequency begins so."""
+_SIDES = frozenset({"left", "right", "centre"})
 _AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clear", "line"})
 
 
@@ -220,9 +225,28 @@ def _without_fillers(raw: list[Raw]) -> list[Raw]:
     """Return words without hesitations, of which "and uh" is one."""
     return [
         each
-        for each, following in zip(raw, [*raw[1:], Raw("", 1.0)], strict=True)
-        if each.text not in FILLERS and not (each.text == "and" and following.text in FILLERS)
+        for at, each in enumerate(raw)
+        if each.text not in FILLERS
+        and not (
+            each.text == "and"
+            and raw[at + 1 : at + 2]
+            and raw[at + 1].text in FILLERS
+            and not (_ends_number(raw[:at]) and _digits_from(raw, at + 2)[0] > 1)
+        )
     ]
+
+
+def _ends_number(raw: list[Raw]) -> bool:
+    """Return whether words end with a whole number: three digits, or a distance after "to"."""
+    count = 0
+    for each in reversed(raw):
+        if each.text in DIGITS:
+            count += 1
+        elif each.text in TEENS or each.text in TENS:
+            count += 1 if count == 1 and each.text in TENS else 2
+        else:
+            return count == 3 or (count == 1 and each.text in ("to", "until", "till"))
+    return count == 3
 
 
 def _join(raw: list[Raw]) -> Words:
@@ -308,6 +332,8 @@ def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool
     if sound in ("oh", "o", "won", "ate"):
         return joining or bool(digits) or introduced in WIDTHS
     if joining:
+        if _is_preposition(words, sound, digits, after):
+            return False
         if digits == 0:
             return (
                 sound in ("for", "fore")
@@ -315,9 +341,25 @@ def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool
                 and len(introduced) == 1
                 and following in _AFTER_RUNWAY
             )
-        return len(introduced) < 4 and after not in UNITS
+        return len(introduced) < 4 and after not in UNITS and after not in _DISTANCES
     width = WIDTHS.get(introduced)
-    return width is not None and digits > 0 and (width == 3 or digits == 1) and digits < width
+    is_short = width is not None and 0 < digits < width and (width == 3 or digits == 1)
+    return is_short and after not in UNITS
+
+
+def _is_preposition(words: Words, sound: str, digits: int, after: str) -> bool:
+    """Return whether "to" or "for" between two numbers is no digit.
+
+    It leads from a speed to the distance where it ends ("one seventy to five"), or from a holding
+    point to its runway ("mike three for zero eight right").
+    """
+    introduced, before = words.texts[-1], words.texts[-2] if len(words.texts) > 1 else ""
+    is_speed = len(introduced) == 3 and introduced[2] == "0" and int(introduced) in _SPEEDS
+    if is_speed and sound in ("to", "too") and digits == 1:
+        return True
+    is_point = before in _SPELLED and len(introduced) <= 2 and digits == 2
+    is_for = sound in ("for", "fore") and before != "november" and after not in _SPELLED
+    return is_point and (after in _SIDES or is_for)
 
 
 def _digits_from(raw: list[Raw], at: int) -> tuple[int, str]:

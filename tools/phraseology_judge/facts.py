@@ -258,7 +258,7 @@ def fact_of(said: Instruction, status: str) -> Fact:
         },
         "taxi": {
             "runway": said.runway,
-            "words": _tokens(said.position),
+            "words": None if said.runway else _tokens(said.position),
             "via": " ".join(said.via),
         },
         "hold_short": {"point": said.runway or said.hold_short},
