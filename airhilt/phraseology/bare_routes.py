@@ -1,4 +1,4 @@
-"""Taxi routes without "taxi": "bravo golf short of two seven", "three zero left via bravo delta"."""
+"""Taxi routes without "taxi": "bravo golf, short of two seven", "three zero left via bravo"."""
 
 from __future__ import annotations
 
@@ -25,14 +25,17 @@ _PIECE = rf"(?:{_LETTER}(?: [0-9]{{1,2}}(?!\S))?|{NUMBERED_LINK})"
 _LISTED = rf"{_PIECE}(?: (?:(?:and|then|on|onto|left|right|taxiway) )*{_PIECE})*"
 _TO_RUNWAY = rf"(?:to|for)(?: the)?(?: holding (?:point|decimal))?(?: runway)? {RUNWAY}"
 _ROUTES = (
-    re.compile(rf"(?:runway (?=[0-9])|(?=[0-9]+ (?:left|right|centre|via))){RUNWAY}(?: via| on)?"
-               rf" (?P<via>{_LISTED})"),
     re.compile(
-        rf"(?P<named>holding (?:point|decimal) )?(?P<point>{_LETTER}(?: [0-9]{{1,2}}(?!\S))?)"
-        rf" (?:for )?(?:runway )?{RUNWAY}"
+        rf"(?:runway (?=[0-9])|(?=[0-9]+ (?:left|right|centre|via))){RUNWAY}(?: via| on)?"
+        rf" (?P<via>{_LISTED})"
     ),
     re.compile(
-        rf"(?:(?:via|on|along|taxiway|left|right|then|continue|we|will|take|now) )*(?P<via>{_LISTED})"
+        rf"(?P<named>holding (?:point|decimal) )?(?P<point>{_LETTER}(?: [0-9]{{1,2}}(?!\S))?)"
+        rf"(?: (?:for runway |for |runway |(?=[0-9]+ (?:left|right|centre))){RUNWAY})?"
+    ),
+    re.compile(
+        r"(?:(?:via|on|along|taxiway|left|right|then|continue|we|will|take|now) )*"
+        rf"(?P<via>{_LISTED})"
         rf"(?: {_TO_RUNWAY}|(?: and)?(?: to)?(?: the)? (?P<stand>{STAND})"
         r"| to (?:the )?(?P<place>(?:north|south|east|west|cargo|main)(?: [a-z]+){1,2}))?"
     ),
@@ -68,21 +71,22 @@ def bare_route(
     is_others = last in ("follow", "give_way") and not is_joined
     for pattern in _ROUTES:
         found = pattern.fullmatch(text)
-        if found:
-            is_ground = not (ON_GROUND.isdisjoint(beside) or is_others)
-            return _instruction(found, is_ground=is_ground, is_alone=not beside)
+        if found is None:
+            continue
+        is_ground = not (ON_GROUND.isdisjoint(beside) or is_others)
+        route = _instruction(found, is_ground=is_ground, is_alone=not beside)
+        if route is not None:
+            return route
     return None
 
 
-def _instruction(
-    found: re.Match[str], *, is_ground: bool, is_alone: bool
-) -> Instruction | None:
+def _instruction(found: re.Match[str], *, is_ground: bool, is_alone: bool) -> Instruction | None:
     parts = found.groupdict()
     number, side = _runway_of(found)
     runway = designator(number, side) if number else None
     sure = min(SHORTENED, runway_confidence(number)) if number else SHORTENED
     if point := parts.get("point"):
-        if not (parts["named"] or " for " in found[0] or is_ground):
+        if not (parts["named"] or (runway and (" for " in found[0] or is_ground))):
             return None
         return Instruction("taxi", runway, taxiway(point), confidence=sure)
     via = route_of(parts["via"])

@@ -74,7 +74,8 @@ def bare_values(words: list[str], beside: set[Action]) -> Bare:
         Actions of the call, which tell what a number without a unit is.
     """
     text, at = " ".join(words), 0
-    bare, found_values, is_then = Bare(), [], False
+    bare, is_then = Bare(), False
+    found_values: list[tuple[re.Match[str], bool]] = []
     while at < len(text):
         joint = _JOINT.match(text, at)
         if joint and found_values:
@@ -140,9 +141,7 @@ def _level(text: str, action: Action) -> Instruction | None:
     feet = level and level_ft(level)
     if level is None or feet is None:
         return None
-    return Instruction(
-        action, altitude_ft=feet, confidence=min(SHORTENED, level_confidence(level))
-    )
+    return Instruction(action, altitude_ft=feet, confidence=min(SHORTENED, level_confidence(level)))
 
 
 def _crossing(found: re.Match[str]) -> Instruction | None:
@@ -151,7 +150,8 @@ def _crossing(found: re.Match[str]) -> Instruction | None:
         return None
     speed = found["at_kt"] or found["at_speed"]
     level = _level(found["over_level"], "cross_fix") if found["over_level"] else None
-    feet = float(found["over"]) * 1000.0 if found["over"] else level and level.altitude_ft
+    feet = float(found["over"]) * 1000.0 if found["over"] else None
+    feet = level.altitude_ft if level else feet
     return Instruction(
         "cross_fix", position=found["fix"], altitude_ft=feet,
         speed_kt=float(speed) if speed else None, confidence=SHORTENED,
@@ -196,7 +196,9 @@ def _frequency(found: re.Match[str], text: str) -> Instruction | None:
         mhz, fraction = found["mhz"], found["fraction"]
     else:
         digits = found["short"] or found["group"] or (found["setting"] and text)
-        if not digits or not re.fullmatch(rf"(?:1[89]|2[0-9]|3[0-6])(?:{_FRACTION}|[1-46-9])", digits):
+        if not digits or not re.fullmatch(
+            rf"(?:1[89]|2[0-9]|3[0-6])(?:{_FRACTION}|[1-46-9])", digits
+        ):
             return None
         mhz, fraction = f"1{digits[:2]}", digits[2:]
     khz = frequency_khz(mhz, fraction)

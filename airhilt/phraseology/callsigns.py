@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from airhilt.phraseology.aircraft_names import MAKERS
@@ -133,6 +133,8 @@ class Roster:
         chosen = max(longest, key=lambda hit: (hit.score, -hit.start))
         rivals = [hit for hit in near if hit.start < chosen.end and chosen.start < hit.end]
         match = _best(chosen, [*longest, *rivals])
+        if _is_one_of_two(words, chosen, hits):
+            match = replace(match, ambiguous=True)
         apart = [hit for hit in hits if hit.start >= chosen.end or hit.end <= chosen.start]
         again = tuple(hit for hit in apart if hit.callsign == chosen.callsign)
         unread = [hit for hit in near if not _may_be_taxiway(words, hit.start)]
@@ -174,6 +176,15 @@ def _after_opening(words: list[str]) -> tuple[int, ...]:
         at += 1
         found.append(at)
     return tuple(found)
+
+
+def _is_one_of_two(words: list[str], chosen: Hit, hits: list[Hit]) -> bool:
+    """Return whether "or" and another number or callsign follow: "for 177 or 1177"."""
+    if words[chosen.end : chosen.end + 1] != ["or"]:
+        return False
+    after = words[chosen.end + 1 : chosen.end + 3]
+    is_number = bool(after) and after[0][0].isdigit() and len(after[0]) > 1
+    return is_number or any(hit.start == chosen.end + 1 for hit in hits)
 
 
 def _may_be_taxiway(words: list[str], at: int) -> bool:

@@ -14,7 +14,7 @@ Reads = list[tuple[Read, Found]]
 CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
 """Actions that may be followed by a condition with "behind"."""
 SEQUENCED: frozenset[Action] = frozenset(
-    {"altitude", "speed", "mach", "heading", "direct", "turn_by"}
+    {"altitude", "speed", "mach", "heading", "direct", "turn_by", "descend_via", "climb_via"}
 )
 YIELDED: frozenset[Action] = frozenset({"give_way", "follow"})
 """Actions that a taxi route waits for after "then"."""
@@ -28,10 +28,11 @@ WITHDRAWN: dict[Action, Action] = {
 }
 """Clearances by the actions that cancel them."""
 _FOLLOWING = re.compile(
-    r"at (?:pilot|your|own) discretion$|when ready$|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
+    r"at (?:pilot|your|own) (?:discretion|convenience)$|when ready$"
+    r"|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
 )
 """Conditions that belong to the action right before them if there is one."""
-_WHEN_ABLE = re.compile(r"(?:when|if) able$")
+_WHEN_ABLE = re.compile(r"(?:when|whenever|if) able$")
 """Conditions that belong to the action right behind them, or else to the one right before."""
 _FILED = frozenset({"airport", "filed"})
 _AS_FILED = re.compile(r"(?<!\S)(?:as filed|cleared to .* airport)(?!\S)")
@@ -43,7 +44,9 @@ _CONSEQUENCE = re.compile(
     r"|try me|say so|remain|stay with)(?!\S)"
 )
 """Words of what is to be done under a condition that are no action of this grammar."""
-_AIRBORNE = re.compile(r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)")
+_AIRBORNE = re.compile(
+    r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
+)
 AIRBORNE = "when airborne"
 DEPARTED = "after departure"
 _RIVALS: dict[Action, Callable[[Instruction], float | None]] = {
@@ -184,6 +187,12 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
+        if _is_turn_of_route(
+            told, texts[each.first], [each.instruction for each, _ in reads[:index]]
+        ):
+            route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
+            reads[index] = read._replace(instruction=route), each
+            continue
         if told.runway is None and told.action in ("backtrack", "line_up"):
             _share_runway(reads, index, text)
         if told.condition is not None:
@@ -196,6 +205,13 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
         elif _waits(told, reads[:index], is_then=texts[max(each.first - 1, 0)] == "then"):
             _set(reads, index, condition="then")
+
+
+def _is_turn_of_route(told: Instruction, first: str, before: list[Instruction]) -> bool:
+    """Return whether a turn onto a taxiway is the route behind the crossing of a runway."""
+    is_turn = told.action == "heading" and told.position is not None and told.heading_deg is None
+    is_bare = is_turn and first in ("left", "right")
+    return is_bare and any(each.action == "cross" for each in before)
 
 
 def _share_runway(reads: Reads, index: int, text: str) -> None:
@@ -225,7 +241,7 @@ def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
     last = before[-1][0].instruction.action if before else None
     if told.action == "taxi":
         return last == "give_way" or (is_then and last in (None, *YIELDED))
-    return is_then and last is not None and told.action in SEQUENCED
+    return is_then and told.action in SEQUENCED
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:

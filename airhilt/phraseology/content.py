@@ -11,8 +11,15 @@ from typing import NamedTuple
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
-from airhilt.phraseology.conditions import YIELDED, Reads, attach, merge_levels, put_in_order, withdraw
-from airhilt.phraseology.denials import AFTERWARDS, is_expected, is_meant
+from airhilt.phraseology.conditions import (
+    YIELDED,
+    Reads,
+    attach,
+    merge_levels,
+    put_in_order,
+    withdraw,
+)
+from airhilt.phraseology.denials import AFTERWARDS, BETWEEN, is_expected, is_meant
 from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.scan import Found, Scan, Span
@@ -27,6 +34,12 @@ _OR_INSIDE = re.compile(r"[0-9] or [0-9]")
 """Two values of which one is meant."""
 _DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
 """Words behind a clearance that was denied."""
+_VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})
+"""Actions whose value stands near their words, without unknown words between."""
+_PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
+"""Words behind a level that is only passed."""
+_EVENT_WORDS = frozenset({"after", "once", "when", "behind", "as"})
+"""First words of an event that a clearance waits for."""
 LEAST_CONDITION = 2
 """Least number of words of a whole condition."""
 CLEAR = (1.0, 1.0)
@@ -95,6 +108,10 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
         return True
     if _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end):
         return True
+    if told.action in _VALUED and any(
+        is_unknown(word) for word in text[each.match.end() : read.end].split()
+    ):
+        return True
     before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
         return False
@@ -121,6 +138,7 @@ class _Gap(NamedTuple):
     """Words that belong to no action."""
 
     start: int
+    end: int
     first: str
     """The first of them."""
     words: list[str]
@@ -141,7 +159,7 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
             first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)
             heard = min(words.confidences[first:last], default=1.0)
             said = without_courtesies(PRESSURE.sub("", gap).split())
-            gaps.append(_Gap(at, gap.split()[0], said, heard))
+            gaps.append(_Gap(at, start, gap.split()[0], said, heard))
         at = max(at, end)
     return gaps
 
@@ -175,7 +193,7 @@ def _take_bare(
                 condition = "then"
             route = replace(route, condition=condition)
             _add(content, _heard(route, gap.heard, gap.heard), is_doing=False)
-        elif not is_called:
+        elif not is_called and not _PASSING.match(text, gap.end):
             bare = bare_values(gap.words, beside)
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
             for each in bare.instructions:
@@ -205,6 +223,18 @@ def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
     is_behind = any(span.end == start and not span.is_traffic for span in spans)
     begun = next((span.start for span in spans if span.end == start), start)
     return each.first if is_behind and each.first - bisect_right(starts, begun) > 0 else 0
+
+
+def _is_waited_for(spans: list[Span], texts: list[str], each: Found, starts: list[int]) -> bool:
+    """Return whether a clearance stands right behind the whole event that it waits for.
+
+    Of "once you are cleared to land" the clearance is a part of the event.
+    """
+    for span in spans:
+        words = texts[bisect_right(starts, span.start) - 1 : each.first]
+        if span.end == each.match.start() and not span.is_traffic and len(words) > LEAST_CONDITION:
+            return words[0] in _EVENT_WORDS and words[-1] not in BETWEEN - {"clear"}
+    return False
 
 
 def _end_before_runway(spans: list[Span], text: str, start: int, starts: list[int]) -> int:
@@ -240,6 +270,8 @@ def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads
             floor = max(floor, _end_of_condition(scan.spans, each, starts))
         elif scan.spans:
             floor = max(floor, _end_before_runway(scan.spans, plain, read.start, starts))
+            if _is_waited_for(scan.spans, texts, each, starts):
+                floor = each.first
         is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
         if is_said:
             reads.append((read, each))

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from airhilt.phraseology.call import Instruction
 from airhilt.phraseology.content import Content
+from airhilt.phraseology.ground import route_of
 from airhilt.phraseology.slots import (
     FREQUENCY,
     LEVEL,
@@ -48,7 +49,8 @@ _MEANT = re.compile(
     r"|(?<=[0-9] )no(?= [0-9])|(?<=thousand )no(?= [0-9])"
 )
 _INSTEAD = re.compile(
-    r"(?<!\S)(?:no|oh|negative|actually|er|sorry) (?:sorry )?(?:(?:i )?(?:make|scratch) that|i meant?)"
+    r"(?<!\S)(?:no|oh|negative|actually|er|sorry) (?:sorry )?"
+    r"(?:(?:i )?(?:make|scratch) that|i meant?)"
     rf"(?= (?:{'|'.join(_VERBS)})(?!\S))"
 )
 """Words that mean "correction", between an instruction and another one."""
@@ -208,6 +210,9 @@ def _corrected(last: Instruction, text: str) -> Instruction | None:
     if last.runway:
         found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
         return found and replace(last, runway=designator(*found.groups()), confidence=confidence)
+    route = re.match(rf"via ((?:{TAXIWAY} ?)+)$", text) if last.action == "taxi" else None
+    if route:
+        return replace(last, via=route_of(route[1]), confidence=confidence)
     number = re.match(r"([0-9]{3})(?!\S)", text)
     if last.altitude_ft:
         level = LEVEL.match(text)

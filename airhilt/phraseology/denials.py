@@ -41,7 +41,7 @@ SOMEBODY = frozenset(
      "passes", "passed"}
 )  # fmt: skip
 """Words right before the clearance of another: "vehicle crossing runway 01"."""
-SPOKEN_OF = frozenset({"follow", "following", "behind", "after", "traffic", "number"})
+SPOKEN_OF = frozenset({"follow", "following", "behind", "after", "traffic", "number", "from"})
 """Words before one of `SOMEBODY` that mean that the clearance is not that aircraft's."""
 OWN = frozenset({("you", "are"), ("we", "are"), ("are", "now"), ("you", "now")})
 """Word pairs before a clearance that give it or read it back all the same."""
@@ -66,10 +66,13 @@ _PHRASES = frozenset(
 )  # fmt: skip
 _QUESTIONS = frozenset(
     {("was", "that"), ("is", "that"), ("did", "you"), ("do", "you"), ("you", "want"),
-     ("want", "us"), ("should", "we"), ("shall", "we"), ("should", "i"), ("how", "about"),
+     ("want", "us"), ("we", "may"), ("we", "might"), ("i", "may"), ("i", "might"),
+     ("should", "we"), ("shall", "we"), ("should", "i"), ("how", "about"),
      ("what", "about")}
 )  # fmt: skip
 """Word pairs before an action that make it a question."""
+_WHO_WILL = frozenset({"we", "i", "you", "and", "then", "roger", "wilco", "okay", "affirm", NAME})
+"""Words before "will" that make an action the speaker's own, or that of whom is called."""
 _NOT_DENIED = frozenset({"above", "below", "before", "contact"})
 """Words behind "not" and "negative" that belong to them, so that what is before is not denied."""
 
@@ -98,6 +101,9 @@ def is_meant(
         return False
     if not _QUESTIONS.isdisjoint(zip(words[floor:first], words[floor + 1 : first], strict=False)):
         return False
+    is_said_of = words[first - 1] == "will" and first - 2 >= floor and action != "report"
+    if is_said_of and words[first - 2] not in _WHO_WILL:
+        return False
     at = first - 1
     skips = action in CLEARANCES
     while at >= floor:
@@ -115,6 +121,8 @@ def is_meant(
         return False
     if words[at] in DENIALS or tuple(words[at : at + 2]) in _PHRASES:
         return False
+    if action not in CLEARANCES and words[at] == "need" and words[at + 1 : at + 2] == ["you"]:
+        return True  # "I need you to turn left".
     is_thanked = words[at] == "waiting" and words[at - 1] == "for"
     return words[at] not in OPEN or is_thanked or action in REPORTS
 

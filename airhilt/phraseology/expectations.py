@@ -73,20 +73,21 @@ def _level_in_a_while(text: str) -> tuple[float | None, float, int]:
 
 _IN_A_WHILE = re.compile(r"(?: to)? [1-6][0-9]{2} (?:in|by|at|within)(?!\S)")
 _RUNWAYS = re.compile(rf"(?<!\S)(?:runway |(?={SIDED_RUNWAY})){RUNWAY}")
-_BARE_RUNWAY = re.compile(rf" (?={SIDED_RUNWAY}|[0-9]+(?:$| \|)){RUNWAY}")
-_EXPECT = r"(?:expect(?:ing)?|plan on)"
+_BARE_RUNWAY = re.compile(rf"(?: to)? (?={SIDED_RUNWAY}|[0-9]+(?:$| \|)){RUNWAY}")
+_EXPECT = r"(?:expect(?:ing)?|plan(?:ning)?(?: on)?|anticipate)"
 _RUNWAY = RUNWAY.replace("(0?", "(?P<number>0?", 1).replace("(left|", "(?P<side>left|", 1)
 
 FORMS: Listed = (
-    ("expect expecting plan", "altitude",
+    ("expect expecting plan planning anticipate", "altitude",
      rf"{_EXPECT}(?: (?P<sense>climb|descent|descend)(?: to)?)?(?= (?:to |flight |level |[0-9]))",
      expected_level),
-    ("expect expecting plan", "cleared_approach",
+    ("expect expecting plan planning anticipate", "cleared_approach",
      rf"{_EXPECT}(?: (?:vectors|radar vectors|the|a|an|for|to|straight in))*"
      rf" (?P<approach>{NAMED_APPROACH.pattern})", expected_approach),
-    ("expect expecting plan", "direct", rf"{_EXPECT} direct(?: to)? (?P<fix>{FIX})",
+    ("expect expecting plan planning anticipate", "direct",
+     rf"{_EXPECT} direct(?: to)? (?P<fix>{FIX})",
      expected_at_fix),
-    ("expect expecting plan", "hold_at",
+    ("expect expecting plan planning anticipate", "hold_at",
      rf"{_EXPECT}(?: to)? hold(?:ing)?(?: at| over) (?P<fix>{FIX})", expected_at_fix),
     ("expect expecting", "cleared_to_land", r"expect(?:ing)?(?: a)?(?: late)? landing clearance",
      expected_on_runway),

@@ -66,7 +66,6 @@ class Segment(NamedTuple):
         """The words before the action that belong to no other action."""
         return self.text[self.begin : self.start].rstrip()
 
-
     @property
     def before_all(self) -> str:
         """All words of the call before the action."""
@@ -108,7 +107,9 @@ _OPENING = re.compile(
     rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
 )
 """A runway at the beginning of a call, between which and its clearance other words stand."""
-_BEGINS = re.compile(rf"(?:.* )?(?:\||correction)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*")
+_BEGINS = re.compile(
+    rf"(?:.* )?(?:\||correction|wind calm|knots)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*"
+)
 """Words before a runway at the beginning of a call, or of a correction."""
 _NOT_ITS = frozenset(
     {"of", "short", "final", "base", "downwind", "crosswind", "landing", "departing", "crossing",
@@ -122,6 +123,7 @@ _BY_OPENING: frozenset[Action] = frozenset(
 """Actions for which the runway at the beginning of the call is given."""
 _NAMED_BEFORE = re.compile(rf"(?<!\S)runway {RUNWAY}(?: (?:at|from) {TAXIWAY})?$")
 _BARE_AFTER = re.compile(rf" (?:on )?{RUNWAY}")
+_AND_RUNWAY = re.compile(rf" and (?:runway )?{RUNWAY}(?! (?:cleared|line|hold))")
 _OTHER_RUNWAY = re.compile(
     r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
 )
@@ -170,6 +172,9 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     place_after = POSITION.match(segment.text, end, segment.limit)
     if place_after:
         place, end = place_after[1], place_after.end()
+    more = _second_crossing(segment, end) if action == "cross" and told else None
+    if more:
+        end = more.end()
     confidences = [runway_confidence(number) for number, _ in named]
     bare_after = after is not None and after.re is _BARE_AFTER
     bare_before = before is not None and not before["word"]
@@ -182,7 +187,17 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
         immediate=is_immediate(segment, end),
         confidence=min(confidences, default=NO_RUNWAY),
     )
-    return Read(read, start, end)
+    if more is None:
+        return Read(read, start, end)
+    other = Instruction(
+        action, designator(*more.groups()), confidence=min(read.confidence, BARE_RUNWAY)
+    )
+    return Read(read, start, end, (other,))
+
+
+def _second_crossing(segment: Segment, end: int) -> re.Match[str] | None:
+    """Return the second of two runways to cross: "cross 27 left and 27 right"."""
+    return _AND_RUNWAY.match(segment.text, end, segment.limit)
 
 
 def _number_and_side(found: re.Match[str]) -> tuple[str, str | None]:

@@ -46,7 +46,7 @@ _GOES_ON = re.compile(
     rf" ?(?:$|\||#|{FIX_ENDS}(?!\S)|(?:give|pass|without|use|give|back|full)(?!\S))"
 )
 _EACH_TAXIWAY = re.compile(rf"(?<!\S){_PIECE}")
-_NOT_PLACE = "runway|to|via|and|then|cleared|wind|line|hold"
+_NOT_PLACE = "runway|to|via|and|then|cleared|wind|line|hold|from|at|coming|off"
 _PLACE = re.compile(
     rf" (?:to )?(?:the )?((?!(?:{_NOT_PLACE})(?!\S))[a-z]+"
     rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+)?|[0-9]{{2,4}})(?!\S)"
@@ -82,7 +82,12 @@ _TAXI_TO = re.compile(
 
 def proceed(segment: Segment, action: Action) -> Read | None:
     """Read leave to go on to a runway, or a taxi route."""
-    if NAMED_RUNWAY.search(segment.after):
+    if re.match(r" (?:the )?(?:left|right)(?!\S)", segment.after):
+        return None  # A leg of the traffic circuit, whose name is lost.
+    runway = NAMED_RUNWAY.search(segment.after)
+    if runway and "and" in segment.after[: runway.start()].split():
+        return None  # Another action, whose word is lost.
+    if runway:
         return on_runway(segment, action)
     if not re.match(r" (?:to|via)(?!\S)", segment.after):
         return None
@@ -228,7 +233,8 @@ def about_other(segment: Segment, action: Action) -> Read | None:
 FORMS: Listed = (
     ("enter entering join joining make", "proceed",
      r"(?:(?:enter|join)(?:ing)?|make)(?: the| a)?(?: (?:left|right)(?: hand)?)?"
-     r" (?:downwind|base|crosswind|final|pattern|traffic|360|orbit|turns|turn (?:on|out|to|into)|short|straight)",
+     r" (?:downwind|base|crosswind|final|pattern|traffic|360|orbit|turns|turn (?:on|out|to|into)"
+     r"|short|straight)",
      nothing),
     ("proceed proceeding enter entering", "proceed", r"(?:proceed|enter)(?:ing)?", proceed),
     ("join joining", "taxi", rf"join(?:ing)?(?= (?:taxiway )?{LETTER})", on_taxiways),
@@ -239,9 +245,6 @@ FORMS: Listed = (
     ("turn left right", "taxi",
      rf"(?:turn )?(?P<turns>(?:left|right) (?:on|onto) {_PIECE}"
      rf"(?:(?: (?:and|then|and then))?(?: turn)? (?:left|right)(?: on| onto)? {_PIECE})+)", turns),
-    ("and then left right", "taxi",
-     rf"(?<=without delay )(?:and )?(?:then )?(?P<turns>(?:left|right)(?: on| onto)? {_PIECE})",
-     turns),
     ("vacate vacating exit exiting", "vacate",
      r"(?:vacat(?:e|ing)|exit(?:ing)?(?! [0-9]))(?: the runway)?", vacate),
     ("take", "vacate",
@@ -272,9 +275,12 @@ FORMS: Listed = (
      alone),
     ("stopping", "stop", r"stopping(?= \||$| immediately| on)", alone),
     ("pushback push", "push_back",
-     r"push(?:back)?(?: (?:is )?(?:approved|at (?:your|own) discretion)|(?= and start(?:up)? (?:is )?approved))", alone),
+     r"push(?:back)?(?: (?:is )?(?:approved|at (?:your |own |pilot )+discretion)"
+     r"|(?= and start(?:up)? (?:is )?approved))", alone),
     ("startup start", "start_up",
-     r"start(?:up)? (?:is )?(?:approved|at (?:your|own) discretion)", alone),
+     r"start(?:up)? (?:is )?(?:approved|at (?:your |own |pilot )+discretion)", alone),
+    ("push pushback", "push_back",
+     r"push(?:back)?(?= and start(?:up)? at (?:your |own |pilot )+discretion)", alone),
     ("startup start", "start_up", r"start(?:up)?(?= and push(?:back)? (?:is )?approved)", alone),
     ("follow", "follow", r"follow(?! me)", about_other),
     ("give giving", "give_way", r"giv(?:e|ing) way(?: to)?", about_other),

@@ -101,7 +101,7 @@ _HEADING = (
 _TURN_AT = re.compile(
     rf" (?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?({TAXIWAY})"
 )
-_TURN = re.compile(r"(?<!\S)turn(?: [a-z]+)?$")
+_TURN = re.compile(r"(?<!\S)(?:turn|left|right)(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
 _TURNS = (
     r"(?: on the [0-9]{1,3} (?:radial|course|bearing))?(?: as published)?"
@@ -140,16 +140,19 @@ FORMS: Listed = (
     ("make making", "direct",
      rf"mak(?:e|ing)(?: a| your)? (?P<turn>left|right) turn {_DIRECT} (?P<fix>{FIX})", direct),
     ("make making", "heading",
-     r"mak(?:e|ing)(?: a| your)? (?P<turn>left|right) turn(?! (?:out|on|to|at|into|onto|base|final)(?!\S))"
+     r"mak(?:e|ing)(?: a| your)? (?P<turn>left|right) turn"
+     r"(?! (?:out|on|to|at|into|onto|base|final)(?!\S))"
      rf"(?: to)?(?: heading)?(?: {_HEADING})?", heading),
     ("left right", "heading",
-     rf"(?P<turn>left|right)(?: turn)?(?: to)?(?: a)? heading {_HEADING}", heading),
+     rf"(?P<turn>left|right)(?: turn)?(?: now| immediately)?(?: to)?(?: a)? heading {_HEADING}",
+     heading),
     ("left right", "heading",
      r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?!(?:left|right) 360 for)"
      rf"(?P<turn>left|right)(?: turn)?(?: to)? (?P<bare>){_HEADING}", heading),
     ("left right", "heading",
-     r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)"
-     rf"(?: (?:on|onto|at)(?= {LETTER})|(?= {LETTER}(?: [0-9]{{1,2}})? (?:short|hold|contact|\|)))"
+     r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)(?: turn(?= at))?"
+     rf"(?: (?:on|onto|at)(?= {LETTER})"
+     rf"|(?= {LETTER}(?: [0-9]{{1,2}})?(?: (?:short|hold|contact|\|)|$)))"
      rf" (?P<at>{TAXIWAY})", taxiway_turn),
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),

@@ -152,7 +152,8 @@ FORMS: Listed = (
      r"(?<!hold )(?<!we )(?<!i )(?<!you )(?<!are )(?<!is )(?<!am )(?<!just )(?<!landed )(?<!stop )"
      r"short of", bare_hold_short),
     (" ".join(str(count) for count in range(1, 10)), "cleared_to_land",
-     r"(?<!runway )[1-9] (?:more )?(?:aircraft )?(?:to|for) (?:vacate|exit|depart|departure|land|go|roll|cross)", nothing),
+     r"(?<!runway )[1-9] (?:more )?(?:aircraft )?(?:to|for)"
+     r" (?:vacate|exit|depart|departure|land|go|roll|cross)", nothing),
     ("hold holding", "hold_short",
      rf"hold(?:ing)? at(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
      hold_short),

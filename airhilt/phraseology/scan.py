@@ -17,7 +17,19 @@ from airhilt.phraseology.surveillance import FREQUENCY_FORM
 from airhilt.phraseology.vertical import cross_fix
 
 CONDITIONS = frozenset(
-    {"behind", "after", "when", "until", "before", "once", "if", "unless", "upon"}
+    {
+        "behind",
+        "after",
+        "when",
+        "until",
+        "before",
+        "once",
+        "if",
+        "unless",
+        "upon",
+        "whenever",
+        "provided",
+    }
 )
 """First words of a condition (ICAO Doc 4444, 12.2.7)."""
 LONGEST_CONDITION = 9
@@ -44,7 +56,8 @@ _VERB = (
 )
 _MARKER = r"the (?:outer |middle |inner )?marker"
 _EVENTS = {
-    "at": rf"at (?:(?:pilot|your|own) discretion|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
+    "at": rf"at (?:(?:pilot|your|own) (?:discretion|convenience)"
+    rf"|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
     "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
@@ -55,6 +68,10 @@ _EVENTS = {
     "event": rf"event of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
     "when": r"when (?:ready|able)",
     "if": r"if able",
+    "whenever": r"whenever (?:ready|able)",
+    "in": r"in (?:about |another )?(?:[0-9]+|a|a couple|a few)(?: more)?(?: of)?"
+    rf" (?:miles?|minutes?|seconds?)(?={_VERB})",
+    "as": rf"as soon as(?: (?!climb|descend|turn)[a-z0-9]+){{1,6}}?(?={_VERB})",
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
@@ -197,9 +214,7 @@ class Scan:
         has_happened = self._texts[index - 1] in _HAPPENED and (
             word in LETTER_OF or word[0].isdigit()
         )
-        ends = (
-            word in (NAME, "runway") or has_happened or index - self._begun >= LONGEST_CONDITION
-        )
+        ends = word in (NAME, "runway") or has_happened or index - self._begun >= LONGEST_CONDITION
         if ends and not (word == "runway" and self._texts[index - 1] in ("crossing", "the", "of")):
             self._close(start)
 

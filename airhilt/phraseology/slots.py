@@ -55,7 +55,7 @@ NUMBERED_LINK = r"(?:link|exit|spur) [0-9]{1,2}(?!\S)"
 """Pattern of a link between taxiways that has a number."""
 _NO_RATE = r"(?!(?: [a-z]+)? (?:per minute|min)(?!\S))"
 _ANY_LEVEL = (
-    r"(?:(?<!\S)(?:flight )?level ([0-9]{2,3})(?!\S)"
+    r"(?:(?<!\S)(?:flight |(?<!flight ))level ([0-9]{2,3})(?!\S)"
     rf"|(?<!\S)([0-9]{{1,2}}) thousand(?: ([1-9])00)?(?!\S){_NO_RATE}(?: feet)?"
     rf"|(?<!\S)([1-9])00 feet(?!\S){_NO_RATE})"
 )
@@ -97,8 +97,8 @@ FIX_ENDS = (
 """Words that end the name of a fix."""
 _NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"
 _UNIT_IN_NAME = (
-    r"(?:ground|tower|centre)(?= \||$| (?:when|if|once|rest|and|then|after|at|climb|descend|maintain"
-    r"|cross|expect|as)(?!\S))"
+    r"(?:ground|tower|centre)(?= \||$| (?:when|if|once|rest|and|then|after|at|climb|descend"
+    r"|maintain|cross|expect|as)(?!\S))"
 )
 """Pattern of a word for a unit behind which no frequency stands: Battle Ground is a navaid."""
 FIX = (

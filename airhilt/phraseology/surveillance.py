@@ -132,21 +132,25 @@ def report(segment: Segment, action: Action) -> Read | None:
     if _SEEN.fullmatch(what):
         is_field = _FIELD.search(segment.before_all) is not None
         what = "field in sight" if is_field else "traffic in sight"
-    is_named = event is not None and segment.found[0].startswith("report")
+    is_whole = _EVENT_ENDS.match(segment.text, segment.found.end()) is not None
+    is_named = event is not None and is_whole and not segment.found[0].startswith("advise when")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
 
 
 _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
+_EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
 _FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")
 _NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
 _EVENT = (
     rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s"
     r"|downwind|approach))?"
-    rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic) in sight"
+    rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic)"
+    r" in sight"
     rf"|in sight|turning (?:left |right )?(?:base|final|downwind|crosswind)"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
-    rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)|(?:runway )?vacated"
+    rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)"
+    r"|(?:runway )?vacated"
     rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
     rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
 )
@@ -161,6 +165,12 @@ FORMS: Listed = (
      nothing),
     ("ident", "ident", r"ident", alone),
     ("stop", "squawk", r"stop squawk", nothing),
+    ("advise call", "report",
+     r"(?:advise|call)(?: me)?(?: when you have)?"
+     r" (?P<event>(?:the )?(?:field|airport|runway|traffic) in sight)", report),
+    ("contact contacting call try", "contact",
+     rf"(?:contact(?:ing)?|call|try)(?P<station>(?: (?!(?:{FIX_ENDS}|me)(?!\S))[a-z]+){{1,2}})"
+     r"(?= (?:on )?1[1-3][0-9](?: decimal|[0-9]))", contact),
     ("contact contacting call", "contact", rf"(?:contact(?:ing)?|call)(?P<station>{_STATION})?",
      contact),
     ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
@@ -177,7 +187,8 @@ FORMS: Listed = (
     ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|{LETTER})(?!\S))", hold_on),
     ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
     ("maintain maintaining", "visual_separation",
-     r"maintain(?:ing)? (?:(?:visual|your own|own) separation|visual(?= \||$| cleared))", alone),
+     r"maintain(?:ing)? (?:(?:visual|your own|own) separation"
+     r"|visual(?= \||$| cleared| from))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
      r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"

@@ -342,6 +342,8 @@ FORMS: Listed = (
     ("maintain maintaining remain", "altitude",
      r"(?:maintain(?:ing)?|remain)(?: v f r| vfr)? at or (?P<bound>above|below)", altitude),
     ("maintain maintaining", "altitude", r"maintain(?:ing)?(?: at| altitude)?", altitude),
+    ("remain", "altitude",
+     r"remain(?: at)?(?= flight level| level|(?: [0-9]+) thousand)", altitude),
     ("level", "altitude", r"level off(?: at)?", altitude),
     ("at", "vertical_rate", rf"at {_RATE}(?: feet)? (?:per minute|a minute|min)", rate),
     ("rate", "vertical_rate",
