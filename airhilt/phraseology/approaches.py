@@ -31,7 +31,11 @@ def approach(segment: Segment, action: Action) -> Read | None:
 
 def circle(segment: Segment, action: Action) -> Read | None:
     """Read the runway to circle to."""
-    runway = re.match(rf" (?:to )?(?:land )?(?:runway )?{RUNWAY}", segment.after)
+    runway = re.match(
+        rf"(?: (?:north|south|east|west)(?:bound)?)?(?: of the (?:field|airport))?"
+        rf" (?:(?:to|for) )?(?:land )?(?:runway )?{RUNWAY}",
+        segment.after,
+    )
     if runway is None:
         return None
     read = Instruction(

@@ -17,7 +17,7 @@ from airhilt.phraseology.slots import (
 )
 
 ON_GROUND: frozenset[Action] = frozenset(
-    {"hold_short", "cross", "give_way", "follow", "taxi", "hold_position", "backtrack"}
+    {"hold_short", "cross", "give_way", "follow", "taxi", "backtrack"}
 )
 """Actions beside which a letter alone is a route."""
 _LETTER = rf"(?:{'|'.join(LETTERS)})(?!\S)"
@@ -34,7 +34,7 @@ _ROUTES = (
         rf"(?: (?:for runway |for |runway |(?=[0-9]+ (?:left|right|centre))){RUNWAY})?"
     ),
     re.compile(
-        r"(?:(?:via|on|along|taxiway|left|right|then|continue|we|will|take|now) )*"
+        r"(?:(?:taxi|route|is|via|on|along|taxiway|left|right|then|continue|we|will|take|now) )*"
         rf"(?P<via>{_LISTED})"
         rf"(?: {_TO_RUNWAY}|(?: and)?(?: to)?(?: the)? (?P<stand>{STAND})"
         r"| to (?:the )?(?P<place>(?:north|south|east|west|cargo|main)(?: [a-z]+){1,2}))?"

@@ -73,7 +73,7 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
         if kind == "until" or (kind == "before" and before and _TURNING.match(words)):
             if before and " " in words:
                 _set(reads, before[-1], until=words)
-        elif kind in ("if", "event") and len(words.split()) > 2:
+        elif kind in ("if", "event", "case", "missed", "climb") and len(words.split()) > 2:
             is_told = not after and _CONSEQUENCE.search(words)
             for index in after or ([] if is_told else before[-1:]):
                 _set(reads, index, condition=words)
@@ -84,6 +84,9 @@ def attach(conditions: list[Span], reads: Reads, text: str) -> None:
                 kind == "on" and after and reads[before[-1]][0].instruction.action in CLEARANCES
             )
             own = before[-1:] if is_own or not after else after[:1]
+            is_cleared = bool(own) and reads[own[0]][0].instruction.action in CLEARANCES
+            if kind == "at" and not is_own and is_cleared:
+                continue  # It belongs to words before it that are no action.
             for index in own:
                 _set(reads, index, condition=words)
         elif _WHEN_ABLE.match(words):
@@ -241,7 +244,8 @@ def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
     last = before[-1][0].instruction.action if before else None
     if told.action == "taxi":
         return last == "give_way" or (is_then and last in (None, *YIELDED))
-    return is_then and told.action in SEQUENCED
+    is_limited = bool(before) and before[-1][0].instruction.until is not None
+    return is_then and (told.action in SEQUENCED or (is_limited and told.action == "contact"))
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:

@@ -243,7 +243,8 @@ FORMS: Listed = (
      rf"(?=(?: (?:on|via|along))? (?:taxiway )?{LETTER})",
      on_taxiways),
     ("turn left right", "taxi",
-     rf"(?:turn )?(?P<turns>(?:left|right) (?:on|onto) {_PIECE}"
+     r"(?:turn )?(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )"
+     rf"(?P<turns>(?:left|right)(?: (?:on|onto)|(?= {LETTER})) {_PIECE}"
      rf"(?:(?: (?:and|then|and then))?(?: turn)? (?:left|right)(?: on| onto)? {_PIECE})+)", turns),
     ("vacate vacating exit exiting", "vacate",
      r"(?:vacat(?:e|ing)|exit(?:ing)?(?! [0-9]))(?: the runway)?", vacate),
@@ -269,6 +270,8 @@ FORMS: Listed = (
     ("runway", "taxi",
      rf"(?<!to )(?<!taxi )(?<!decimal )runway {RUNWAY}"
      rf" via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),
+    ("stop", "stop", r"stop(?: your| the)? taxi(?:ing)?(?! to| via)", alone),
+    ("hold", "hold_position", r"hold (?:your|the) taxi", alone),
     ("stop", "stop",
      r"(?<!cleared )(?<!full )stop"
      r"(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading)(?!\S))(?: immediately)?",
@@ -282,7 +285,7 @@ FORMS: Listed = (
     ("push pushback", "push_back",
      r"push(?:back)?(?= and start(?:up)? at (?:your |own |pilot )+discretion)", alone),
     ("startup start", "start_up", r"start(?:up)?(?= and push(?:back)? (?:is )?approved)", alone),
-    ("follow", "follow", r"follow(?! me)", about_other),
+    ("follow", "follow", r"follow(?! (?:me|is|was|are|will)(?!\S))", about_other),
     ("give giving", "give_way", r"giv(?:e|ing) way(?: to)?", about_other),
     ("pass passing", "give_way", r"pass(?:ing)? behind", about_other),
 )  # fmt: skip

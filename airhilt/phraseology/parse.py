@@ -29,6 +29,11 @@ LONGEST_TRAFFIC = 9
 """Most words from "traffic" to the type of an aircraft, which may sound like a callsign."""
 NO_CALLSIGN = 0.5
 """Confidence in a call that names no callsign on the frequency, or two ambiguous ones."""
+_ASKS_BACK = re.compile(
+    r"(?<!\S)(?:confirm(?: for us)?|is that (?:correct|right|for us)|was that (?:for )?us"
+    r"|did (?:i|we) (?:hear|get|copy) that|or (?:us|me|somebody else|someone else))(?: \|)?$"
+)
+"""The end of a readback of which the speaker is not sure."""
 _WINDY = frozenset({"wind", "land", "takeoff", "option", "touch"})
 """Words beside which a wind is given."""
 _ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
@@ -84,6 +89,11 @@ def parse_call(
     content = Corrections(said, content_of).read()
     ceiling_ft = (ceilings_ft or {}).get(naming.match.callsign or "")
     content.instructions = _with_sense(doubtful(content.instructions), ceiling_ft)
+    if _ASKS_BACK.search(" ".join(said.texts)):
+        content.instructions = [
+            replace(each, confidence=min(each.confidence, NO_SENSE))
+            for each in content.instructions
+        ]
     call = _call(naming, said, content, named)
     return (
         call

@@ -92,7 +92,7 @@ FIX_ENDS = (
     r"|in|position|flight|left turns|right turns|outbound|inbound|approach|approved|identified"
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
     r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
-    r"|vortac|ndb|v|by|own)"
+    r"|vortac|ndb|v|by|own|delay)"
 )
 """Words that end the name of a fix."""
 _NO_UNIT = r"(?:thousand|hundred|miles|knots|feet|degrees|oclock|decimal|nautical|minutes|d)(?!\S)"

@@ -15,8 +15,10 @@ def speed(segment: Segment, action: Action) -> Read | None:
     parts = segment.found.groupdict()
     speed_kt = float(parts["number"])
     bound, end, sure = bound_after(segment.text[: segment.limit], segment.found.end())
-    if parts.get("most"):
+    if parts.get("most") or _MOST.search(segment.text[: segment.found.start("number")]):
         bound = "or_less"
+    elif _LEAST.search(segment.text[: segment.found.start("number")]):
+        bound = "or_more"
     distance = _TO_DISTANCE.match(segment.text, end)
     end = distance.end() if distance else end
     confidence = NO_SENSE if parts.get("feet") else min(sure, speed_confidence(speed_kt))
@@ -60,6 +62,9 @@ def mach(segment: Segment, action: Action) -> Read | None:
                 segment.start, end)  # fmt: skip
 
 
+_LEAST = re.compile(r"(?<!\S)(?:at least|not? (?:less|slower) than) $")
+_MOST = re.compile(r"(?<!\S)(?:at most|not? (?:more|faster|greater) than) $")
+"""Words before a speed that leave one side of it free."""
 _TO_DISTANCE = re.compile(
     r" to (?:the )?(?:(?:outer )?marker|[0-9]{1,2}(?: (?:miles?|d m e|dme))?(?: final)?)(?!\S)"
 )
@@ -95,6 +100,9 @@ FORMS: Listed = (
     ("reduce reducing increase increasing slow slowing", "speed",
      rf"(?:reduc|increas|slow)(?:e|ing)?(?: your| it)?(?: speed)?(?: down)?(?: to)? {_NUMBER}",
      speed),
+    ("at no not maintain", "speed",
+     r"(?:maintain )?(?:at (?:least|most)|not? (?:less|slower|more|faster|greater) than)"
+     r" (?P<number>[1-3][0-9]0)(?! (?:feet|thousand|degrees|miles|decimal))(?: knots)?", speed),
     ("do", "speed", rf"do not (?P<most>exceed)(?: speed)? {_NUMBER}", speed),
     ("speed", "speed", rf"speed(?: to)? {_NUMBER}", speed),
     ("resume", "resume_speed",

@@ -175,7 +175,7 @@ FORMS: Listed = (
      contact),
     ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
-     rf"(?:over|switch(?:ing)?|chang(?:e|ing))(?: over)?(?: to)?(?: my| frequency)*"
+     rf"(?:over|switch(?:ing)?|chang(?:e|ing)(?! in))(?: over)?(?: to)?(?: my| frequency)*"
      rf"(?P<station>{_STATION})?", contact),
     ("monitor monitoring", "monitor", rf"monitor(?:ing)?(?P<station>{_STATION})?", contact),
     (" ".join((*UNITS, "frequency")), "contact",

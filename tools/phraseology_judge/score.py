@@ -20,6 +20,7 @@ from typing import Any
 from airhilt.phraseology import TAU_ASR, parse_call
 
 from .facts import CLEARANCES, VALUES, Fact, facts_of_call, facts_of_items
+from .vocabulary import KINDS
 
 INSTRUCTED = frozenset({"now", "conditional", "readback", "expected", "information"})
 """Statuses of the items that are to be read."""
@@ -47,6 +48,8 @@ class Score:
     items_right: int = 0
     wrong_and_confident: int = 0
     """Calls with a callsign or an instruction in effect that is confident and not true."""
+    only_unnamed: int = 0
+    """Those of them that are wrong only in kinds that the vocabulary of the judge lacks."""
     wrong_callsigns: int = 0
     """Calls with a confident and wrong callsign."""
     invented: int = 0
@@ -77,6 +80,9 @@ class Score:
         wrong_name = call.callsign not in (None, line["callsign"]) and call.match.score >= TAU_ASR
         self.wrong_callsigns += wrong_name
         self.wrong_and_confident += bool(untrue or wrong_name)
+        self.only_unnamed += bool(untrue) and not (
+            wrong_name or any(fact.kind in KINDS for fact in untrue)
+        )
         self.invented += _invents((fact for fact, _ in read), true)
         self.invented_and_confident += _invents(
             (fact for fact, sure in read if sure >= TAU_ASR), true
@@ -98,6 +104,7 @@ class Score:
             "callsign_right": self.callsign_right / self.calls,
             "action_and_value_right": self.items_right / self.items,
             "wrong_and_confident": self.wrong_and_confident / self.calls,
+            "of_these_in_kinds_unnamed": self.only_unnamed / self.calls,
             "wrong_callsign_and_confident": self.wrong_callsigns / self.calls,
             "clearance_invented": self.invented / self.calls,
             "clearance_invented_and_confident": self.invented_and_confident / self.calls,
