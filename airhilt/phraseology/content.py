@@ -228,7 +228,7 @@ def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
 def _is_waited_for(spans: list[Span], texts: list[str], each: Found, starts: list[int]) -> bool:
     """Return whether a clearance stands right behind the whole event that it waits for.
 
-    Of "once you are cleared to land" the clearance is a part of the event.
+    The clearance of "once you are cleared to land" is a part of the event.
     """
     for span in spans:
         words = texts[bisect_right(starts, span.start) - 1 : each.first]

@@ -149,9 +149,8 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     before = runway_before(segment)
     after = _runway_after(segment)
     if action in _BY_OPENING and not (inside or before or after):
-        opening = _OPENING.match(segment.text)
-        others = NAMED_RUNWAY.finditer(segment.text, opening.end()) if opening else ()
-        if opening and all(segment.text[: other.start()].endswith("short of ") for other in others):
+        opening = _opening(segment)
+        if opening:
             number, side = opening.group(2, 3)
             confidence = min(BARE_RUNWAY, runway_confidence(number))
             read = Instruction(
@@ -193,6 +192,14 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
         action, designator(*more.groups()), confidence=min(read.confidence, BARE_RUNWAY)
     )
     return Read(read, start, end, (other,))
+
+
+def _opening(segment: Segment) -> re.Match[str] | None:
+    """Return the runway at the beginning of a call, if no other is named but to hold short of."""
+    opening = _OPENING.match(segment.text)
+    others = NAMED_RUNWAY.finditer(segment.text, opening.end()) if opening else ()
+    is_only = all(segment.text[: other.start()].endswith("short of ") for other in others)
+    return opening if is_only else None
 
 
 def _second_crossing(segment: Segment, end: int) -> re.Match[str] | None:

@@ -73,3 +73,10 @@ def test_of_calls_as_people_make_them_no_clearance_is_invented_with_confidence()
     assert counts.calls == 200
     assert counts.wrong_callsigns == 0
     assert counts.invented_and_confident == 0
+
+
+def test_what_the_vocabulary_has_no_kind_for_is_wrong_and_shown_apart() -> None:
+    counts = scored("delta four five six caution deer on runway two seven")
+    assert (counts.wrong_and_confident, counts.only_unnamed) == (1, 1)
+    counts = scored("delta four five six turn left heading two seven zero deer on runway two seven")
+    assert (counts.wrong_and_confident, counts.only_unnamed) == (1, 0)

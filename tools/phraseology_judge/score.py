@@ -49,7 +49,7 @@ class Score:
     wrong_and_confident: int = 0
     """Calls with a callsign or an instruction in effect that is confident and not true."""
     only_unnamed: int = 0
-    """Those of them that are wrong only in kinds that the vocabulary of the judge lacks."""
+    """Calls among them that are wrong only in kinds that the vocabulary of the judge lacks."""
     wrong_callsigns: int = 0
     """Calls with a confident and wrong callsign."""
     invented: int = 0
