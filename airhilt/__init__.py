@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from airhilt._version import __version__
 from airhilt.errors import AirhiltError
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+    from pyarrow import Table
 
     from airhilt import messages
     from airhilt.cosim.observer import Observer, Result, Snapshot
@@ -108,7 +109,19 @@ def open_run(folder: str | Path) -> RecordedRun:
     return open_folder(folder)
 
 
-def read_sweep(folder: str | Path, *, machine: bool = False) -> DataFrame:
+@overload
+def read_sweep(
+    folder: str | Path, *, machine: bool = False, arrow: Literal[False] = False
+) -> DataFrame: ...
+
+
+@overload
+def read_sweep(folder: str | Path, *, machine: bool = False, arrow: Literal[True]) -> Table: ...
+
+
+def read_sweep(
+    folder: str | Path, *, machine: bool = False, arrow: bool = False
+) -> DataFrame | Table:
     """Return the runs of a sweep as a pandas data frame, a row a run.
 
     The columns are those of docs/sweep-columns.md. ``attrs`` of the data frame has their ``units``
@@ -121,16 +134,20 @@ def read_sweep(folder: str | Path, *, machine: bool = False) -> DataFrame:
     machine
         True adds what depends on the machine (time, memory, host, the folder of a run that is
         kept), and with it the runs that a limit ended or that crashed.
+    arrow
+        True returns a table of Apache Arrow (`pyarrow.Table`) instead; the metadata of its fields
+        have ``unit`` and ``description``.
 
     Raises
     ------
     AirhiltError
         There is no sweep in the folder, or a table is not there or damaged.
     """
-    from airhilt.metrics.frames import read_frame
+    from airhilt.metrics.frames import read_frame, read_table
     from airhilt.record.sweep_folder import SweepFolder
 
-    return read_frame(SweepFolder.open(Path(folder)), machine)
+    read = read_table if arrow else read_frame
+    return read(SweepFolder.open(Path(folder)), machine)
 
 
 def run(
@@ -180,7 +197,12 @@ def run_sweep(
     out: str | Path,
     seeds: int | Sequence[int] = 1,
     axes: Mapping[str, Any] | None = None,
+    sample: Mapping[str, Any] | None = None,
     workers: int | None = None,
+    scheduler: str = "local",
+    scheduler_config: Mapping[str, Any] | None = None,
+    keep: str = "none",
+    retry: bool = False,
     **options: Any,
 ) -> DataFrame:
     """Run scenarios over seeds and parameters, and return a pandas data frame, a row a run.
@@ -199,8 +221,19 @@ def run_sweep(
     axes
         Values of each parameter of the grid, by its path: ``{"snr_db": [0, 10]}``, or a range
         ``{"snr_db": {"from": 0, "to": 20, "step": 5}}`` (docs/sweeps.md).
+    sample
+        Points to draw from intervals, as a sweep file has them: ``{"method": "sobol", "count": 64,
+        "intervals": {"snr_db": {"from": 0, "to": 20}}}``.
     workers
         Number of worker processes; None: as many as this machine has cores and memory for.
+    scheduler
+        Cluster as ``--scheduler`` names it: ``local``, ``slurm``, the address of a scheduler ...
+    scheduler_config
+        Settings of the scheduler (docs/clusters.md).
+    keep
+        Run folders that stay: ``none``, ``failed``, ``all``, or ``sample:5`` for five of them.
+    retry
+        True runs again what a limit or a crash has ended.
     options
         Options that all runs have, as `run` takes them.
 
@@ -211,7 +244,7 @@ def run_sweep(
     """
     from airhilt.sweep.engine import sweep as sweep_all
     from airhilt.sweep.specification import first_seeds, specification_of
-    from airhilt.sweep.work import Work
+    from airhilt.sweep.work import Work, keep_of
 
     names = [scenarios] if isinstance(scenarios, str | Path) else scenarios
     document = {
@@ -219,8 +252,19 @@ def run_sweep(
         "seeds": first_seeds(seeds) if isinstance(seeds, int) else list(seeds),
         "axes": dict(axes or {}),
         "options": options,
+        "sample": sample,
     }
-    sweep_all(specification_of(document, "run_sweep"), Work(Path(out), workers=workers))
+    kept, sampled = keep_of(keep)
+    work = Work(
+        Path(out),
+        workers=workers,
+        scheduler=scheduler,
+        scheduler_config=scheduler_config,
+        keep=kept,
+        sample=sampled,
+        retry=retry,
+    )
+    sweep_all(specification_of(document, "run_sweep"), work)
     return read_sweep(out)
 
 

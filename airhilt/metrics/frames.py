@@ -20,10 +20,8 @@ def frame_of(table: pa.Table) -> DataFrame:
     return table.to_pandas(types_mapper=kinds.get)
 
 
-def read_frame(folder: SweepFolder, machine: bool = False) -> DataFrame:
-    """Return the runs of a sweep as a data frame, a row a run.
-
-    Its ``attrs`` have the ``units`` and the ``descriptions`` of the columns, by their names.
+def read_table(folder: SweepFolder, machine: bool = False) -> pa.Table:
+    """Return the runs of a sweep as a table of Arrow, a row a run.
 
     Parameters
     ----------
@@ -38,17 +36,33 @@ def read_frame(folder: SweepFolder, machine: bool = False) -> DataFrame:
     AirhiltError
         A table is not there, or damaged.
     """
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
     table = folder.table()
-    fields = {each.name: each for each in table.schema}
+    if not machine:
+        return table
+    costs = folder.machine()
+    both = {each.name: each for each in (*table.schema, *costs.schema)}
+    rows = table.take(pc.index_in(costs["key"], value_set=table["key"]))
+    columns = [(costs if name in costs.column_names else rows)[name] for name in both]
+    return pa.table(columns, schema=pa.schema(both.values()))
+
+
+def read_frame(folder: SweepFolder, machine: bool = False) -> DataFrame:
+    """Return the runs of a sweep as a data frame, a row a run; it raises what `read_table` does.
+
+    Its ``attrs`` have the ``units`` and the ``descriptions`` of the columns, by their names.
+
+    Parameters
+    ----------
+    machine
+        True adds what depends on the machine, as `read_table` does.
+    """
+    table = read_table(folder, machine)
     frame = frame_of(table)
-    if machine:
-        costs = folder.machine()
-        fields |= {each.name: each for each in costs.schema}
-        both = [name for name in costs.column_names if name in frame.columns and name != "key"]
-        frame = frame_of(costs).merge(frame.drop(columns=both), on="key", how="left")
-        frame = frame[[name for name in fields if name in frame.columns]]
     for meaning, key in (("units", b"unit"), ("descriptions", b"description")):
         frame.attrs[meaning] = {
-            name: (each.metadata or {}).get(key, b"").decode() for name, each in fields.items()
+            each.name: (each.metadata or {}).get(key, b"").decode() for each in table.schema
         }
     return frame
