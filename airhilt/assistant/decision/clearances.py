@@ -114,21 +114,6 @@ class Clearances:
         self._answered_ns: dict[int, int] = {}
         """Begin of the last call that does not begin with a callsign, by frequency."""
 
-    def copy(self) -> Clearances:
-        """Return a copy that may hear more without changing this one."""
-        other = Clearances(self._guard)
-        other._doubts = dict(self._doubts)
-        other._addressed = {
-            callsign: replace(given, doubts=dict(given.doubts))
-            for callsign, given in self._addressed.items()
-        }
-        other._in_force = dict(self._in_force)
-        other._holding = dict(self._holding)
-        other._discrepancies = dict(self._discrepancies)
-        other._silence = self._silence.copy()
-        other._answered_ns = dict(self._answered_ns)
-        return other
-
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that somebody has begun to transmit."""
         self._silence.take_opening(opened)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.units import SECOND_NS
@@ -30,12 +30,6 @@ class ReadbackSilence:
 
     def __init__(self) -> None:
         self._heard: dict[str, _Heard] = {}
-
-    def copy(self) -> ReadbackSilence:
-        """Return a copy that may hear more without changing this one."""
-        other = ReadbackSilence()
-        other._heard = {name: replace(heard) for name, heard in self._heard.items()}
-        return other
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that a transmission has begun."""

@@ -253,7 +253,7 @@ class Situation:
         if not calls:
             return None
         other = copy.copy(self)
-        other.clearances = self.clearances.copy()
+        other.clearances = copy.deepcopy(self.clearances)
         for call, heard in calls:
             other.clearances.take(call, heard)
         return Supposed(other, tuple(heard.id for _, heard in calls))
