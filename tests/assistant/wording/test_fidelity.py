@@ -63,7 +63,7 @@ def test_the_same_in_other_words_is_spoken(rule: str, reworded: str) -> None:
         (CLIMB, CLIMB.replace("1500", "1200"), "actions"),
         (CLIMB, CLIMB.replace(", climb", ", UAL7 climb"), "callsigns"),
         (CLIMB, "AAL123 traffic UAL7 will climb to 5000 ft at 1500 ft/min, loss of separation in "
-                "31 s", "actions: AAL123 UAL7 altitude climb"),
+                "31 s", "actions: AAL123 UAL7"),
         (CLIMB, "AAL123 traffic UAL7, in 31 s climb to 5000 ft at 1500 ft/min", "31 second"),
         (GO_AROUND, "AAL123 go around in 12 s, UAL7 is on runway 19L", "actions"),
         (GO_AROUND, "AAL123 in 12 s go around, UAL7 is on runway 19L", "actions"),
