@@ -28,6 +28,11 @@ UNFINISHED = f"*{PARTIAL}"
 """Names of files that are being written."""
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
+REQUIRED = ("key", "status")
+"""Columns of a part that say which run a row is, and whether it counts: texts, never null."""
+GRID = "grid_sha256"
+"""Name, in ``sweep.json`` and in the metadata of both tables, of what says that they are of one
+sweep."""
 
 
 class SweepFolderError(AirhiltError):
@@ -40,6 +45,7 @@ class SweepFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.info_path = path / "sweep.json"
+        self.next_info_path = path / "sweep.next.json"
         self.table_path = path / "sweep.parquet"
         self.machine_path = path / "machine.parquet"
         self.parts_path = path / "parts"
@@ -47,6 +53,13 @@ class SweepFolder:
         self.runs_path = path / "runs"
         self.figures_path = path / "figures"
         self.report_path = path / "report.html"
+        self._of_others: set[Path] = set()
+        """Parts with other columns than the newest: they stay as they are."""
+
+    @property
+    def is_there(self) -> bool:
+        """True if a sweep has been run here, or was begun."""
+        return self.info_path.is_file() or self.next_info_path.is_file()
 
     @classmethod
     def open(cls, path: Path) -> SweepFolder:
@@ -55,10 +68,15 @@ class SweepFolder:
         Raises
         ------
         SweepFolderError
-            There is no sweep in it.
+            There is no sweep in it, or one that has no tables yet.
         """
         folder = cls(path)
         if not folder.info_path.is_file():
+            if folder.is_there:
+                raise SweepFolderError(
+                    f"{path}: the sweep has no tables yet; give its command again, it makes them "
+                    "from the runs that are finished"
+                )
             raise SweepFolderError(f"{path}: no sweep here; expected a folder with a sweep.json")
         return folder
 
@@ -116,10 +134,9 @@ class SweepFolder:
 
     # --- what is run ------------------------------------------------------------------------
 
-    def write_info(self, info: Mapping[str, Any]) -> None:
-        """Write ``sweep.json``, all or nothing."""
-        with _told(self.info_path):
-            replace_file(self.info_path, f"{json.dumps(info, indent=2)}\n".encode())
+    def write_next_info(self, info: Mapping[str, Any]) -> None:
+        """Write what is going to be ``sweep.json``, when its tables are there."""
+        _write_info(self.next_info_path, info)
 
     def info(self) -> dict[str, Any]:
         """Return ``sweep.json``.
@@ -140,7 +157,7 @@ class SweepFolder:
     # --- finished runs ----------------------------------------------------------------------
 
     def keep(self, runs: pa.Table) -> None:
-        """Write finished runs as a new part; each row has at least a ``key``.
+        """Write finished runs as a new part; each row has at least what is `REQUIRED`.
 
         Raises
         ------
@@ -148,19 +165,27 @@ class SweepFolder:
             They cannot be written; earlier parts are as they were.
         """
         self._write_part(runs)
-        small = [part for part in self._parts() if part.stat().st_size <= SMALL_BYTES]
+        parts = [part for part in self._parts() if part not in self._of_others]
+        small = [part for part in parts if part.stat().st_size <= SMALL_BYTES]
         if len(small) > MOST_PARTS:
-            self._put_together(small)
+            self._put_together(small, runs.schema)
 
-    def finished(self, notice: Callable[[str], None]) -> pa.Table | None:
-        """Return all finished runs, None if there is none; damaged parts are set aside and told.
+    def finished(self, schema: pa.Schema, notice: Callable[[str], None]) -> pa.Table:
+        """Return all finished runs; a run that was finished twice has two rows.
 
-        A run that was finished twice has two rows.
+        Parts that are damaged, or whose columns cannot be those of the schema, are set aside and
+        told. What a part of another version does not have is null.
+
+        Parameters
+        ----------
+        schema
+            Names and types of the columns that are returned.
         """
         import pyarrow as pa
 
-        tables = [table for part in self._parts() if (table := self._read_part(part, notice))]
-        return pa.concat_tables(tables, promote_options="permissive") if tables else None
+        tables = [self._read_part(part, schema, notice) for part in self._parts()]
+        there = [table for table in tables if table is not None]
+        return pa.concat_tables([schema.empty_table(), *there])
 
     def _parts(self) -> list[Path]:
         return sorted(self.parts_path.glob("*.parquet"))
@@ -168,9 +193,13 @@ class SweepFolder:
     def _write_part(self, runs: pa.Table) -> None:
         _write_table(runs, self.parts_path / f"{uuid.uuid4().hex}.parquet")
 
-    def _read_part(self, part: Path, notice: Callable[[str], None]) -> pa.Table | None:
+    def _read_part(
+        self, part: Path, schema: pa.Schema, notice: Callable[[str], None]
+    ) -> pa.Table | None:
         """Return a part, None if it is damaged: it is set aside and told."""
         table, reason = _table_or_reason(part)
+        if table is not None:
+            table, reason = _cast(table, schema)
         if table is None:
             aside = part.with_suffix(".damaged")
             with _told(part):
@@ -178,26 +207,44 @@ class SweepFolder:
             notice(f"{part} is damaged ({reason}): set aside as {aside.name}, its runs are missing")
         return table
 
-    def _put_together(self, parts: Sequence[Path]) -> None:
+    def _put_together(self, parts: Sequence[Path], schema: pa.Schema) -> None:
         """Replace parts by one; a kill in between leaves runs twice, which have one key.
 
-        Damaged ones stay, for `finished` to tell.
+        Damaged ones stay, for `finished` to tell, and so do those of other versions.
         """
         import pyarrow as pa
 
-        read = {part: table for part in parts if (table := _table_or_reason(part)[0]) is not None}
-        if not read:
+        read: dict[Path, pa.Table] = {}
+        for part in parts:
+            table, _ = _table_or_reason(part)
+            if table is None or not table.schema.equals(schema):  # No column is to be lost.
+                self._of_others.add(part)
+            else:
+                read[part] = table
+        if len(read) < 2:
             return
-        self._write_part(pa.concat_tables(list(read.values()), promote_options="permissive"))
+        self._write_part(pa.concat_tables(list(read.values())))
         for part in read:
             part.unlink(missing_ok=True)
 
     # --- tables -----------------------------------------------------------------------------
 
-    def write_tables(self, table: pa.Table, machine: pa.Table) -> None:
-        """Write both tables, each all or nothing."""
-        _write_table(table, self.table_path)
-        _write_table(machine, self.machine_path)
+    def write_tables(self, table: pa.Table, machine: pa.Table, info: Mapping[str, Any]) -> None:
+        """Write both tables and their ``sweep.json``, each all or nothing.
+
+        After a kill in between, `table` and `machine` tell that they are not of one sweep.
+
+        Parameters
+        ----------
+        info
+            Content of ``sweep.json``; its ``grid_sha256`` goes into the tables too.
+        """
+        mark = {GRID: str(info[GRID])}
+        _write_table(table.replace_schema_metadata(mark), self.table_path)
+        _write_table(machine.replace_schema_metadata(mark), self.machine_path)
+        _write_info(self.info_path, info)
+        with _told(self.next_info_path):
+            self.next_info_path.unlink(missing_ok=True)
 
     def table(self) -> pa.Table:
         """Return ``sweep.parquet``: parameters and metrics, a row a run.
@@ -205,17 +252,32 @@ class SweepFolder:
         Raises
         ------
         SweepFolderError
-            It is not there yet, or damaged.
+            It is not there yet, damaged, or not of the sweep in ``sweep.json``.
         """
-        return _read_table(self.table_path)
+        return self._of_this_sweep(self.table_path)
 
     def machine(self) -> pa.Table:
         """Return ``machine.parquet``: status, time and memory, a row a run; else as `table`."""
-        return _read_table(self.machine_path)
+        return self._of_this_sweep(self.machine_path)
+
+    def _of_this_sweep(self, path: Path) -> pa.Table:
+        table = _read_table(path)
+        found = (table.schema.metadata or {}).get(GRID.encode(), b"").decode()
+        if found != self.info().get(GRID, ""):
+            raise SweepFolderError(
+                f"{path}: not of the sweep in {self.info_path.name}; give the command of the sweep "
+                "again, it makes the tables from the runs that are finished"
+            )
+        return table
+
+
+def _write_info(path: Path, info: Mapping[str, Any]) -> None:
+    with _told(path):
+        replace_file(path, f"{json.dumps(info, indent=2)}\n".encode())
 
 
 def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
-    """Return the table of a part, or None and why it cannot be read."""
+    """Return the table of a part, or None and what is wrong with it."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -223,7 +285,48 @@ def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
         table = pq.read_table(part)
     except (pa.ArrowException, OSError) as error:
         return None, str(error).splitlines()[0]
-    return (table, "") if "key" in table.column_names else (None, "it has no column key")
+    reason = _misfit(table)
+    return (None, reason) if reason else (table, "")
+
+
+def _misfit(table: pa.Table) -> str:
+    """Return what is wrong with the columns of a part, empty if nothing is."""
+    import pyarrow as pa
+
+    names = table.column_names
+    if len(set(names)) < len(names):
+        return "it has two columns of one name"
+    for name in REQUIRED:
+        if name not in table.column_names:
+            return f"it has no column {name}"
+        if not pa.types.is_string(table[name].type):
+            return f"its column {name} has the type {table[name].type}, not string"
+        if table[name].null_count:
+            return f"its column {name} is null in some rows"
+    return ""
+
+
+def _cast(table: pa.Table, schema: pa.Schema) -> tuple[pa.Table | None, str]:
+    """Return a table with the columns of a schema, or None and which one it cannot have.
+
+    Columns that it does not have are null.
+    """
+    import pyarrow as pa
+
+    if table.schema.equals(schema):
+        return table, ""
+    there = set(table.column_names)
+    columns = []
+    for field in schema:
+        try:
+            columns.append(
+                table[field.name].cast(field.type)
+                if field.name in there
+                else pa.nulls(table.num_rows, field.type)
+            )
+        except pa.ArrowException as error:
+            return None, f"column {field.name}: {str(error).splitlines()[0]}"
+    return pa.table(columns, schema=schema), ""
 
 
 def _write_table(table: pa.Table, path: Path) -> None:

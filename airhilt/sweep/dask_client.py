@@ -232,8 +232,13 @@ def _outcome(client: Client, future: Future[str], request: Request) -> Outcome:
         machine = Machine(wall_s=0.0, cpu_s=None, peak_memory_mb=0.0, host=last, process=0)
         cause = f"workers died under it, the last one at {last}"
         return Outcome(key=request.key, status="crashed", cause=cause, machine=machine)
-    except (CancelledError, OSError):
-        raise _lost(client) from None
+    except (CancelledError, OSError) as error:
+        if future.status != "error":  # It is not the task that has raised it.
+            raise _lost(client) from None
+        raise ClusterError(
+            f"{address(client)}: a worker cannot run anything: {first_line(error)}; what was "
+            "finished is kept, and the same command with the same --out does the rest"
+        ) from None
 
 
 def _lost(client: Client) -> ClusterError:

@@ -6,15 +6,16 @@ than there are workers at a time. Each outcome is on the disk before the next on
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.record.sweep_folder import SweepFolder
+from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.clusters import FAMILY, Cluster, openness
+from airhilt.sweep.crashes import SAME_CRASHES, Crashes
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared, quiet_dask
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment, environment
@@ -23,7 +24,7 @@ from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.shared_folder import probe_in
 from airhilt.sweep.specification import Specification
-from airhilt.sweep.tables import folder_name, part_of, tables_of
+from airhilt.sweep.tables import folder_name, grid_sha256, part_of, part_schema, tables_of
 from airhilt.sweep.work import Work, default_workers
 
 
@@ -55,6 +56,11 @@ class SweepResult:
     failed: int
     missing: int
 
+    @property
+    def is_complete(self) -> bool:
+        """True if every run has a row, and some finished."""
+        return self.rows == self.runs and self.failed + self.missing < self.runs
+
 
 def sweep(
     specification: Specification, work: Work, observer: SweepObserver | None = None
@@ -76,7 +82,8 @@ def sweep(
     folder = SweepFolder(work.out)
     folder.create()
     with folder.locked():
-        folder.write_info(_info(specification, own, len(by_key)))
+        info = _info(specification, own, by_key)
+        _tell_replaced(folder, info, observer)
         finished = _finished(folder, by_key, observer)
         missing = [key for key in by_key if _is_missing(finished.get(key), work.retry)]
         if missing:
@@ -85,10 +92,11 @@ def sweep(
                 is_kept = any(request.keep != "none" for request in requests)
                 probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
                 plugin = RunnerPlugin(renderer, work.limits, own, probe)
-                _run_missing(requests, len(by_key), folder, work, cluster, plugin, observer)
+                _run_missing(requests, info, folder, work, cluster, plugin, observer)
             finished = _finished(folder, by_key, observer)
         table, machine = tables_of(by_key, finished)
-        folder.write_tables(table, machine)
+        folder.write_tables(table, machine, info)
+    _tell_of_machine(finished.values(), observer)
     left = sum(key not in finished for key in by_key)
     failed = sum(row["status"] != "finished" for row in finished.values())
     return SweepResult(folder, len(by_key), table.num_rows, failed, left)
@@ -119,13 +127,40 @@ def _own_environment(renderer: str, limits: Limits) -> Environment:
     return runner.environment
 
 
-def _info(specification: Specification, own: Environment, runs: int) -> dict[str, Any]:
+def _info(
+    specification: Specification, own: Environment, by_key: Mapping[str, Case]
+) -> dict[str, Any]:
+    """Return the content of ``sweep.json``."""
     return {
         "format": specification.format,
         "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
         "environment": own.model_dump(),
-        "runs": runs,
+        "runs": len(by_key),
+        GRID: grid_sha256(by_key),
     }
+
+
+def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: SweepObserver) -> None:
+    """Say that the tables in a folder will be of another sweep than they were."""
+    if not folder.info_path.is_file():
+        return
+    with suppress(SweepFolderError):  # What is damaged is written anew.
+        before = folder.info()
+        if before.get(GRID) != info[GRID]:
+            observer.notice(
+                f"{folder.path} holds another sweep, of {before.get('runs')} runs: its tables make "
+                f"room for those of this one, of {info['runs']}; what finished stays in parts"
+            )
+
+
+def _tell_of_machine(rows: Iterable[Mapping[str, Any]], observer: SweepObserver) -> None:
+    """Say how to have the runs done again that might end otherwise."""
+    count = sum(row["status"] in OF_THE_MACHINE for row in rows)
+    if count:
+        observer.notice(
+            f"{count} run{'s' * (count != 1)} ended by a crash or a limit, which is no result: "
+            "the same command with --retry and the same --out does them again"
+        )
 
 
 def _finished(
@@ -135,8 +170,7 @@ def _finished(
 
     What a limit has ended counts only as long as the run has not been done.
     """
-    table = folder.finished(observer.notice)
-    rows = [] if table is None else table.to_pylist()
+    rows = folder.finished(part_schema(), observer.notice).to_pylist()
     rows.sort(key=lambda row: row["status"] not in OF_THE_MACHINE)
     return {row["key"]: row for row in rows if row["key"] in by_key}
 
@@ -167,7 +201,7 @@ def _unseen_options(case: Case) -> dict[str, Any]:
 
 def _run_missing(
     requests: Sequence[Request],
-    total: int,
+    info: Mapping[str, Any],
     folder: SweepFolder,
     work: Work,
     cluster: Cluster,
@@ -176,22 +210,33 @@ def _run_missing(
 ) -> None:
     """Let the workers of a cluster run what is missing; keep each outcome as it comes.
 
+    After many crashes with one cause no more is begun.
+
     Raises
     ------
     AirhiltError
         The workers cannot be used, or the scheduler is lost.
     """
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
+    total, crashes = int(info["runs"]), Crashes()
+
+    def stops() -> bool:
+        return observer.stops or crashes.are_enough
+
     with quiet_dask(), cluster.connect(count, work.dashboard) as client:
         if notice := openness(client.scheduler_info()["address"]):
             observer.notice(notice)
         workers = Workers(client, observer.notice)
-        workers.wait(lambda: observer.stops)
+        workers.wait(stops)
         with prepared(client, plugin):
+            folder.write_next_info(info)
             observer.begun(
                 total, total - len(requests), described(client, work.dashboard is not None)
             )
-            ordered = apart(requests, count)
-            for outcome in outcomes(client, plugin.name, ordered, workers, lambda: observer.stops):
+            ordered = apart(requests, max(workers.threads(), work.workers or 1))
+            for outcome in outcomes(client, plugin.name, ordered, workers, stops):
                 folder.keep(part_of([outcome]))
                 observer.ended(outcome)
+                crashes.add(outcome)
+    if crashes.are_enough:
+        observer.notice(f"ended after {SAME_CRASHES} crashes in a row with one cause, to be mended")

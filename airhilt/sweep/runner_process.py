@@ -118,15 +118,18 @@ class RunnerProcess:
         self._child.close()
 
     def _start(self) -> tuple[ChildProcess, Environment]:
-        child = ChildProcess(COMMAND, [self._renderer], environment=ENVIRONMENT)
+        try:
+            child = ChildProcess(COMMAND, [self._renderer], environment=ENVIRONMENT)
+        except OSError as error:
+            raise _not_started(
+                f"({error.strerror or error}); expected a few kB where temporary files are "
+                "(TMPDIR), and room for one more process"
+            ) from None
         try:
             return child, Environment.model_validate(child.answer(STARTING_S))
         except (Ended, NoAnswer) as problem:
             child.close()
-            raise RunnerError(
-                f"the process that runs cases cannot be started on {socket.gethostname()} "
-                f"{problem or f'within {STARTING_S:.0f} s'}"
-            ) from None
+            raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
 
     def _restart(self) -> None:
         self.close()
@@ -142,6 +145,12 @@ class RunnerProcess:
 
     def _watch_quietly(self) -> None:
         self._peak_mb = max(self._peak_mb, _memory_mb(self._child.process_id))
+
+
+def _not_started(why: str) -> RunnerError:
+    return RunnerError(
+        f"the process that runs cases cannot be started on {socket.gethostname()} {why}"
+    )
 
 
 def _memory_mb(process_id: int) -> float:

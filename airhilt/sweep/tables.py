@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePosixPath
@@ -51,6 +52,11 @@ TYPES = {
 }
 
 
+def part_schema() -> pa.Schema:
+    """Return names and types of the columns of a part."""
+    return part_of([]).schema
+
+
 def part_of(outcomes: Iterable[Outcome]) -> pa.Table:
     """Return a part of the store: machine columns and metrics of some runs that are finished."""
     rows = [_part_row(outcome) for outcome in outcomes]
@@ -79,6 +85,20 @@ def tables_of(
     parameters = _parameter_columns(list(cases.values()), names)
     columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
+
+
+def grid_sha256(cases: Mapping[str, Case]) -> str:
+    """Return what tells the tables of one sweep from those of others: by runs and columns.
+
+    Parameters
+    ----------
+    cases
+        Runs of the sweep by their keys; their order is of no matter.
+    """
+    digest = hashlib.sha256()
+    for name in (*sorted(_column_names(cases.values()).values()), *sorted(cases)):
+        digest.update(f"{name}\n".encode())
+    return digest.hexdigest()
 
 
 def _part_row(outcome: Outcome) -> dict[str, Any]:

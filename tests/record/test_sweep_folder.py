@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pytest
@@ -18,19 +19,30 @@ from airhilt.record.sweep_folder import MOST_PARTS, SweepFolder
 def folder(tmp_path: Path) -> SweepFolder:
     made = SweepFolder(tmp_path / "sweep")
     made.create()
-    made.write_info({"format": 1})
+    made.write_tables(run("before"), run("before"), INFO)
     return made
 
 
 def run(key: str, value: float = 0.5) -> pa.Table:
-    return pa.table({"key": [key], "value": [value]})
+    return pa.table({"key": [key], "status": ["finished"], "value": [value]})
+
+
+SCHEMA = run("").schema
+INFO = {"format": 1, "grid_sha256": "a"}
+
+
+def finished(folder: SweepFolder) -> tuple[list[str], list[str]]:
+    """Return the keys of the finished runs, and what is told."""
+    told: list[str] = []
+    table = folder.finished(SCHEMA, told.append)
+    assert table.schema.equals(SCHEMA)
+    return sorted(table["key"].to_pylist()), told
 
 
 def keys(folder: SweepFolder) -> list[str]:
-    told: list[str] = []
-    table = folder.finished(told.append)
+    found, told = finished(folder)
     assert not told
-    return [] if table is None else sorted(table["key"].to_pylist())
+    return found
 
 
 def test_a_sweep_killed_as_it_began_can_begin_again(tmp_path: Path) -> None:
@@ -40,8 +52,8 @@ def test_a_sweep_killed_as_it_began_can_begin_again(tmp_path: Path) -> None:
     (tmp_path / "sweep.json.partial").write_text("{")
     begun.create()
     with begun.locked():
-        begun.write_info({"format": 1})
-    assert begun.info() == {"format": 1}
+        begun.write_tables(run("a"), run("a"), INFO)
+    assert begun.info() == INFO
 
 
 @pytest.mark.parametrize("name", ["sweep.json", "notes.txt", "parts/mine.parquet"])
@@ -95,20 +107,51 @@ def test_a_damaged_part_is_told_after_the_others_have_become_one(folder: SweepFo
     damaged.write_bytes(b"no parquet")
     for number in range(MOST_PARTS + 5):
         folder.keep(run(f"{number:03}"))
-    told: list[str] = []
-    table = folder.finished(told.append)
-    assert table is not None
-    assert table.num_rows == MOST_PARTS + 5
+    found, told = finished(folder)
+    assert len(found) == MOST_PARTS + 5
     assert len(told) == 1
     assert damaged.name in told[0]
 
 
 def test_parts_of_an_earlier_version_have_fewer_columns(folder: SweepFolder) -> None:
-    folder.keep(pa.table({"key": ["old"]}))
+    folder.keep(pa.table({"key": ["old"], "status": ["finished"]}))
     folder.keep(run("new"))
-    table = folder.finished(lambda _: None)
-    assert table is not None
+    table = folder.finished(SCHEMA, lambda _: None)
     assert {row["key"]: row["value"] for row in table.to_pylist()} == {"old": None, "new": 0.5}
+
+
+def test_parts_of_other_versions_lose_no_column_when_many_become_one(folder: SweepFolder) -> None:
+    other = run("other").append_column("more", pa.array([7]))
+    folder.keep(other)
+    for number in range(MOST_PARTS + 5):
+        folder.keep(run(f"{number:03}"))
+    assert len(keys(folder)) == MOST_PARTS + 6
+    assert len(list(folder.parts_path.glob("*.parquet"))) < MOST_PARTS
+    again = folder.finished(other.schema, lambda _: None).to_pylist()
+    assert {row["more"] for row in again if row["key"] == "other"} == {7}
+
+
+@pytest.mark.parametrize(
+    ("columns", "reason"),
+    [
+        ({"key": [7], "status": ["finished"]}, "its column key has the type int64, not string"),
+        ({"key": ["a"]}, "it has no column status"),
+        ({"status": ["finished"]}, "it has no column key"),
+        ({"key": ["a", None], "status": ["failed"] * 2}, "its column key is null in some rows"),
+        ({"key": ["a"], "status": ["finished"], "value": ["much"]}, "column value: "),
+    ],
+)
+def test_a_part_that_is_none_of_a_sweep_is_set_aside_by_name(
+    folder: SweepFolder, columns: dict[str, list[Any]], reason: str
+) -> None:
+    folder.keep(pa.table(columns))
+    (part,) = folder.parts_path.glob("*.parquet")
+    folder.keep(run("b"))
+    found, (told,) = finished(folder)
+    assert found == ["b"]
+    assert part.name in told
+    assert reason in told
+    assert keys(folder) == ["b"]
 
 
 @pytest.mark.parametrize("damage", [b"", b"PAR1 nothing", "half"])
@@ -119,10 +162,8 @@ def test_a_damaged_part_is_set_aside_by_name_and_the_others_count(
     (part,) = folder.parts_path.glob("*.parquet")
     folder.keep(run("b"))
     part.write_bytes(part.read_bytes()[:200] if isinstance(damage, str) else damage)
-    told: list[str] = []
-    table = folder.finished(told.append)
-    assert table is not None
-    assert table["key"].to_pylist() == ["b"]
+    found, told = finished(folder)
+    assert found == ["b"]
     assert part.name in told[0]
     assert "damaged" in told[0]
     assert keys(folder) == ["b"]
@@ -137,9 +178,46 @@ def test_what_was_written_by_half_is_not_read(folder: SweepFolder) -> None:
 def test_the_same_tables_have_the_same_bytes(folder: SweepFolder) -> None:
     written = []
     for _ in range(2):
-        folder.write_tables(run("a"), run("a", 2.0))
+        folder.write_tables(run("a"), run("a", 2.0), INFO)
         written.append((folder.table_path.read_bytes(), folder.machine_path.read_bytes()))
     assert written[0] == written[1]
+
+
+def test_tables_are_those_of_the_specification_beside_them(
+    folder: SweepFolder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A kill between the tables and sweep.json is told, and not shown as a result."""
+    killed = RuntimeError("killed")
+
+    def kill(*_: object) -> None:
+        raise killed
+
+    with monkeypatch.context() as patch:
+        patch.setattr(sweep_folder, "_write_info", kill)
+        with pytest.raises(RuntimeError):
+            folder.write_tables(run("b"), run("b"), {"format": 1, "grid_sha256": "b"})
+    assert folder.info() == INFO
+    for read in (folder.table, folder.machine):
+        with pytest.raises(
+            AirhiltError, match=r"not of the sweep in sweep\.json; give the command"
+        ):
+            read()
+
+
+def test_what_a_sweep_begins_with_is_not_yet_what_its_tables_are_of(folder: SweepFolder) -> None:
+    folder.write_next_info({"format": 1, "grid_sha256": "b"})
+    assert folder.info() == INFO
+    assert folder.table()["key"].to_pylist() == ["before"]
+
+
+def test_a_sweep_that_was_killed_before_it_had_tables_is_told(tmp_path: Path) -> None:
+    begun = SweepFolder(tmp_path)
+    begun.create()
+    assert not begun.is_there
+    begun.write_next_info(INFO)
+    assert begun.is_there
+    with pytest.raises(AirhiltError, match="has no tables yet; give its command again"):
+        SweepFolder.open(tmp_path)
 
 
 def test_one_process_at_a_time_writes_into_a_folder(folder: SweepFolder) -> None:
@@ -159,6 +237,7 @@ def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> Non
 
 
 def test_tables_that_are_missing_or_damaged_say_how_to_make_them(folder: SweepFolder) -> None:
+    folder.table_path.unlink()
     with pytest.raises(AirhiltError, match="give the command of the sweep again"):
         folder.table()
     folder.table_path.write_bytes(b"PAR1")

@@ -3,51 +3,24 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from concurrent.futures import CancelledError
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError
 from airhilt.sweep.clusters import FAMILY, ClusterError, openness
-from airhilt.sweep.dask_client import Workers, prepared
+from airhilt.sweep.dask_client import IN_HAND_PER_THREAD, Workers, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment
+from airhilt.sweep.outcome import Outcome, Request
 from airhilt.sweep.runner_process import Limits
+from fake_dask import FakeClient, FakeFuture
+from runners import request
 
 ENVIRONMENT = Environment(versions={"airhilt": "1"}, code_sha256="0" * 64, renderer="")
-DASK = {"dask": "2026.8.0", "distributed": "2026.8.0"}
-
-
-class FakeClient:
-    """A client of a scheduler with some workers and some versions."""
-
-    status = "running"
-
-    class scheduler:  # noqa: N801 - as the attribute of Dask's
-        address = "tcp://head:8786"
-
-    def __init__(self, threads: list[int] | None = None, **versions: dict[str, str]) -> None:
-        self._threads: Iterator[int] = iter(threads or [])
-        self._versions = versions
-        self.plugins: list[str] = []
-
-    def nthreads(self) -> dict[str, int]:
-        count = next(self._threads)
-        if count < 0:
-            raise OSError("gone")
-        return {"tcp://w:1": count} if count else {}
-
-    def get_versions(self) -> dict[str, Any]:
-        workers = {"tcp://w:1": {"packages": DASK | self._versions.get("worker", {})}}
-        scheduler = {"packages": DASK | self._versions.get("scheduler", {})}
-        return {"client": {"packages": DASK}, "scheduler": scheduler, "workers": workers}
-
-    def register_plugin(self, plugin: RunnerPlugin) -> None:
-        self.plugins.append(plugin.name)
-
-    def unregister_worker_plugin(self, name: str) -> None:
-        self.plugins.remove(name)
 
 
 @pytest.fixture
@@ -59,7 +32,7 @@ def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def client(*threads: int, **versions: dict[str, str]) -> Any:
-    return FakeClient(list(threads), **versions)
+    return FakeClient(list(threads) or [1], versions)
 
 
 def plugin() -> RunnerPlugin:
@@ -126,6 +99,50 @@ def test_nothing_of_a_sweep_stays_on_the_workers() -> None:
 
 def test_two_sweeps_do_not_take_each_others_runners() -> None:
     assert plugin().name != plugin().name
+
+
+def ended(fake: Any, count: int = 1, stop_after: int = 1000) -> list[Outcome]:
+    """Return the outcomes of some runs; the user stops after some of them."""
+    found: list[Outcome] = []
+    workers = Workers(fake, lambda _: None)
+    asked = [request(str(number)) for number in range(count)]
+    for each in outcomes(fake, "plugin", asked, workers, lambda: len(found) >= stop_after):
+        found.append(each)
+    return found
+
+
+def test_every_run_has_its_outcome() -> None:
+    assert {each.key for each in ended(client(2), 9)} == {str(number) for number in range(9)}
+
+
+def test_runs_in_hand_finish_and_no_more_are_given_out() -> None:
+    fake = client(2)
+    assert len(ended(fake, 9, stop_after=1)) == len(fake.submitted) == 2 * IN_HAND_PER_THREAD
+
+
+def test_a_run_under_which_workers_die_is_its_crash() -> None:
+    last: Any = SimpleNamespace(address="tcp://w:7")
+
+    def killed(_: Request) -> FakeFuture:
+        return FakeFuture(KilledWorker("task", last, 3), "error")
+
+    (found,) = ended(FakeClient(ends=killed))
+    assert (found.key, found.status, found.machine.host) == ("0", "crashed", "tcp://w:7")
+    assert found.cause == "workers died under it, the last one at tcp://w:7"
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "told"),
+    [
+        (OSError(28, "No space left on device"), "error", "a worker cannot run anything: OSError"),
+        (AirhiltError("worker tcp://w:1: another version"), "error", "another version"),
+        (OSError("connection closed"), "lost", "tcp://head:8786 is lost; what was finished"),
+        (CancelledError("0"), "cancelled", "tcp://head:8786 is lost; what was finished"),
+    ],
+)
+def test_what_ends_a_sweep_is_told_as_it_is(error: Exception, status: str, told: str) -> None:
+    with pytest.raises(AirhiltError, match=told):
+        ended(FakeClient(ends=lambda _: FakeFuture(error, status)))
 
 
 def test_a_scheduler_that_is_not_there_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from airhilt.sweep.runner_process import Limits, RunnerProcess, RunnerStopped
+from airhilt.sweep.runner_process import Limits, RunnerError, RunnerProcess, RunnerStopped
 from runners import request, use_as_runner
 
 LIMITS = Limits(wall_s=60.0, memory_mb=150.0)
@@ -64,3 +64,12 @@ def test_a_runner_does_not_inherit_how_dask_lets_its_workers_give_memory_back(
     with closing(RunnerProcess("", LIMITS)) as runner:
         process = psutil.Process(runner.run(request("good")).machine.process)
         assert "MALLOC_TRIM_THRESHOLD_" not in process.environ()
+
+
+def test_a_disk_on_which_no_runner_can_be_started_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(**_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", full)
+    with pytest.raises(RunnerError, match=r"on .* \(No space left on device\); expected .*TMPDIR"):
+        RunnerProcess("", LIMITS)

@@ -56,7 +56,7 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
             raise click.UsageError("--out, --csv: expected one of them")
         _write_csv(SweepFolder.open(folder), csv)
         click.echo(csv)
-    elif sweep.info_path.is_file():
+    elif sweep.is_there:
         from airhilt.report.sweeps import write_sweep_report
 
         click.echo(write_sweep_report(folder, out, _Progress()))

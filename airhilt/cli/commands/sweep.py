@@ -95,7 +95,7 @@ def sweep(context: click.Context, /, **given: Any) -> int:
 
     The table is DIR/sweep.parquet (`airhilt report DIR` shows it, `airhilt.read_sweep` reads it).
     The same command with the same --out does what is missing. Exit code 0 if every run has a row,
-    1 if some have not.
+    1 if some have not, or if none finished.
     """
     from airhilt.cli.sweep_flags import specification_given
     from airhilt.cli.sweep_output import print_estimate, print_result
@@ -117,7 +117,7 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     print_result(result, _again(context, work.out), given["as_json"], given["quiet"])
     if progress.stops:
         return INTERRUPTED
-    return 0 if result.rows == result.runs else 1
+    return 0 if result.is_complete else 1
 
 
 def _again(context: click.Context, out: Path) -> str:

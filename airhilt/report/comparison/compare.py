@@ -88,7 +88,7 @@ def _is_sweep(folder: Path) -> bool:
     AirhiltError
         It is neither.
     """
-    if SweepFolder(folder).info_path.is_file():
+    if SweepFolder(folder).is_there:
         return True
     if RunFolder(folder).info_path.is_file():
         return False

@@ -1,0 +1,91 @@
+"""A client of Dask without a scheduler: its tasks end as soon as they are submitted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from airhilt.sweep.dask_worker import RunnerPlugin
+from airhilt.sweep.outcome import Machine, Outcome, Request, Status
+
+DASK = {"dask": "2026.8.0", "distributed": "2026.8.0"}
+MACHINE = Machine(wall_s=0.0, cpu_s=0.0, peak_memory_mb=0.0, host="h", process=1)
+
+
+def outcome(key: str, status: Status = "finished", cause: str = "") -> Outcome:
+    """Return an outcome without metrics."""
+    return Outcome(key=key, status=status, cause=cause, machine=MACHINE)
+
+
+@dataclass(eq=False)
+class FakeFuture:
+    """A task that has ended with an outcome or with an error, or was lost with the scheduler."""
+
+    ended: Outcome | BaseException
+    status: str = "finished"
+
+    def result(self) -> str:
+        """Return the outcome as JSON, or raise."""
+        if isinstance(self.ended, BaseException):
+            raise self.ended
+        return self.ended.model_dump_json()
+
+    def add_done_callback(self, done: Callable[[FakeFuture], None]) -> None:
+        """Call at once."""
+        done(self)
+
+
+@dataclass
+class FakeClient:
+    """A client of a scheduler with some workers and some versions.
+
+    ``threads`` are the numbers of threads of its worker, one after the other; the last one stays.
+    """
+
+    threads: list[int] = field(default_factory=lambda: [1])
+    versions: dict[str, dict[str, str]] = field(default_factory=dict)
+    ends: Callable[[Request], Outcome | FakeFuture] = lambda request: outcome(request.key)
+
+    def __post_init__(self) -> None:
+        self.status = "running"
+        self.scheduler = type("Scheduler", (), {"address": "tcp://head:8786"})
+        self.plugins: list[str] = []
+        self.submitted: list[Request] = []
+
+    def nthreads(self) -> dict[str, int]:
+        """Return the threads of the worker; fewer than none: the scheduler is gone."""
+        count = self.threads.pop(0) if len(self.threads) > 1 else self.threads[0]
+        if count < 0:
+            raise OSError("gone")
+        return {"tcp://w:1": count} if count else {}
+
+    def scheduler_info(self) -> dict[str, str]:
+        """Return where it is, with TLS."""
+        return {"address": "tls://head:8786"}
+
+    def get_versions(self) -> dict[str, Any]:
+        """Return the versions of Dask everywhere."""
+        workers = {"tcp://w:1": {"packages": DASK | self.versions.get("worker", {})}}
+        scheduler = {"packages": DASK | self.versions.get("scheduler", {})}
+        return {"client": {"packages": DASK}, "scheduler": scheduler, "workers": workers}
+
+    def register_plugin(self, plugin: RunnerPlugin) -> None:
+        """Keep its name."""
+        self.plugins.append(plugin.name)
+
+    def unregister_worker_plugin(self, name: str) -> None:
+        """Forget it."""
+        self.plugins.remove(name)
+
+    def submit(self, _task: object, request: str, *_: object, **__: object) -> FakeFuture:
+        """Return the task, which has ended."""
+        self.submitted.append(Request.model_validate_json(request))
+        ended = self.ends(self.submitted[-1])
+        return ended if isinstance(ended, FakeFuture) else FakeFuture(ended)
+
+    @contextmanager
+    def connect(self, *_: object) -> Iterator[FakeClient]:
+        """Return itself: it stands for its cluster too."""
+        yield self

@@ -1,0 +1,166 @@
+"""What a sweep leaves in its folder, told apart by how its runs end; no run is run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import SweepFolder
+from airhilt.sweep import engine
+from airhilt.sweep.crashes import SAME_CRASHES
+from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.outcome import Outcome, Request
+from airhilt.sweep.specification import specification_of
+from airhilt.sweep.work import Work
+from fake_dask import FakeClient, outcome
+
+Ends = Callable[[Request], Outcome]
+
+
+class Noted(SweepObserver):
+    def __init__(self) -> None:
+        self.notices: list[str] = []
+
+    def notice(self, text: str) -> None:
+        self.notices.append(text)
+
+
+class Sweeps:
+    """Sweeps into one folder, whose runs end as a test says."""
+
+    def __init__(self, out: Path, patch: pytest.MonkeyPatch) -> None:
+        self.out = out
+        self._patch = patch
+
+    def run(
+        self, ends: Ends, seeds: int = 2, fake: FakeClient | None = None, **work: Any
+    ) -> tuple[SweepResult, list[str]]:
+        """Return the result, and what the user is told."""
+        client = fake or FakeClient(ends=ends)
+        family = SimpleNamespace(create=lambda *_, **__: client)
+        self._patch.setattr(engine, "FAMILY", family)
+        specification = specification_of(
+            {
+                "scenarios": ["s02a_headon"],
+                "seeds": list(range(seeds)),
+                "options": {"cameras": False, "speech": False, "latency": "fixed"},
+            },
+            "test",
+        )
+        observer = Noted()
+        return sweep(specification, Work(self.out, **work), observer), observer.notices
+
+    def seeds_of_tables(self) -> tuple[int, list[int]]:
+        """Return how many seeds sweep.json asks for, and those of the table beside it."""
+        folder = SweepFolder.open(self.out)
+        asked = folder.info()["specification"]["seeds"]
+        return len(asked), sorted(folder.table()["seed"].to_pylist())
+
+
+@pytest.fixture
+def sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Sweeps:
+    return Sweeps(tmp_path / "sweep", monkeypatch)
+
+
+def finishes(request: Request) -> Outcome:
+    return outcome(request.key)
+
+
+def crashes(request: Request) -> Outcome:
+    return outcome(request.key, "crashed", "No space left on device")
+
+
+def fails(request: Request) -> Outcome:
+    return outcome(request.key, "failed", "no such thing")
+
+
+def test_a_sweep_without_a_run_that_finished_is_not_complete(sweeps: Sweeps) -> None:
+    result, _ = sweeps.run(fails)
+    assert (result.rows, result.failed, result.missing) == (2, 2, 0)
+    assert not result.is_complete
+    result, _ = sweeps.run(finishes, seeds=3)
+    assert result.is_complete
+
+
+def test_another_sweep_in_a_folder_is_told_and_replaces_tables_and_specification_at_once(
+    sweeps: Sweeps,
+) -> None:
+    _, notices = sweeps.run(finishes)
+    assert notices == []
+    assert sweeps.seeds_of_tables() == (2, [0, 1])
+
+    def looks(request: Request) -> Outcome:
+        assert sweeps.seeds_of_tables() == (2, [0, 1])
+        return finishes(request)
+
+    _, notices = sweeps.run(looks, seeds=3)
+    assert sweeps.seeds_of_tables() == (3, [0, 1, 2])
+    (told,) = notices
+    assert "holds another sweep, of 2 runs" in told
+    assert len(told.splitlines()) == 1
+    assert not SweepFolder(sweeps.out).next_info_path.exists()
+
+
+def test_a_sweep_that_is_refused_leaves_tables_and_specification_as_they_were(
+    sweeps: Sweeps,
+) -> None:
+    sweeps.run(finishes)
+    other = FakeClient(versions={"worker": {"dask": "2020.1.0"}})
+    with pytest.raises(AirhiltError, match=r"has dask 2020\.1\.0"):
+        sweeps.run(finishes, seeds=3, fake=other)
+    assert sweeps.seeds_of_tables() == (2, [0, 1])
+    with pytest.raises(ZeroDivisionError):
+        sweeps.run(lambda _: 1 // 0, seeds=3)  # type: ignore[arg-type,return-value]
+    assert sweeps.seeds_of_tables() == (2, [0, 1])
+
+
+def test_a_sweep_that_cannot_be_leaves_nothing(sweeps: Sweeps, tmp_path: Path) -> None:
+    with pytest.raises(AirhiltError, match="latency 'nonsense'"):
+        sweep(
+            specification_of(
+                {"scenarios": ["s02a_headon"], "options": {"latency": "nonsense"}}, "test"
+            ),
+            Work(sweeps.out),
+        )
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_crashes_are_no_results_and_are_done_again_when_asked(sweeps: Sweeps) -> None:
+    result, notices = sweeps.run(crashes)
+    assert (result.rows, result.failed, result.missing) == (0, 2, 0)
+    assert any("2 runs ended by a crash or a limit" in each for each in notices)
+    assert any("--retry" in each for each in notices)
+    result, _ = sweeps.run(finishes)
+    assert result.rows == 0
+    result, notices = sweeps.run(finishes, retry=True)
+    assert (result.rows, notices) == (2, [])
+    assert result.is_complete
+
+
+def test_a_full_disk_ends_a_sweep_and_leaves_the_rest_to_do(sweeps: Sweeps) -> None:
+    seeds = SAME_CRASHES + 10
+    result, notices = sweeps.run(crashes, seeds=seeds)
+    assert SAME_CRASHES <= result.failed < seeds
+    assert result.missing == seeds - result.failed
+    assert any(f"ended after {SAME_CRASHES} crashes in a row" in each for each in notices)
+    result, _ = sweeps.run(finishes, seeds=seeds, retry=True)
+    assert result.rows == seeds
+
+
+def test_runs_are_given_out_for_the_threads_that_a_cluster_has(
+    sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    abreast: list[int] = []
+
+    def noted(requests: list[Request], workers: int) -> list[Request]:
+        abreast.append(workers)
+        return requests
+
+    monkeypatch.setattr(engine, "apart", noted)
+    sweeps.run(finishes, fake=FakeClient(threads=[7]))
+    assert abreast == [7]
