@@ -173,6 +173,9 @@ class LogReader:
                     if known is None:
                         self._nameless = sequence
                         continue
+                    if sequence <= self._last:  # Its chunk is there twice, or out of order.
+                        self.is_faultless = False
+                        continue
                     self._count(sequence, t_ns)
                     publisher = known.metadata.get("publisher", "")
                     data = chunk[begin + MESSAGE_HEAD.size : end]
@@ -185,7 +188,7 @@ class LogReader:
         if sequence > self._last + 1:
             self.is_faultless = False
             self.gaps.append(Gap(self.end_ns, t_ns, sequence - self._last - 1))
-        self._last = max(sequence, self._last)
+        self._last = sequence
         self.end_ns = max(t_ns, self.end_ns)
 
     def _close_gap(self, index: _Index | None, broken_at: int | None) -> None:

@@ -121,6 +121,17 @@ def test_latencies_that_are_no_json_are_a_named_mistake(
     assert "latency.jsonl: line 1: " in done.stderr
 
 
+def test_a_page_says_from_where_on_latencies_cannot_be_read(
+    airhilt_command: Any, run_copy: Path
+) -> None:
+    path = run_copy / "latency.jsonl"
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join([*lines[:2], "{\n", *lines[2:]]))
+    assert airhilt_command("report", run_copy).returncode == 0
+    page = (run_copy / "report.html").read_text()
+    assert "latency.jsonl cannot be read from line 3 on." in page
+
+
 @pytest.mark.parametrize("content", [NESTED, NOT_UTF_8, b"[]", b""])
 def test_numbers_that_are_no_json_are_named_by_report_and_refused_by_compare(
     airhilt_command: Any, run_copy: Path, recorded_run: Path, content: bytes

@@ -6,6 +6,7 @@ import json
 import random
 import re
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -123,6 +124,46 @@ def test_a_damaged_first_chunk_costs_no_later_message(run_copy: Path) -> None:
 
 
 # --- truncated, replaced, missing -----------------------------------------------------------
+
+
+DAMAGES: dict[str, Callable[[bytearray, slice, random.Random], None]] = {
+    "zeros": lambda data, part, _: data.__setitem__(part, bytes(len(data[part]))),
+    "noise": lambda data, part, draw: data.__setitem__(part, draw.randbytes(len(data[part]))),
+    "a cut": lambda data, part, _: data.__delitem__(part),
+    "an insertion": lambda data, part, draw: data.__setitem__(
+        slice(part.start, part.start), draw.randbytes(len(data[part]))
+    ),
+    "a part twice": lambda data, part, _: data.__setitem__(
+        slice(part.start, part.start), data[part]
+    ),
+}
+
+
+@pytest.mark.parametrize("is_killed", [False, True])
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_larger_damage_gives_messages_of_the_run_in_order_and_is_named(
+    run_copy: Path, damage: str, is_killed: bool
+) -> None:
+    if is_killed:
+        kill(run_copy)
+    log = run_copy / "log.mcap"
+    whole, before = log.read_bytes(), messages(run_copy)
+    draw = random.Random(damage)
+    for _ in range(12):
+        data = bytearray(whole)
+        begin = draw.randrange(8, len(data) - 1)
+        DAMAGES[damage](data, slice(begin, begin + draw.choice([10, 512, 20_000])), draw)
+        log.write_bytes(data)
+        damaged = quiet(run_copy)
+        if is_killed and not damaged.damage:
+            try:
+                left = list(damaged.messages())
+            except RunFolderError:
+                continue  # Nothing of it can be read.
+            assert left == before[: len(left)]
+        else:
+            assert_named_or_harmless(before, damaged)
+            assert damaged.log_damage
 
 
 @pytest.mark.parametrize("share", [0.3, 0.8, 1.0])

@@ -51,10 +51,12 @@ def finished_steps(folder: RunFolder, notes: list[str]) -> Iterable[tuple[str, f
     except OSError as error:
         notes.append(f"latency.jsonl cannot be read: {error.strerror}.")
         return
-    for line in lines:
+    for number, line in enumerate(lines, start=1):
         try:
             row = json.loads(line)
-        except json.JSONDecodeError:
+        except (ValueError, RecursionError):
+            if number < len(lines):
+                notes.append(f"latency.jsonl cannot be read from line {number} on.")
             return
         if row.get("finished"):
             waited_ns = row["t_start_ns"] - row["t_in_ns"]
