@@ -92,7 +92,7 @@ class SweepFolder:
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
             )
-        with _told(self.path):
+        with _told(self.path, has_runs=self.parts_path.is_dir()):
             self.parts_path.mkdir(parents=True, exist_ok=True)
             self._lock_path.touch()
 
@@ -360,12 +360,18 @@ def _read_table(path: Path) -> pa.Table:
 
 
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """Turn an error of the disk into one for people."""
+def _told(path: Path, has_runs: bool = True) -> Iterator[None]:
+    """Turn an error of the disk into one for people.
+
+    Parameters
+    ----------
+    has_runs
+        False: no run was finished before.
+    """
     try:
         yield
     except OSError as error:
+        kept = "what was finished before is kept; make room, or " if has_runs else ""
         raise SweepFolderError(
-            f"{path}: cannot be written: {error.strerror}; what was finished before is kept; make "
-            "room, or choose another folder with --out"
+            f"{path}: cannot be written: {error.strerror}; {kept}choose another folder with --out"
         ) from None

@@ -275,3 +275,10 @@ def test_what_a_killed_sweep_left_half_written_is_removed_by_the_next(folder: Sw
     with folder.locked():
         assert not any(half.exists() for half in halves)
     assert keys(folder) == ["a"]
+
+
+def test_of_a_folder_that_cannot_be_made_nothing_is_said_to_be_kept(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(AirhiltError, match="cannot be written") as told:
+        SweepFolder(tmp_path / "file" / "sweep").create()
+    assert "kept" not in str(told.value)
