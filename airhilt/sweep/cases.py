@@ -221,7 +221,8 @@ class _Problems:
     def add(self, scenario: str, combination: Combination, problems: Sequence[str]) -> None:
         """Add the problems of a scenario with a combination of values."""
         values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
-        for problem in problems:
+        for told in problems:
+            problem = told.removeprefix(f"{scenario}: ")
             if problem in self._first:
                 self._more[problem] += 1
             else:

@@ -199,6 +199,12 @@ def test_no_assistant_named_is_the_one_that_a_run_has() -> None:
     assert keys(grid(options={"assistant": None})) == keys(grid())
 
 
+def test_a_problem_names_its_scenario_once() -> None:
+    with pytest.raises(AirhiltError) as told:
+        grid(axes={"actors.AAL123.initial.cas_kt": [-5]})
+    assert str(told.value).count("s02a_headon") == 1
+
+
 def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
     broken = tmp_path / "broken.json"
     broken.write_text("{")
