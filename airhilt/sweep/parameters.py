@@ -29,6 +29,10 @@ OPTIONS_OF_PATHS = {
     "weather.visibility_m": "visibility_m",
 }
 """Options that replace a value of the scenario: one parameter, two spellings."""
+PLACES_OF_OPTIONS = {
+    option: tuple(path.split(".")) for path, option in OPTIONS_OF_PATHS.items()
+} | {"assistant_config": (ASSISTANT,)}
+"""Keys that lead to what these options replace, or to what they are the whole of."""
 
 
 @dataclass(frozen=True)
@@ -68,9 +72,9 @@ class Parameter:
         return Plan(_with_value(plan.document, self.path, value), plan.options)
 
     def place(self, document: Json) -> tuple[str | int, ...]:
-        """Return the keys that lead to its value; empty for an option, or if it is not there."""
+        """Return the keys that lead to its value; empty if nothing else can replace that."""
         if self.path in Options.model_fields:
-            return ()
+            return PLACES_OF_OPTIONS.get(self.path, ())
         if self.path.partition(".")[0] == ASSISTANT:
             return tuple(self.path.split("."))
         try:
@@ -92,11 +96,17 @@ class Parameter:
 def parameter(path: str) -> Parameter:
     """Return the parameter that a path names; a scenario's is looked for when it is put.
 
+    Parameters
+    ----------
+    path
+        In any of its spellings: with dots or slashes, of an option or of what it replaces.
+
     Raises
     ------
     AirhiltError
         It is an option, but not one of sweeps.
     """
+    path = path.replace("/", ".").strip(".")  # Perturbations of scenarios write a/b.
     if path == "seed":
         raise AirhiltError("parameter seed: expected in seeds (--seeds), not among the parameters")
     path = OPTIONS_OF_PATHS.get(path, path)

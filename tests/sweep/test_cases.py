@@ -83,6 +83,8 @@ def test_two_spellings_of_one_parameter_are_one() -> None:
         grid(axes={"radio.snr_db": [5], "snr_db": [6]})
     with pytest.raises(AirhiltError, match="snr_db: given twice"):
         grid(axes={"radio.snr_db": [5]}, options={"snr_db": 6})
+    with pytest.raises(AirhiltError, match="snr_db: given twice"):
+        grid(axes={"/radio/snr_db": [5], "snr_db": [6]})
 
 
 @pytest.mark.parametrize(
@@ -188,9 +190,12 @@ def encounter_of_a_second(encounter: Scenario) -> Scenario:
     [
         ("actors.0.initial.cas_kt", "actors.AAL123.initial.cas_kt"),
         ("actors.AAL123.initial", "actors.0.initial.cas_kt"),
+        ("radio", "snr_db"),
+        ("weather", "visibility_m"),
+        ("assistant.tau_asr", "assistant_config"),
     ],
 )
-def test_two_spellings_of_one_place_are_refused_by_name(one: str, other: str) -> None:
+def test_two_parameters_of_one_place_are_refused_by_name(one: str, other: str) -> None:
     with pytest.raises(AirhiltError, match=f"parameters {one} and {other}: one would replace"):
         grid(axes={one: [250], other: [260]})
 
