@@ -19,9 +19,15 @@ def print_estimate(found: Estimate, as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps(asdict(found), indent=2))
         return
+    if found.run_s is None:
+        click.echo(f"{counted(found.runs, 'run')}, all of them there already")
+        return
+    finished = f", {found.finished} of them there already" if found.finished else ""
+    rest = f" for the {found.runs - found.finished} that are left" if found.finished else ""
     click.echo(
-        f"{counted(found.runs, 'run')}; one took {found.run_s:.1f} s and {found.run_mb:.0f} MB, so "
-        f"about {duration(found.total_s)} with {counted(found.workers, 'worker')}"
+        f"{counted(found.runs, 'run')}{finished}; one took {found.run_s:.1f} s and "
+        f"{found.run_mb:.0f} MB, so about {duration(found.total_s)} with "
+        f"{counted(found.workers, 'worker')}{rest}"
     )
 
 

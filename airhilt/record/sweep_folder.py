@@ -10,7 +10,7 @@ from __future__ import annotations
 import fcntl
 import json
 import uuid
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -88,13 +88,23 @@ class SweepFolder:
         SweepFolderError
             It holds something else, or cannot be written.
         """
+        self.require_usable()
+        with _told(self.path, has_runs=self.parts_path.is_dir()):
+            self.parts_path.mkdir(parents=True, exist_ok=True)
+            self._lock_path.touch()
+
+    def require_usable(self) -> None:
+        """Complain about a folder that holds something else; nothing is written.
+
+        Raises
+        ------
+        SweepFolderError
+            It does.
+        """
         if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
             )
-        with _told(self.path, has_runs=self.parts_path.is_dir()):
-            self.parts_path.mkdir(parents=True, exist_ok=True)
-            self._lock_path.touch()
 
     def _holds_something_else(self) -> bool:
         """Return true for a folder that no sweep has made; one that was just begun is a sweep's.
@@ -181,11 +191,11 @@ class SweepFolder:
         schema
             Names and types of the columns that are returned.
         """
-        import pyarrow as pa
+        return _joined(schema, (self._read_part(part, schema, notice) for part in self._parts()))
 
-        tables = [self._read_part(part, schema, notice) for part in self._parts()]
-        there = [table for table in tables if table is not None]
-        return pa.concat_tables([schema.empty_table(), *there])
+    def finished_so_far(self, schema: pa.Schema) -> pa.Table:
+        """Return what `finished` does and leave the folder as it is, while another sweep writes."""
+        return _joined(schema, (_fitting(part, schema)[0] for part in self._parts()))
 
     def _parts(self) -> list[Path]:
         return sorted(self.parts_path.glob("*.parquet"))
@@ -197,9 +207,7 @@ class SweepFolder:
         self, part: Path, schema: pa.Schema, notice: Callable[[str], None]
     ) -> pa.Table | None:
         """Return a part, None if it is damaged: it is set aside and told."""
-        table, reason = _table_or_reason(part)
-        if table is not None:
-            table, reason = _cast(table, schema)
+        table, reason = _fitting(part, schema)
         if table is None:
             aside = part.with_suffix(".damaged")
             with _told(part):
@@ -274,6 +282,19 @@ class SweepFolder:
 def _write_info(path: Path, info: Mapping[str, Any]) -> None:
     with _told(path):
         replace_file(path, f"{json.dumps(info, indent=2)}\n".encode())
+
+
+def _joined(schema: pa.Schema, tables: Iterable[pa.Table | None]) -> pa.Table:
+    import pyarrow as pa
+
+    there = [table for table in tables if table is not None]
+    return pa.concat_tables([schema.empty_table(), *there])
+
+
+def _fitting(part: Path, schema: pa.Schema) -> tuple[pa.Table | None, str]:
+    """Return the table of a part with the columns of a schema, or None and what is wrong."""
+    table, reason = _table_or_reason(part)
+    return (None, reason) if table is None else _cast(table, schema)
 
 
 def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:

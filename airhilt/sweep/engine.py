@@ -6,10 +6,10 @@ than there are workers at a time. Each outcome is on the disk before the next on
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
@@ -26,6 +26,9 @@ from airhilt.sweep.shared_folder import probe_in
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import folder_name, grid_sha256, part_of, part_schema, tables_of
 from airhilt.sweep.work import Work, default_workers
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 
 class SweepObserver:
@@ -85,7 +88,7 @@ def sweep(
         info = _info(specification, own, by_key)
         _tell_replaced(folder, info, observer)
         finished = _finished(folder, by_key, observer)
-        missing = [key for key in by_key if _is_missing(finished.get(key), work.retry)]
+        missing = missing_of(by_key, finished, work.retry)
         if missing:
             requests = list(_requests(missing, by_key, work))
             with ExitStack() as stack:
@@ -166,17 +169,34 @@ def _tell_of_machine(rows: Iterable[Mapping[str, Any]], observer: SweepObserver)
 def _finished(
     folder: SweepFolder, by_key: Mapping[str, Case], observer: SweepObserver
 ) -> dict[str, dict[str, Any]]:
-    """Return the rows of the store that belong to this sweep, by key.
+    """Return the rows of the store that belong to this sweep, by key."""
+    return by_keys(folder.finished(part_schema(), observer.notice), by_key)
+
+
+def by_keys(store: pa.Table, keys: Container[str]) -> dict[str, dict[str, Any]]:
+    """Return the rows of a store that have some keys.
 
     What a limit has ended counts only as long as the run has not been done.
     """
-    rows = folder.finished(part_schema(), observer.notice).to_pylist()
+    rows: list[dict[str, Any]] = store.to_pylist()
     rows.sort(key=lambda row: row["status"] not in OF_THE_MACHINE)
-    return {row["key"]: row for row in rows if row["key"] in by_key}
+    return {row["key"]: row for row in rows if row["key"] in keys}
 
 
-def _is_missing(row: Mapping[str, Any] | None, retry: bool) -> bool:
-    return row is None or (retry and row["status"] in OF_THE_MACHINE)
+def missing_of(
+    keys: Iterable[str], finished: Mapping[str, Mapping[str, Any]], retry: bool
+) -> list[str]:
+    """Return the keys of the runs that are to be done.
+
+    Parameters
+    ----------
+    finished
+        Rows of the store by their keys.
+    retry
+        True: runs that a limit ended are among them.
+    """
+    again = OF_THE_MACHINE if retry else ()
+    return [key for key in keys if key not in finished or finished[key]["status"] in again]
 
 
 def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> Iterator[Request]:

@@ -1,4 +1,4 @@
-"""How long a sweep would take: the number of its runs, and one of them run as a probe."""
+"""How long a sweep would take: the number of runs that are left, and one of them as a probe."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.clusters import FAMILY
-from airhilt.sweep.engine import renderer_of
-from airhilt.sweep.outcome import Outcome, Request
+from airhilt.sweep.engine import by_keys, missing_of, renderer_of
+from airhilt.sweep.outcome import Machine, Request
 from airhilt.sweep.runner_process import RunnerProcess
 from airhilt.sweep.specification import Specification
+from airhilt.sweep.tables import part_schema
 from airhilt.sweep.work import Work, default_workers
 
 
@@ -25,25 +27,30 @@ class Estimate:
     ----------
     runs
         Number of runs.
+    finished
+        Number of those that the sweep's folder has already, and that are not run again.
     run_s
-        Wall time of the probe, one run alone on this machine.
+        Wall time of the probe, one run alone on this machine; None: no run is left.
     run_mb
-        Most memory of the probe.
+        Most memory of the probe; None: no run is left.
     workers
         Number of workers that this machine would have.
     total_s
-        Wall time of all runs with these workers, if all were like the probe.
+        Wall time of the runs that are left with these workers, if all were like the probe.
     """
 
     runs: int
-    run_s: float
-    run_mb: float
+    finished: int
+    run_s: float | None
+    run_mb: float | None
     workers: int
     total_s: float
 
 
 def estimate(specification: Specification, work: Work) -> Estimate:
-    """Return the size of a sweep; its first run is run, and nothing is kept of it.
+    """Return the size of a sweep; the first run that is left is run, and nothing is kept of it.
+
+    The folder of the sweep stays as it is.
 
     Raises
     ------
@@ -53,32 +60,47 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     FAMILY.create(work.scheduler, configuration=work.scheduler_config)
     grid = cases(specification)
     renderer = renderer_of(grid)
-    outcome = _probe(grid[0], renderer, work)
-    if outcome.status != "finished":
-        raise AirhiltError(f"the first run, a probe, {outcome.status}: {outcome.cause}")
+    folder = SweepFolder(work.out)
+    folder.require_usable()
+    runner = RunnerProcess(renderer, work.limits)
+    try:
+        by_key = {case.key(runner.environment): case for case in grid}
+        finished = by_keys(folder.finished_so_far(part_schema()), by_key)
+        left = missing_of(by_key, finished, work.retry)
+        probe = _probe(left[0], by_key[left[0]], runner) if left else None
+    finally:
+        runner.close()
     workers = work.workers or default_workers(renderer)
-    run_s = outcome.machine.wall_s
     return Estimate(
-        runs=len(grid),
-        run_s=run_s,
-        run_mb=outcome.machine.peak_memory_mb,
+        runs=len(by_key),
+        finished=len(by_key) - len(left),
+        run_s=probe.wall_s if probe else None,
+        run_mb=probe.peak_memory_mb if probe else None,
         workers=workers,
-        total_s=len(grid) * run_s / min(workers, os.cpu_count() or workers),
+        total_s=len(left) * probe.wall_s / min(workers, os.cpu_count() or workers)
+        if probe
+        else 0.0,
     )
 
 
-def _probe(case: Case, renderer: str, work: Work) -> Outcome:
-    runner = RunnerProcess(renderer, work.limits)
-    try:
-        with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
-            return runner.run(
-                Request(
-                    key=case.key(runner.environment),
-                    scenario=case.document,
-                    options=case.options | {"seed": case.seed},
-                    keep="none",
-                    folder=str(Path(scratch) / "run"),
-                )
+def _probe(key: str, case: Case, runner: RunnerProcess) -> Machine:
+    """Return what a run takes.
+
+    Raises
+    ------
+    AirhiltError
+        It failed.
+    """
+    with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
+        outcome = runner.run(
+            Request(
+                key=key,
+                scenario=case.document,
+                options=case.options | {"seed": case.seed},
+                keep="none",
+                folder=str(Path(scratch) / "run"),
             )
-    finally:
-        runner.close()
+        )
+    if outcome.status != "finished":
+        raise AirhiltError(f"the first run, a probe, {outcome.status}: {outcome.cause}")
+    return outcome.machine

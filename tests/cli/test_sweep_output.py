@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -53,8 +54,20 @@ def test_a_quiet_sweep_says_nothing(airhilt_command: Any) -> None:
     assert (done.stdout, done.stderr) == ("", "")
 
 
+def test_an_estimate_says_what_is_there_already(capsys: pytest.CaptureFixture[str]) -> None:
+    some = Estimate(runs=5, finished=3, run_s=2.0, run_mb=300.0, workers=1, total_s=4.0)
+    print_estimate(some, False)
+    print_estimate(replace(some, finished=5, run_s=None, run_mb=None, total_s=0.0), False)
+    assert capsys.readouterr().out == (
+        "5 runs, 3 of them there already; one took 2.0 s and 300 MB, so about 4 s with 1 worker "
+        "for the 2 that are left\n"
+        "5 runs, all of them there already\n"
+    )
+
+
 def test_one_run_is_no_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    print_estimate(Estimate(runs=1, run_s=2.0, run_mb=300.0, workers=1, total_s=2.0), False)
+    one = Estimate(runs=1, finished=0, run_s=2.0, run_mb=300.0, workers=1, total_s=2.0)
+    print_estimate(one, False)
     SweepProgress(quiet=False).begun(1, 0, "1 worker")
     captured = capsys.readouterr()
     assert captured.out == "1 run; one took 2.0 s and 300 MB, so about 2 s with 1 worker\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
@@ -14,12 +14,20 @@ from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep import engine
 from airhilt.sweep.crashes import SAME_CRASHES
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.environment import environment
+from airhilt.sweep.estimate import estimate
 from airhilt.sweep.outcome import Outcome, Request
-from airhilt.sweep.specification import specification_of
+from airhilt.sweep.specification import Specification, specification_of
 from airhilt.sweep.work import Work
 from fake_dask import FakeClient, outcome
 
 Ends = Callable[[Request], Outcome]
+
+
+def first(seeds: int) -> Specification:
+    options = {"cameras": False, "speech": False, "latency": "fixed"}
+    document = {"scenarios": ["s02a_headon"], "seeds": list(range(seeds)), "options": options}
+    return specification_of(document, "test")
 
 
 class Noted(SweepObserver):
@@ -44,16 +52,8 @@ class Sweeps:
         client = fake or FakeClient(ends=ends)
         family = SimpleNamespace(create=lambda *_, **__: client)
         self._patch.setattr(engine, "FAMILY", family)
-        specification = specification_of(
-            {
-                "scenarios": ["s02a_headon"],
-                "seeds": list(range(seeds)),
-                "options": {"cameras": False, "speech": False, "latency": "fixed"},
-            },
-            "test",
-        )
         observer = Noted()
-        return sweep(specification, Work(self.out, **work), observer), observer.notices
+        return sweep(first(seeds), Work(self.out, **work), observer), observer.notices
 
     def seeds_of_tables(self) -> tuple[int, list[int]]:
         """Return how many seeds sweep.json asks for, and those of the table beside it."""
@@ -164,3 +164,39 @@ def test_runs_are_given_out_for_the_threads_that_a_cluster_has(
     monkeypatch.setattr(engine, "apart", noted)
     sweeps.run(finishes, fake=FakeClient(threads=[7]))
     assert abreast == [7]
+
+
+class Probe:
+    """A runner whose run takes ten seconds; it notes the seeds of its runs."""
+
+    seeds: ClassVar[list[int]] = []
+
+    def __init__(self, *_: object) -> None:
+        self.environment = environment("")
+        self.seeds.clear()
+
+    def run(self, request: Request) -> Outcome:
+        self.seeds.append(int(str(request.options["seed"])))
+        ended = outcome(request.key)
+        return ended.model_copy(update={"machine": ended.machine.model_copy(update={"wall_s": 10})})
+
+    def close(self) -> None:
+        """Do nothing."""
+
+
+def test_a_dry_run_tries_what_is_left_and_changes_nothing(
+    sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    sweeps.run(finishes)
+    (SweepFolder(sweeps.out).parts_path / "damaged.parquet").write_text("no table")
+    before = {path: path.read_bytes() for path in sweeps.out.rglob("*") if path.is_file()}
+    monkeypatch.setattr("airhilt.sweep.estimate.RunnerProcess", Probe)
+    work = Work(sweeps.out, workers=1)
+    found = estimate(first(4), work)
+    assert (found.runs, found.finished, found.total_s, Probe.seeds) == (4, 2, 20.0, [2])
+    found = estimate(first(2), work)
+    assert (found.runs, found.finished, found.total_s, Probe.seeds) == (2, 2, 0.0, [])
+    assert before == {path: path.read_bytes() for path in sweeps.out.rglob("*") if path.is_file()}
+    (tmp_path / "notes.txt").write_text("mine")
+    with pytest.raises(AirhiltError, match="holds files that are no sweep"):
+        estimate(first(2), Work(tmp_path))

@@ -117,14 +117,14 @@ def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
 
 def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) -> None:
     """Print the size of each sweep; one run of each is tried."""
-    from dataclasses import asdict
+    from dataclasses import asdict, replace
 
     from airhilt.cli.sweep_output import print_estimate
     from airhilt.sweep.estimate import estimate
     from airhilt.sweep.evaluation.engine import specifications_of
 
     found = {
-        name: estimate(specification, work)
+        name: estimate(specification, replace(work, out=work.out / name))
         for name, specification in specifications_of(preset, choice).items()
     }
     if as_json:
