@@ -190,6 +190,15 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = None
+    share_truth: Annotated[
+        bool,
+        Flag(
+            "--share-truth",
+            "Let every program that connects read truth/, for viewers and recorders. The results "
+            "of a program that decides by it are worth nothing.",
+            in_sweeps=False,
+        ),
+    ] = False
     attach: Annotated[
         tuple[str, ...],
         Flag(

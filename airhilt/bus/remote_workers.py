@@ -9,7 +9,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.multipart import pack, unpack
-from airhilt.bus.session import Bus
+from airhilt.bus.session import Bus, Refusal
 from airhilt.errors import RendererError, WorkerError, first_problem
 from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
@@ -29,6 +29,7 @@ class RemoteWorker:
 
     def __init__(self, bus: Bus, name: str, timeout_s: float) -> None:
         self.name = name
+        self._zenoh_id: str | None = None
         self._bus = bus
         self._key = f"{bus.prefix}/worker/{name}"
         self._timeout_s = timeout_s
@@ -36,28 +37,57 @@ class RemoteWorker:
     def describe(self, timeout_s: float = 10.0) -> WorkerDescription | None:
         """Return the worker's description of itself, None if it takes no grants.
 
+        From now on its answers are those of the program that gave this one.
+
         Raises
         ------
         WorkerError
-            It does not answer in time, or its answer is not a description.
+            It does not answer in time, its answer is not a description, or another program answers
+            in its name as well.
         """
-        for reply in self._bus.session.get(f"{self._key}/describe", timeout=timeout_s):
+        answers: dict[str | None, zenoh.Sample] = {}
+        failed = False
+        for reply in self._ask("describe", timeout_s):
             if reply.ok is None:
+                failed = True
+            else:
+                answers.setdefault(_zenoh_id(reply), reply.ok)
+        if not answers:
+            if failed:
                 raise WorkerError(
                     f"worker {self.name!r} is there, but did not describe itself within "
                     f"{timeout_s:g} s; expected an answer to {self._key}/describe"
                 )
-            try:
-                described = WorkerDescription.model_validate_json(reply.ok.payload.to_bytes())
-            except ValidationError as error:
-                raise self._broken("answered describe with", error) from None
-            if described.name != self.name:
-                raise WorkerError(
-                    f"worker {self.name!r} describes itself as {described.name!r}; expected the "
-                    "name in its key"
-                )
-            return described
-        return None
+            return None
+        if len(answers) > 1:
+            raise WorkerError(
+                f"{len(answers)} programs answer as worker {self.name!r} (Zenoh ids "
+                f"{', '.join(sorted(map(str, answers)))}); expected one: end the others"
+            )
+        ((self._zenoh_id, answer),) = answers.items()
+        try:
+            described = WorkerDescription.model_validate_json(answer.payload.to_bytes())
+        except ValidationError as error:
+            raise self._broken("answered describe with", error) from None
+        if described.name != self.name:
+            raise WorkerError(
+                f"worker {self.name!r} describes itself as {described.name!r}; expected the "
+                "name in its key"
+            )
+        return described
+
+    def _ask(
+        self, what: str, timeout_s: float, payload: bytes | None = None, header: bytes | None = None
+    ) -> zenoh.Handler[zenoh.Reply]:
+        """Ask all who answer as this worker: Zenoh alone might choose another than it."""
+        return self._bus.session.get(
+            f"{self._key}/{what}",
+            payload=payload,
+            attachment=header,
+            timeout=timeout_s,
+            target=zenoh.QueryTarget.ALL,
+            consolidation=zenoh.ConsolidationMode.NONE,
+        )
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:
         """Send a grant; a picture that cannot be drawn any more counts as the worker's loss."""
@@ -78,17 +108,12 @@ class RemoteWorker:
                 for item in inputs
             ),
         )
-        replies = self._bus.session.get(
-            f"{self._key}/step",
-            payload=payload,
-            attachment=grant.model_dump_json().encode(),
-            timeout=self._timeout_s,
-            consolidation=zenoh.ConsolidationMode.NONE,
-        )
+        header = grant.model_dump_json().encode()
+        replies = self._ask("step", self._timeout_s, payload, header)
         return RemoteStep(self, seq, replies, "")
 
     def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
-        """Wait for the reply to a grant, and check it.
+        """Wait for the reply to a grant, and check it; those of other programs are ignored.
 
         Raises
         ------
@@ -98,12 +123,29 @@ class RemoteWorker:
             It is not a reply to that grant.
         """
         for reply in replies:
+            if not self._is_own(reply):
+                self._ignore(reply)
+                continue
             if reply.err is not None:
                 raise self._lost(reply.err.payload.to_bytes())
             if reply.ok is not None:
                 return self._parse(seq, reply.ok)
         gone = f"worker {self.name!r} is gone: nothing answers {self._key}/step"
         raise WorkerLost(gone, is_of_machine=True)
+
+    def _is_own(self, reply: zenoh.Reply) -> bool:
+        """Return true for what the worker answers, and for what Zenoh says in its stead."""
+        zenoh_id = _zenoh_id(reply)
+        return zenoh_id == self._zenoh_id or (zenoh_id is None and reply.ok is None)
+
+    def _ignore(self, reply: zenoh.Reply) -> None:
+        self._bus.refuse(
+            Refusal(
+                f"worker/{self.name}/step",
+                f"an answer in the name of worker {self.name!r} was ignored: it came from another "
+                f"program (Zenoh id {_zenoh_id(reply)})",
+            )
+        )
 
     def _lost(self, payload: bytes) -> WorkerLost:
         text = payload[:400].decode("utf-8", "replace")
@@ -142,6 +184,11 @@ class RemoteWorker:
             f"worker {self.name!r} {what} something else than the schema says: {text}; see "
             "`airhilt schema`"
         )
+
+
+def _zenoh_id(reply: zenoh.Reply) -> str | None:
+    """Return the id of the session that answered, None if Zenoh itself did."""
+    return None if reply.replier_id is None else str(reply.replier_id.zid)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import queue
 import re
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import zenoh
 
+from airhilt.bus.access import WITHOUT_KEYS, Role, access_control
 from airhilt.deferred import Payload
 from airhilt.errors import BusError, RendererError
 
@@ -37,7 +41,9 @@ def free_endpoint() -> str:
         return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
 
 
-def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
+def configuration(
+    mode: str, kind: str, endpoint: str, more: Mapping[str, Any] = MappingProxyType({})
+) -> zenoh.Config:
     """Return a configuration with one explicit endpoint and no discovery.
 
     Parameters
@@ -46,6 +52,8 @@ def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
         ``router`` or ``client``.
     kind
         ``listen`` or ``connect``.
+    more
+        Further settings, by their keys.
     """
     config = zenoh.Config()
     settings: dict[str, Any] = {
@@ -54,6 +62,7 @@ def configuration(mode: str, kind: str, endpoint: str) -> zenoh.Config:
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
+        **more,
     }
     if mode == "client":
         settings["connect/timeout_ms"] = 5000
@@ -89,6 +98,14 @@ def connect_client(endpoint: str, patience_s: float) -> zenoh.Session:
             time.sleep(RETRY_S)
 
 
+@dataclass(frozen=True)
+class Refusal:
+    """Something on the bus that does not count: its key, relative to the run, and the cause."""
+
+    key: str
+    cause: str
+
+
 class Bus:
     """The session of a run: publishes under ``airhilt/<run>/`` and hears what others publish there.
 
@@ -98,6 +115,8 @@ class Bus:
         Name of the run, one key chunk.
     endpoint
         Endpoint at which to accept connections; None takes a free loopback port.
+    anyone
+        Roles of every program that connects.
 
     Raises
     ------
@@ -105,12 +124,15 @@ class Bus:
         The endpoint is malformed or in use, or Zenoh cannot make its shared memory.
     """
 
-    def __init__(self, run: str, endpoint: str | None = None) -> None:
+    def __init__(
+        self, run: str, endpoint: str | None = None, anyone: Collection[Role] = WITHOUT_KEYS
+    ) -> None:
         self.run = run
         self.prefix = f"{ROOT}/{run}"
         self.endpoint = endpoint or free_endpoint()
+        access = {"access_control": access_control(ROOT, run, {None: anyone})}
         try:
-            self.session = zenoh.open(configuration("router", "listen", self.endpoint))
+            self.session = zenoh.open(configuration("router", "listen", self.endpoint, access))
         except zenoh.ZError as error:
             _require_shared_memory(error)
             advice = (
@@ -124,6 +146,8 @@ class Bus:
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._latest: dict[str, bytes] = {}
+        self._refusals: queue.SimpleQueue[Refusal] = queue.SimpleQueue()
+        self._refused: Callable[[Refusal], None] = self._refusals.put
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
     def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
@@ -173,6 +197,16 @@ class Bus:
                 f"{self.prefix}/{pattern}", receive, allowed_origin=zenoh.Locality.REMOTE
             )
         )
+
+    def refuse(self, refusal: Refusal) -> None:
+        """Take note of something on the bus that does not count (any thread)."""
+        self._refused(refusal)
+
+    def hear_refusals(self, heard: Callable[[Refusal], None]) -> None:
+        """Call ``heard`` with what was refused so far, and with what will be (on any thread)."""
+        self._refused = heard
+        while not self._refusals.empty():
+            heard(self._refusals.get())
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with a worker's name and whether it is alive (on a Zenoh thread)."""

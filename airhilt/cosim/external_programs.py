@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from pydantic import ValidationError
 
@@ -35,6 +35,8 @@ class ExternalPrograms:
     ----------
     obey
         Lets an actor carry out a command.
+    workers
+        Names of the workers that take grants: their advisories are not those of a program.
     is_strict
         True if a message that is refused stops the run.
     """
@@ -48,6 +50,7 @@ class ExternalPrograms:
         observer: Observer,
         *,
         obey: Callable[[str, Command], None],
+        workers: Collection[str],
         has_decision: bool,
         is_strict: bool,
     ) -> None:
@@ -60,10 +63,16 @@ class ExternalPrograms:
         self._modalities = modalities
         self._observer = observer
         self._obey = obey
+        self._workers = workers
         self._is_strict = is_strict
 
     def serve(self, bus: Bus) -> None:
-        """Hear what programs put on the bus."""
+        """Hear what programs put on the bus, and what of it does not count."""
+        bus.hear_refusals(
+            lambda refusal: self._director.post(
+                lambda: self.take_refused(refusal.key, refusal.cause)
+            )
+        )
         for pattern in PATTERNS:
             bus.hear(
                 pattern,
@@ -90,6 +99,7 @@ class ExternalPrograms:
         self._note_first(key)
         try:
             message = _parse(key, data, self._director.now_ns)
+            self._require_own(message)
         except WorkerError as error:
             self._refuse(key, str(error))
             if self._is_strict:
@@ -103,8 +113,25 @@ class ExternalPrograms:
         if isinstance(stamped, ActorCommand):
             self._obey(key.split("/")[1], stamped.command)
 
+    def _require_own(self, message: Message) -> None:
+        """Complain about an advisory that says it is of a worker that takes grants.
+
+        Raises
+        ------
+        WorkerError
+            Its id begins with the name of one.
+        """
+        if not isinstance(message, Advisory):
+            return
+        for name in self._workers:
+            if message.id.startswith(f"{name}-"):
+                raise WorkerError(
+                    f"a program published an advisory with the id {message.id!r}; expected an id "
+                    f"of its own: this one belongs to worker {name!r}"
+                )
+
     def take_refused(self, key: str, cause: str) -> None:
-        """Refuse a message that the run before this one refused: a replay has its cause alone."""
+        """Refuse what only a cause is known of, such as what an earlier run refused."""
         self._note_first(key)
         self._refuse(key, cause)
 

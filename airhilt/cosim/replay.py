@@ -30,6 +30,7 @@ AS_RECORDED = {
     "pace": None,
     "latency": "measured",
     "endpoint": None,
+    "share_truth": False,
     "attach": (),
     "video": False,
     "report": False,

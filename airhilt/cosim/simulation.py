@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from airhilt.assistant.reference import is_own_engine
+from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.session import Bus
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
@@ -114,7 +115,8 @@ def _run(
         for text in setup.notices:
             observer.notice(text)
         options, pace = setup.options, setup.pace
-        bus = stack.enter_context(closing(Bus(setup.name, options.endpoint)))
+        anyone = ROLES if options.share_truth else WITHOUT_KEYS
+        bus = stack.enter_context(closing(Bus(setup.name, options.endpoint, anyone)))
         _tell_clock(bus, 0, "waiting", pace)
         participants = connect(
             options, setup.scenario, setup.recorded, bus, observer.notice, workers
@@ -241,6 +243,7 @@ class Simulation:
             self._modalities,
             self._observer,
             obey=self._world.obey,
+            workers=[worker.description.name for worker in participants.workers],
             has_decision=bool(participants.programs) or participants.does("decision"),
             is_strict=self._setup.options.strict,
         )

@@ -251,7 +251,18 @@ def parse_output(
     if isinstance(message, AdvisoryAudio | EnhancedTransmission):
         _check_audio(who, key, message, payload)
     _check_key(who, worker, key, message)
+    if isinstance(message, Advisory) and worker != UNREGISTERED:
+        _check_id(worker, message.id)
     return message
+
+
+def _check_id(worker: str, advisory: str) -> None:
+    """Complain about an advisory that another worker may have published."""
+    if not advisory.startswith(f"{worker}-"):
+        raise WorkerError(
+            f"worker {worker!r} published an advisory with the id {advisory!r}; expected an id "
+            f"that begins with its name, such as '{worker}-1'"
+        )
 
 
 def _check_key(who: str, worker: str, key: str, message: Message) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any, cast
 
 import pytest
@@ -30,6 +31,7 @@ def programs(notices: Notices, events: list[Any], *, is_strict: bool = False) ->
         cast(Any, None),
         notices,
         obey=lambda *_: None,
+        workers=("decision",),
         has_decision=False,
         is_strict=is_strict,
     )
@@ -63,3 +65,14 @@ def test_a_refused_message_is_said_to_be_of_a_program(key: str, words: str) -> N
     assert notices.texts[0].startswith(words)
     with pytest.raises(WorkerError, match=words):
         programs(notices, [], is_strict=True).take(key, b"{}")
+
+
+def test_an_advisory_in_the_name_of_a_worker_is_refused() -> None:
+    told = {
+        "id": "decision-1", "revision": 9, "recipient": "ATC", "recipients": ["ATC"],
+        "kind": "loss_of_separation", "severity": "WARNING", "traffic": [], "message": "",
+        "evidence": {"sources": []}, "t_ready_ns": 0,
+    }  # fmt: skip
+    notices = Notices()
+    programs(notices, []).take("advisory/ATC", json.dumps(told).encode())
+    assert "the id 'decision-1'; expected an id of its own" in notices.texts[0]

@@ -213,7 +213,7 @@ def test_the_examples_pass(example: str, worker: str) -> None:
         (Cheat, "'ears' asks for 'truth/state/*'; truth never reaches a worker"),
         (AllEars, "'ears' asks for '*/118300'; truth never reaches a worker"),
         (Misspelt, "asks for 'adbs/*', where nothing is published; expected adsb/*"),
-        (Nameless, "an advisory with the id '1'; expected one that begins with its name"),
+        (Nameless, "an advisory with the id '1'; expected an id that begins with its name"),
         (Talkative, "from step; expected an airhilt.workers.Step"),
         (Forgetful, "worker 'ears' returned None from step; expected an airhilt.workers.Step"),
         (Stamping, "'ears' set t_ns of what it published on 'asr/118300'; leave it out"),

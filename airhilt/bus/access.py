@@ -1,0 +1,118 @@
+"""Access control of a run's router: what programs of other processes may do, by their role.
+
+It is that of Zenoh (https://zenoh.io/docs/manual/access-control): whatever no rule allows is
+dropped. *In* is what comes from a program, *out* what goes to it. The session of the run itself is
+not limited by it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Literal, get_args
+
+Role = Literal["observer", "worker", "operator", "recorder"]
+"""Role of a program of another process."""
+ROLES: tuple[Role, ...] = get_args(Role)
+WITHOUT_KEYS: tuple[Role, ...] = ("observer", "worker", "operator")
+"""Roles of every program where no certificate says who it is: all but that which reads truth."""
+
+CERTIFICATE_NAME = "airhilt-{}"
+"""Common name of the certificate of a role."""
+PUBLISHED: Mapping[Role, tuple[str, ...]] = {
+    "observer": (),
+    "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
+    "operator": ("command/*",),
+    "recorder": (),
+}
+"""Keys on which a role may publish without a grant; a voice is heard, but refused."""
+ANSWERED = ("worker/*/describe", "worker/*/step")
+"""Keys on which workers answer the queries of the run."""
+ASKED = ("clock", "briefing")
+"""Keys on which the run answers queries."""
+
+_RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
+    "subscribe": (
+        "ingress",
+        ("declare_subscriber", "declare_liveliness_subscriber", "liveliness_query"),
+        ("**",),
+    ),
+    "ask": ("ingress", ("query",), ASKED),
+    "be answered": ("egress", ("reply",), ASKED),
+    "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
+    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
+    "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
+    "be asked": ("egress", ("query",), ANSWERED),
+    "answer": ("ingress", ("declare_queryable", "reply"), ANSWERED),
+    **{
+        f"publish as {role}": ("ingress", ("put",), keys)
+        for role, keys in PUBLISHED.items()
+        if keys
+    },
+}
+"""Direction, messages and keys below the run of each rule that allows something."""
+_EVERYBODY = ("subscribe", "ask", "be answered", "receive", "see who is there")
+_OF_ROLE: Mapping[Role, tuple[str, ...]] = {
+    "observer": (),
+    "worker": ("attach", "be asked", "answer", "publish as worker"),
+    "operator": ("publish as operator",),
+    "recorder": (),
+}
+NO_TRUTH = "no truth"
+"""Rule for all but recorders. It comes before those that allow something."""
+
+
+def access_control(root: str, run: str, subjects: Mapping[str | None, Collection[Role]]) -> Any:
+    """Return the setting ``access_control`` of Zenoh for the router of a run.
+
+    Parameters
+    ----------
+    root
+        First chunk of the keys of all runs.
+    subjects
+        Roles by the common name of a certificate; None stands for everybody.
+    """
+    return {
+        "enabled": True,
+        "default_permission": "deny",
+        "rules": [*_allowing(root, run), _no_truth(f"{root}/{run}")],
+        "subjects": [
+            {"id": name or "everybody"} | ({"cert_common_names": [name]} if name else {})
+            for name in subjects
+        ],
+        "policies": [
+            {"subjects": [name or "everybody"], "rules": list(_rules_of(roles))}
+            for name, roles in subjects.items()
+        ],
+    }
+
+
+def _allowing(root: str, run: str) -> Iterator[dict[str, Any]]:
+    for name, (flow, messages, keys) in _RULES.items():
+        # Who looks for the run does not know its name yet.
+        prefix = f"{root}/*" if name == "ask" else f"{root}/{run}"
+        yield {
+            "id": name,
+            "permission": "allow",
+            "flows": [flow],
+            "messages": messages,
+            "key_exprs": ["**"] if name == "subscribe" else [f"{prefix}/{key}" for key in keys],
+        }
+
+
+def _no_truth(prefix: str) -> dict[str, Any]:
+    return {
+        "id": NO_TRUTH,
+        "permission": "deny",
+        "flows": ["egress"],
+        "messages": ["put"],
+        "key_exprs": [f"{prefix}/truth/**"],
+    }
+
+
+def _rules_of(roles: Collection[Role]) -> Iterator[str]:
+    """Yield the names of the rules of a program that has these roles."""
+    yield from _EVERYBODY
+    for role in roles:
+        yield from _OF_ROLE[role]
+    if "recorder" not in roles:
+        yield NO_TRUTH
