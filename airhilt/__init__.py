@@ -9,6 +9,7 @@ True
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -60,6 +61,9 @@ _HOMES = {
     "Worker": "airhilt.workers",
 }
 """Module of each public name; it is imported when it is asked for, so that commands start fast."""
+
+# ONNX Runtime reads it once, when it is loaded; its `disable_telemetry_events` comes too late.
+os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")
 
 
 def __getattr__(name: str) -> Any:
