@@ -190,6 +190,26 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = None
+    tls: Annotated[
+        Path | None,
+        Flag(
+            "--tls",
+            "Folder of `airhilt keys init`: programs need a certificate, and may do what its role "
+            "may.",
+            "DIR",
+            default="no keys, on this machine alone",
+            in_sweeps=False,
+        ),
+    ] = None
+    insecure: Annotated[
+        bool,
+        Flag(
+            "--insecure",
+            "Let programs of other machines connect without keys.",
+            needs=("endpoint",),
+            in_sweeps=False,
+        ),
+    ] = False
     share_truth: Annotated[
         bool,
         Flag(

@@ -16,6 +16,7 @@ import socket
 import sys
 import threading
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 
 import zenoh
 
@@ -86,12 +87,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--connect", required=True, help="the run's endpoint")
+    parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
+    parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
     parser.add_argument("--port", type=int, default=30003, help="where clients connect")
     given = parser.parse_args()
     feed = Feed(given.port)
     try:
-        session = connect_client(given.connect, patience_s=30.0)
+        session = connect_client(given.connect, 30.0, given.tls, "observer")
     except BusError as error:
         sys.exit(str(error))
 

@@ -18,6 +18,9 @@ WITHOUT_KEYS: tuple[Role, ...] = ("observer", "worker", "operator")
 
 CERTIFICATE_NAME = "airhilt-{}"
 """Common name of the certificate of a role."""
+Subjects = Mapping[str | None, Collection[Role]]
+"""Roles by the common name of a certificate; None stands for everybody."""
+BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in ROLES}
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": (),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
@@ -61,7 +64,7 @@ NO_TRUTH = "no truth"
 """Rule for all but recorders. It comes before those that allow something."""
 
 
-def access_control(root: str, run: str, subjects: Mapping[str | None, Collection[Role]]) -> Any:
+def access_control(root: str, run: str, subjects: Subjects) -> Any:
     """Return the setting ``access_control`` of Zenoh for the router of a run.
 
     Parameters
@@ -69,7 +72,7 @@ def access_control(root: str, run: str, subjects: Mapping[str | None, Collection
     root
         First chunk of the keys of all runs.
     subjects
-        Roles by the common name of a certificate; None stands for everybody.
+        Who may connect.
     """
     return {
         "enabled": True,

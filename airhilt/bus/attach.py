@@ -53,7 +53,7 @@ def attach(
         except queue.Empty:
             raise BusError(
                 f"{', '.join(sorted(missing))} did not attach at {bus.endpoint} within "
-                f"{timeout_s:g} s; {_how_to_start(sorted(missing)[0], bus.endpoint)}, or wait "
+                f"{timeout_s:g} s; {_how_to_start(sorted(missing)[0], bus)}, or wait "
                 "longer with --attach-timeout"
             ) from None
     workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
@@ -77,11 +77,12 @@ def _require_names(names: Sequence[str]) -> None:
         raise BusError(f"workers {', '.join(names)}: expected each name once")
 
 
-def _how_to_start(name: str, endpoint: str) -> str:
+def _how_to_start(name: str, bus: Bus) -> str:
     """Return how a worker of that name is started: one of AIRHILT's, or a program of the user."""
+    keys = "" if bus.tls is None else f" --tls {bus.tls}"
     if name in get_args(ReferenceKind):
-        return f"start it with: airhilt worker {name} --connect {endpoint}"
+        return f"start it with: airhilt worker {name} --connect {bus.endpoint}{keys}"
     return (
-        f"start your program so that it connects to {endpoint} and declares the liveliness token "
-        f"worker/{name} (docs/workers.md)"
+        f"start your program so that it connects to {bus.endpoint}{' with keys' if keys else ''} "
+        f"and declares the liveliness token worker/{name} (docs/workers.md)"
     )

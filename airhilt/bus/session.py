@@ -10,12 +10,15 @@ import time
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import zenoh
 
-from airhilt.bus.access import WITHOUT_KEYS, Role, access_control
+from airhilt.bus.access import BY_CERTIFICATE, WITHOUT_KEYS, Role, Subjects, access_control
+from airhilt.bus.certificates import read_keys
+from airhilt.bus.endpoints import require_authenticated
 from airhilt.deferred import Payload
 from airhilt.errors import BusError, RendererError
 
@@ -75,15 +78,30 @@ def configuration(
     return config
 
 
-def connect_client(endpoint: str, patience_s: float) -> zenoh.Session:
+def connect_client(
+    endpoint: str | None, patience_s: float, tls: Path | None = None, role: Role = "worker"
+) -> zenoh.Session:
     """Return a session with the run at an endpoint, waiting for it to come up.
+
+    Parameters
+    ----------
+    endpoint
+        Where the run accepts connections; None: where the keys say.
+    tls
+        Folder with the keys of the role; None: the run asks for none.
 
     Raises
     ------
     BusError
-        Nothing listens there in time, or Zenoh cannot make its shared memory.
+        Nothing listens there in time, the keys are none, or Zenoh cannot make its shared memory.
     """
-    config = configuration("client", "connect", endpoint)
+    keys = None if tls is None else read_keys(tls, role)
+    if endpoint is None and keys is not None:
+        endpoint = keys.endpoint
+    if endpoint is None:
+        raise BusError("no endpoint of a run; expected one, such as tcp/127.0.0.1:7447, or keys")
+    require_authenticated(endpoint, keys is not None, insecure=keys is None)
+    config = configuration("client", "connect", endpoint, keys.settings if keys else {})
     deadline = time.monotonic() + patience_s
     while True:
         try:
@@ -116,23 +134,39 @@ class Bus:
     endpoint
         Endpoint at which to accept connections; None takes a free loopback port.
     anyone
-        Roles of every program that connects.
+        Roles of every program that connects, where there are no keys.
+    tls
+        Folder with the keys of the run: each program has the role of its certificate.
+    insecure
+        True if programs of other machines may connect without keys.
 
     Raises
     ------
     BusError
-        The endpoint is malformed or in use, or Zenoh cannot make its shared memory.
+        The endpoint is malformed, in use, or open to other machines without keys; the keys are
+        none; or Zenoh cannot make its shared memory.
     """
 
     def __init__(
-        self, run: str, endpoint: str | None = None, anyone: Collection[Role] = WITHOUT_KEYS
+        self,
+        run: str,
+        endpoint: str | None = None,
+        *,
+        anyone: Collection[Role] = WITHOUT_KEYS,
+        tls: Path | None = None,
+        insecure: bool = False,
     ) -> None:
         self.run = run
         self.prefix = f"{ROOT}/{run}"
-        self.endpoint = endpoint or free_endpoint()
-        access = {"access_control": access_control(ROOT, run, {None: anyone})}
+        self.tls = tls
+        keys = None if tls is None else read_keys(tls, "router")
+        self.endpoint = endpoint or (keys.endpoint if keys else free_endpoint())
+        require_authenticated(self.endpoint, keys is not None, insecure)
+        subjects: Subjects = BY_CERTIFICATE if keys else {None: anyone}
+        settings = {"access_control": access_control(ROOT, run, subjects)}
+        settings |= keys.settings if keys else {}
         try:
-            self.session = zenoh.open(configuration("router", "listen", self.endpoint, access))
+            self.session = zenoh.open(configuration("router", "listen", self.endpoint, settings))
         except zenoh.ZError as error:
             _require_shared_memory(error)
             advice = (

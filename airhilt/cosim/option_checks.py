@@ -42,6 +42,11 @@ def check_options(options: Options, scenario: Scenario) -> None:
         for other in _against(options, name, flag.needs):
             given = flag.name if value is True else f"{flag.name} {shown(value)}"
             raise AirhiltError(f"{given} would do nothing {other}")
+    if options.tls is not None and options.share_truth:
+        raise AirhiltError(
+            "--share-truth would do nothing with --tls: who has the certificate of a recorder "
+            "reads truth, and nobody else; expected only one of the two"
+        )
     if options.advisory_channel == "frequency" and not scenario.radio.lines:
         raise AirhiltError(
             f"--advisory-channel frequency: {scenario.name!r} has no radio calls, and so no "

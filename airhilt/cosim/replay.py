@@ -30,6 +30,8 @@ AS_RECORDED = {
     "pace": None,
     "latency": "measured",
     "endpoint": None,
+    "tls": None,
+    "insecure": False,
     "share_truth": False,
     "attach": (),
     "video": False,

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
+from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
@@ -115,8 +116,7 @@ def _run(
         for text in setup.notices:
             observer.notice(text)
         options, pace = setup.options, setup.pace
-        anyone = ROLES if options.share_truth else WITHOUT_KEYS
-        bus = stack.enter_context(closing(Bus(setup.name, options.endpoint, anyone)))
+        bus = stack.enter_context(closing(_open_bus(setup.name, options, observer)))
         _tell_clock(bus, 0, "waiting", pace)
         participants = connect(
             options, setup.scenario, setup.recorded, bus, observer.notice, workers
@@ -133,6 +133,19 @@ def _run(
             setup, participants, pace, vision, bus, observer, log=log, latency_log=latency_log
         )
         return _run_and_report(simulation, info, setup.folder.path)
+
+
+def _open_bus(name: str, options: Options, observer: Observer) -> Bus:
+    bus = Bus(
+        name,
+        options.endpoint,
+        anyone=ROLES if options.share_truth else WITHOUT_KEYS,
+        tls=options.tls,
+        insecure=options.insecure,
+    )
+    if options.insecure:
+        observer.notice(what_is_open(bus.endpoint))
+    return bus
 
 
 def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Result:

@@ -7,7 +7,6 @@ them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
 from __future__ import annotations
 
 import hashlib
-import os
 from pathlib import Path
 
 from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
@@ -22,7 +21,7 @@ from cryptography.hazmat.primitives.serialization import (
 )
 
 from airhilt.errors import SignatureError
-from airhilt.files import replace_file
+from airhilt.files import replace_file, write_new
 from airhilt.record.folder import RunFolder
 
 NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
@@ -64,9 +63,7 @@ def make_keys(private: Path) -> str:
 
 def _write_new(path: Path, data: bytes, mode: int) -> None:
     try:
-        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
-        with open(descriptor, "wb") as stream:  # noqa: PTH123
-            stream.write(data)
+        write_new(path, data, mode)
     except OSError as error:
         raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from pathlib import Path
 from typing import Any
 
 import zenoh
@@ -17,24 +18,26 @@ from airhilt.sim.worker import Input
 from airhilt.workers.protocol import Worker, checked, described, timed_step
 
 
-def answer_grants(worker: Worker, connect: str, run: str | None, patience_s: float) -> None:
+def answer_grants(
+    worker: Worker, connect: str | None, run: str | None, patience_s: float, tls: Path | None
+) -> None:
     """Attach a worker to a run, and return when the run is over; see `airhilt.workers.serve`."""
-    session = connect_client(connect, patience_s)
+    session = connect_client(connect, patience_s, tls)
     try:
-        prefix = f"{ROOT}/{run}" if run else _find_run(session, connect, patience_s)
+        prefix = f"{ROOT}/{run}" if run else _find_run(session, patience_s)
         _serve(session, worker, prefix)
     finally:
         session.close()  # type: ignore[no-untyped-call]
 
 
-def _find_run(session: zenoh.Session, connect: str, patience_s: float) -> str:
+def _find_run(session: zenoh.Session, patience_s: float) -> str:
     deadline = time.monotonic() + patience_s
     while time.monotonic() < deadline:
         for reply in session.get(f"{ROOT}/*/clock", timeout=1.0):
             if reply.ok is not None:
                 return str(reply.ok.key_expr).removesuffix("/clock")
         time.sleep(0.1)
-    raise BusError(f"no run answers at {connect} after {patience_s:g} s")
+    raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
 
 
 def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:

@@ -12,6 +12,7 @@ import click
 Examples:
   airhilt keys sign                 airhilt.key and airhilt.key.pub
   airhilt keys sign lab.key         lab.key and lab.key.pub
+  airhilt keys init lab-keys        keys for a run and the programs that join it
 """
 )
 def keys() -> None:
@@ -41,6 +42,39 @@ def sign(file: Path) -> None:
 
     mark = make_keys(file)
     click.echo(f"private key: {file}\npublic key: {public_file(file)}\nfingerprint: {mark}")
+
+
+@keys.command(
+    epilog="""\b
+Examples:
+  airhilt keys init lab-keys
+  airhilt keys init lab-keys --endpoint tls/sim.example.org:7447
+  airhilt cosim --scenario s02a_headon --tls lab-keys --attach decision
+  airhilt worker decision --tls lab-keys
+"""
+)
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path, file_okay=False))
+@click.option(
+    "--endpoint",
+    default="tls/127.0.0.1:7447",
+    show_default=True,
+    metavar="ENDPOINT",
+    help="Where programs reach the run; other names of its machine are not accepted.",
+)
+def init(folder: Path, endpoint: str) -> None:
+    """Make keys by which a run and the programs that join it know each other.
+
+    DIR gets router.json for the run, and one file for each role: observer.json, worker.json,
+    operator.json, recorder.json. Each is a whole configuration of Zenoh. Give a program the file of
+    its role and no other. They are valid for two years.
+    """
+    from airhilt.bus.access import ROLES
+    from airhilt.bus.certificates import key_file, make_keys
+
+    make_keys(folder, endpoint)
+    click.echo(f"run: {key_file(folder, 'router')}")
+    for role in ROLES:
+        click.echo(f"{role}: {key_file(folder, role)}")
 
 
 COMMAND = keys

@@ -15,6 +15,7 @@ Examples:
   airhilt worker decision --connect tcp/127.0.0.1:7447
   airhilt worker asr --engine whisper:models/base.en --connect tcp/127.0.0.1:7447
   airhilt worker vision --engine yolo:models/yolov10n.pt --connect tcp/127.0.0.1:7447
+  airhilt worker decision --tls lab-keys
 """
 )
 @click.argument("kind", type=click.Choice(["decision", "enhancement", "asr", "tts", "vision"]))
@@ -25,7 +26,15 @@ Examples:
     metavar="FILE",
     help="Configuration of a decision engine, as for `airhilt cosim`.",
 )
-@click.option("--connect", required=True, metavar="ENDPOINT", help="The run's endpoint.")
+@click.option(
+    "--connect", metavar="ENDPOINT", help="The run's endpoint.  [default: that of the keys]"
+)
+@click.option(
+    "--tls",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder with worker.json of `airhilt keys init`.",
+)
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."
 )
@@ -42,7 +51,8 @@ def worker(
     kind: str,
     engine: str | None,
     assistant_config: Path | None,
-    connect: str,
+    connect: str | None,
+    tls: Path | None,
     run_name: str | None,
     name: str | None,
     patience: float,
@@ -52,13 +62,15 @@ def worker(
     from airhilt.configuration import read_configuration
     from airhilt.workers import serve
 
+    if connect is None and tls is None:
+        raise click.UsageError("expected --connect ENDPOINT, or --tls DIR")
     configuration = None
     if assistant_config is not None:
         if kind != "decision":
             raise click.UsageError(f"--assistant-config would do nothing for a worker of {kind}")
         configuration = read_configuration(assistant_config)
     made = reference_worker(kind, engine, name or kind, configuration=configuration)
-    serve(made, connect, run_name, patience)
+    serve(made, connect, run_name, patience, tls)
 
 
 COMMAND = worker

@@ -1,0 +1,193 @@
+"""With keys, a program joins a run by the certificate of its role, and may do what the role may."""
+
+from __future__ import annotations
+
+import json
+import stat
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+import zenoh
+
+from airhilt import run
+from airhilt.bus.certificates import HOLDERS, key_file, make_keys
+from airhilt.bus.session import Bus, free_endpoint
+from airhilt.cosim.observer import Observer
+from airhilt.cosim.replay import replay
+from airhilt.errors import AirhiltError, BusError
+from airhilt.scenario import Scenario
+from processes import process
+
+TRIES = """
+import json, queue, sys, time, zenoh
+file, published, heard = sys.argv[1], sys.argv[2].split(), queue.Queue()
+session = zenoh.open(zenoh.Config.from_file(file))
+everything = session.declare_subscriber("**", lambda sample: heard.put(str(sample.key_expr)))
+answers = [reply.ok for reply in session.get("airhilt/*/clock") if reply.ok]
+print(json.dumps([str(answer.key_expr) for answer in answers]), flush=True)
+for key in published:
+    session.put("airhilt/run/" + key, b"{}")
+keys = set()
+while "airhilt/run/clock" not in keys:  # the run publishes it last
+    keys.add(heard.get(timeout=20))
+print(json.dumps(sorted(keys)), flush=True)
+everything.undeclare()
+session.close()
+"""
+"""Connects as README and docs/workers.md say, asks, publishes, and prints what it has received."""
+TRIED = ("advisory/ATC", "command/AAL123", "adsb/a1b2c3", "truth/conflict", "vision/tower")
+
+
+@pytest.fixture(scope="module")
+def keys(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("keys") / "lab"
+    make_keys(folder, free_endpoint().replace("tcp/", "tls/"))
+    return folder
+
+
+@pytest.fixture
+def bus(keys: Path) -> Iterator[Bus]:
+    with closing(Bus("run", tls=keys)) as opened:
+        opened.keep("clock", b"{}")
+        yield opened
+
+
+def try_as(bus: Bus, file: Path) -> tuple[list[str], set[str], set[str]]:
+    """Return what answered, what was received, and what the run heard, of a program with a file."""
+    heard: list[str] = []
+    for key in TRIED:
+        bus.hear(key, lambda key, _: heard.append(key))
+    command = [sys.executable, "-c", TRIES, str(file), " ".join(TRIED)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+        assert program.stdout is not None
+        answers = json.loads(program.stdout.readline() or "[]")
+        while program.poll() is None:
+            for key in ("truth/state/AAL123", "adsb/d4e5f6", "clock"):
+                bus.put(key, b"{}")
+            try:
+                program.wait(0.05)
+            except subprocess.TimeoutExpired:
+                continue
+        received = json.loads(program.stdout.readline() or "[]")
+    return answers, {key.removeprefix("airhilt/run/") for key in received}, set(heard)
+
+
+@pytest.mark.parametrize(
+    ("role", "reads", "publishes"),
+    [
+        ("observer", set(), set()),
+        ("worker", set(), {"advisory/ATC", "vision/tower"}),
+        ("operator", set(), {"command/AAL123"}),
+        ("recorder", {"truth/state/AAL123"}, set()),
+    ],
+)
+def test_a_program_may_do_what_its_role_may(
+    bus: Bus, keys: Path, role: Any, reads: set[str], publishes: set[str]
+) -> None:
+    answers, received, heard = try_as(bus, key_file(keys, role))
+    assert answers == ["airhilt/run/clock"]
+    from_run = received & {"truth/state/AAL123", "adsb/d4e5f6", "clock"}
+    assert from_run == {"adsb/d4e5f6", "clock"} | reads
+    assert heard == publishes
+
+
+def refused(file: Path, endpoint: str, *left_out: str) -> bool:
+    """Return whether a program cannot connect with a file, without some of its settings."""
+    document = json.loads(file.read_text())
+    document["connect"] = {
+        "endpoints": [endpoint], "timeout_ms": 500, "exit_on_failure": True,
+    }  # fmt: skip
+    for name in left_out:
+        del document["transport"]["link"]["tls"][name]
+    try:
+        session: Any = zenoh.open(zenoh.Config.from_json5(json.dumps(document)))
+    except zenoh.ZError:
+        return True
+    session.close()
+    return False
+
+
+def test_a_program_without_a_certificate_of_the_run_cannot_connect(
+    bus: Bus, keys: Path, tmp_path: Path
+) -> None:
+    worker = key_file(keys, "worker")
+    others = tmp_path / "others"
+    make_keys(others, bus.endpoint)
+    assert not refused(worker, bus.endpoint)
+    assert refused(worker, bus.endpoint, "connect_certificate_base64", "connect_private_key_base64")
+    assert refused(key_file(others, "worker"), bus.endpoint)
+    assert refused(worker, bus.endpoint.replace("tls/", "tcp/"))
+
+
+def test_a_worker_attaches_with_the_keys_alone(
+    encounter: Scenario, tmp_path: Path, keys: Path
+) -> None:
+    short = encounter.model_copy(update={"duration_s": 4.0})
+    with process("-m", "airhilt", "worker", "decision", "--tls", keys) as worker:
+        result = run(short, out=tmp_path / "run", latency="fixed", tls=keys, attach=("decision",))
+        assert worker.wait(timeout=10.0) == 0
+    assert result.summary.modalities["decision"] == "on"
+    assert replay(result.folder).identical
+
+
+def test_only_the_user_can_read_keys_and_none_is_overwritten(keys: Path, tmp_path: Path) -> None:
+    for holder in HOLDERS:
+        assert stat.S_IMODE(key_file(keys, holder).stat().st_mode) == 0o600
+    with pytest.raises(BusError, match=r"router.json: is there already"):
+        make_keys(keys, "tls/127.0.0.1:7447")
+    with pytest.raises(BusError, match="expected the form tls/"):
+        make_keys(tmp_path / "keys", "tcp/127.0.0.1:7447")
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{}", b"[" * 100_000, b'{"transport": 3}'])
+def test_keys_that_are_none_are_named(tmp_path: Path, content: bytes | None) -> None:
+    if content is not None:
+        (tmp_path / "router.json").write_bytes(content)
+    with pytest.raises(BusError, match=r"router\.json.*airhilt keys init"):
+        Bus("run", tls=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "options", "words"),
+    [
+        ("tcp/0.0.0.0:7447", {}, "other machines can reach it"),
+        ("udp/[::]:7447", {}, "other machines can reach it"),
+        ("ws/sim.example.org:7447", {}, "other machines can reach it"),
+        ("tcp/[::ffff:127.0.0.1]:7447", {}, "other machines can reach it"),
+        ("tcp/127.0.0.1.example.org:7447", {}, "other machines can reach it"),
+        ("serial//dev/ttyS0", {}, "expected the form tcp/"),
+        ("tls/127.0.0.1:7447", {}, "its protocol needs certificates"),
+        ("tcp/127.0.0.1:7447", {"tls": True}, "--tls needs a protocol with certificates"),
+        (None, {"tls": True, "insecure": True}, "expected only one of the two"),
+    ],
+)
+def test_an_endpoint_that_lets_strangers_in_is_refused(
+    keys: Path, endpoint: str | None, options: dict[str, Any], words: str
+) -> None:
+    given: Sequence[tuple[str, Any]] = [
+        (name, keys if name == "tls" else value) for name, value in options.items()
+    ]
+    with pytest.raises(BusError, match=words):
+        Bus("run", endpoint, **dict(given))
+
+
+def test_insecure_says_what_it_opens(encounter: Scenario, tmp_path: Path) -> None:
+    class Notices(Observer):
+        texts: list[str]
+
+        def notice(self, text: str) -> None:
+            self.texts.append(text)
+
+    notices = Notices()
+    notices.texts = []
+    endpoint = free_endpoint().replace("127.0.0.1", "0.0.0.0")
+    short = encounter.model_copy(update={"duration_s": 1.0})
+    run(short, out=tmp_path / "run", endpoint=endpoint, insecure=True, observer=notices)
+    assert f"whoever reaches {endpoint} can read all sensors" in notices.texts[0]
+    with pytest.raises(AirhiltError, match="--insecure would do nothing without --endpoint"):
+        run(short, out=tmp_path / "other", insecure=True)
