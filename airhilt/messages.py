@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, field_validator
 
@@ -36,9 +36,32 @@ class Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class Message(Part):
-    """Base class of the messages."""
+class Limit(NamedTuple):
+    """Most that a run takes of the messages that come from outside on the keys of a class.
 
+    Attributes
+    ----------
+    size_bytes
+        Greatest size of one message; of raw bytes with a header, that of the bytes.
+    rate_hz
+        Greatest number in a second of wall time from all programs that take no grants, together.
+    """
+
+    size_bytes: int
+    rate_hz: int
+
+
+class Message(Part):
+    """Base class of the messages.
+
+    Attributes
+    ----------
+    limit
+        What a run takes of them from outside; None: they never come from outside. The numbers are
+        assumptions: at least ten times what AIRHILT's own workers need.
+    """
+
+    limit: ClassVar[Limit | None] = None
     t_ns: Nanoseconds = Field(default=0, description="time of publication, set by the run")
 
 
@@ -191,6 +214,7 @@ class EnhancedTransmission(Header):
     It is there only in runs with an enhancer.
     """
 
+    limit = Limit(size_bytes=32_000_000, rate_hz=10)
     id: str = Field(description="id of the transmission")
     frequency_khz: int
     t_tx_ns: Nanoseconds = Field(description="start of the transmission")
@@ -547,6 +571,7 @@ EXPOSURE_LEFT_OUT = "exposure left out"
 class Detections(Message):
     """``vision/<camera>``: objects found in one picture; ``t_ns`` is the paper's t_vision."""
 
+    limit = Limit(size_bytes=128_000, rate_hz=200)
     camera: str
     seq: int = Field(ge=0, description="of the picture")
     t_frame_ns: Nanoseconds
@@ -569,6 +594,7 @@ class Word(Part):
 class Transcript(Message):
     """``asr/<freq_khz>``: the words of one transmission; ``t_ns`` is the paper's t_asr."""
 
+    limit = Limit(size_bytes=32_000, rate_hz=20)
     id: str = Field(description="id of the transmission")
     frequency_khz: int
     t_tx_ns: Nanoseconds
@@ -603,6 +629,7 @@ class PartialTranscript(Message):
     transmission replaces it.
     """
 
+    limit = Limit(size_bytes=32_000, rate_hz=100)
     id: str = Field(description="id of the transmission")
     frequency_khz: int
     t_tx_ns: Nanoseconds
@@ -735,6 +762,7 @@ class Advisory(Message):
     last time with ``active`` false when the conflict is over.
     """
 
+    limit = Limit(size_bytes=32_000, rate_hz=50)
     id: str = Field(pattern=r"^[A-Za-z0-9_.-]{1,80}$")
     revision: int = Field(ge=0)
     recipient: str = Field(
@@ -766,6 +794,7 @@ class ModelExchange(Message):
     Where an answer is missing or rejected, the rule's own advisory or text was published.
     """
 
+    limit = Limit(size_bytes=4_000_000, rate_hz=10)
     model: str = Field(description="its name at the endpoint")
     task: Literal["wording", "decision"]
     advisories: tuple[str, ...] = Field(default=(), description="ids of the advisories concerned")
@@ -782,6 +811,7 @@ class EquipmentAlert(Message):
     light of the equipment's own.
     """
 
+    limit = Limit(size_bytes=32_000, rate_hz=50)
     equipment: str = Field(
         pattern=r"^[a-z0-9_-]{1,40}$", description="its name", examples=["tcas", "conflict_alert"]
     )
@@ -794,6 +824,7 @@ class AdvisoryAudio(Header):
     ``t_ns`` is the paper's t_tts: the beginning of the voice.
     """
 
+    limit = Limit(size_bytes=16_000_000, rate_hz=10)
     id: str = Field(description="id of the advisory")
     revision: int = Field(ge=0)
     recipient: str
@@ -808,6 +839,7 @@ class AdvisoryAudio(Header):
 class ActorCommand(Message):
     """``command/<actor>``: command of a person or an external program to an actor."""
 
+    limit = Limit(size_bytes=16_000, rate_hz=50)
     command: Command
 
 
@@ -944,6 +976,25 @@ EventKind = Literal[
 ]
 
 
+DropCause = Literal["size", "rate", "queue", "transport"]
+"""Reason why a message of another program did not count: it was too large, there were too many in a
+second or too many that waited, or it was lost before it came."""
+
+
+class DroppedMessages(Message):
+    """``truth/dropped``: how many messages of programs did not count, at the end of the run.
+
+    There is one for each kind of key and cause, if there were any.
+    """
+
+    keys: str = Field(examples=["advisory/*"])
+    cause: DropCause = Field(
+        description="size: larger than the limit; rate: more in a second than the limit; queue: "
+        "more than could wait; transport: numbers are missing among those of their sender"
+    )
+    messages: int = Field(ge=1)
+
+
 class Event(Message):
     """``truth/event``: event in the world or in the run."""
 
@@ -1071,6 +1122,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "truth/conflict": ConflictTruth,
     "truth/runway/{runway}": RunwayTruth,
     "truth/event": Event,
+    "truth/dropped": DroppedMessages,
 }
 """The message of each key below ``airhilt/<run>/``."""
 
@@ -1114,6 +1166,12 @@ def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str,
         Messages of other packages, by key.
     """
     return {
-        key: {"title": model.__name__, **TypeAdapter(model).json_schema()}
+        key: {"title": model.__name__, **TypeAdapter(model).json_schema(), **_limit(model)}
         for key, model in {**BUS_MESSAGES, **WORKER_MESSAGES, **(more or {})}.items()
     }
+
+
+def _limit(model: type[BaseModel]) -> dict[str, Any]:
+    """Return the limit of a class of messages, as its schema has it."""
+    limit = model.limit if issubclass(model, Message) else None
+    return {} if limit is None else {"x-airhilt-limit": limit._asdict()}

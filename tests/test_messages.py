@@ -14,6 +14,7 @@ from airhilt.messages import (
     BUS_MESSAGES,
     WORKER_MESSAGES,
     WORKER_OUTPUTS,
+    ActorCommand,
     ActorTruth,
     AdsbReport,
     Advisory,
@@ -21,6 +22,7 @@ from airhilt.messages import (
     Detection,
     Event,
     MaintainLevel,
+    PartialTranscript,
     RadarPlot,
     Recommendation,
     Severity,
@@ -167,6 +169,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "runway": "01-19", "occupants": ["OPS1"],
         "arrivals": [{"actor": "AAL1", "runway": "01", "time_to_threshold_s": 31.5}],
     },
+    "DroppedMessages": {"keys": "advisory/*", "cause": "size", "messages": 3},
     "Event": {"kind": "command", "subject": "AAL1", "text": "climb"},
     "WorkerDescription": {
         "name": "asr", "modality": "asr", "inputs": [{"key": "radio/*/tx", "policy": "latest"}],
@@ -298,6 +301,18 @@ def test_there_is_a_schema_for_every_key() -> None:
         assert schemas[key]["title"] == model.__name__
         assert set(schemas[key]["properties"]) == set(model.model_fields)
         assert schemas[key]["additionalProperties"] is False
+
+
+def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
+    limits = {
+        key: schema["x-airhilt-limit"]
+        for key, schema in json_schemas().items()
+        if "x-airhilt-limit" in schema
+    }
+    assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
+    assert {MODELS[key] for key in limits} == {
+        *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand,
+    }  # fmt: skip
 
 
 def test_what_a_worker_may_publish_is_on_the_bus_and_no_truth() -> None:

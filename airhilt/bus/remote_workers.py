@@ -10,8 +10,8 @@ from pydantic import ValidationError
 
 from airhilt.bus.multipart import pack, unpack
 from airhilt.bus.session import Bus, Refusal
-from airhilt.errors import RendererError, WorkerError, first_problem
-from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription
+from airhilt.errors import RendererError, WorkerError, first_problem, shown
+from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription, worker_output
 from airhilt.sim.worker import Input, Output, Reply, WorkerLost
 
 MAXIMUM_REPLY_BYTES = 64_000_000
@@ -172,11 +172,29 @@ class RemoteWorker:
                 f"worker {self.name!r} answered step {seq} as step {header.seq}; expected the "
                 "seq of the grant"
             )
+        self._require_sizes(header)
         outputs = tuple(
             Output(output.key, part, output.t_out_ns, output.attachment)
             for output, part in zip(header.outputs, payloads, strict=True)
         )
         return Reply(outputs, header.compute_s, header.wake_ns)
+
+    def _require_sizes(self, header: StepReply) -> None:
+        """Complain about an output that is larger than what a run takes on its key.
+
+        Raises
+        ------
+        WorkerError
+            One is.
+        """
+        for output in header.outputs:
+            model = worker_output(output.key)
+            limit = None if model is None else model.limit
+            if limit is not None and output.size > limit.size_bytes:
+                raise WorkerError(
+                    f"worker {self.name!r} published on {shown(output.key)} {output.size:,} bytes; "
+                    f"expected at most {limit.size_bytes:,}"
+                )
 
     def _broken(self, what: str, error: ValueError) -> WorkerError:
         text = first_problem(error) if isinstance(error, ValidationError) else str(error)

@@ -6,6 +6,7 @@ import json
 import queue
 import re
 import socket
+import threading
 import time
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
@@ -19,6 +20,7 @@ import zenoh
 from airhilt.bus.access import BY_CERTIFICATE, WITHOUT_KEYS, Role, Subjects, access_control
 from airhilt.bus.certificates import read_keys
 from airhilt.bus.endpoints import require_authenticated
+from airhilt.bus.intake import Source, size_filter
 from airhilt.deferred import Payload
 from airhilt.errors import BusError, RendererError
 
@@ -26,6 +28,12 @@ ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
 """Time between two attempts to connect, in s."""
+
+LARGEST_BYTES = 128_000_000
+"""Size in bytes above which Zenoh drops any message, such as the reply of a worker."""
+RECEIVED = 4
+"""Number of messages that Zenoh keeps for one subscription; while there is no room for another, it
+lets the senders wait."""
 
 IN_USE = "Address already in use"
 """Text in the error of Zenoh where another program has the port."""
@@ -163,7 +171,11 @@ class Bus:
         self.endpoint = endpoint or (keys.endpoint if keys else free_endpoint())
         require_authenticated(self.endpoint, keys is not None, insecure)
         subjects: Subjects = BY_CERTIFICATE if keys else {None: anyone}
-        settings = {"access_control": access_control(ROOT, run, subjects)}
+        settings = {
+            "access_control": access_control(ROOT, run, subjects),
+            "low_pass_filter": size_filter(self.prefix),
+            "transport/link/rx/max_message_size": LARGEST_BYTES,
+        }
         settings |= keys.settings if keys else {}
         try:
             self.session = zenoh.open(configuration("router", "listen", self.endpoint, settings))
@@ -182,6 +194,7 @@ class Bus:
         self._latest: dict[str, bytes] = {}
         self._refusals: queue.SimpleQueue[Refusal] = queue.SimpleQueue()
         self._refused: Callable[[Refusal], None] = self._refusals.put
+        self._hearing: list[tuple[Any, threading.Thread]] = []
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
     def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
@@ -217,20 +230,35 @@ class Bus:
                 if query.key_expr.intersects(zenoh.KeyExpr(name)):
                     query.reply(name, payload)
 
-    def hear(self, pattern: str, heard: Callable[[str, bytes], None]) -> None:
+    def hear(
+        self,
+        pattern: str,
+        heard: Callable[[str, bytes], None],
+        admit: Callable[[int, Source | None], bool] = lambda _size, _source: True,
+    ) -> None:
         """Call ``heard`` with key (relative to the run) and payload of what others publish.
 
-        ``heard`` runs on a thread of Zenoh.
+        Parameters
+        ----------
+        heard
+            Runs on a thread of its own, as ``admit`` does.
+        admit
+            Says, of the size of a message and the number that its sender gave it, if it is heard.
         """
-
-        def receive(sample: zenoh.Sample) -> None:
-            heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
-
-        self._kept.append(
-            self.session.declare_subscriber(
-                f"{self.prefix}/{pattern}", receive, allowed_origin=zenoh.Locality.REMOTE
-            )
+        subscriber = self.session.declare_subscriber(
+            f"{self.prefix}/{pattern}",
+            zenoh.handlers.FifoChannel(RECEIVED),
+            allowed_origin=zenoh.Locality.REMOTE,
         )
+
+        def receive() -> None:
+            for sample in subscriber:
+                if admit(_size(sample), _source(sample)):
+                    heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
+
+        thread = threading.Thread(target=receive, name=f"hear {pattern}", daemon=True)
+        thread.start()
+        self._hearing.append((subscriber, thread))
 
     def refuse(self, refusal: Refusal) -> None:
         """Take note of something on the bus that does not count (any thread)."""
@@ -263,10 +291,25 @@ class Bus:
         """
         for publisher in self._publishers.values():
             publisher.undeclare()  # type: ignore[no-untyped-call]
+        for subscriber, thread in self._hearing:
+            subscriber.undeclare()
+            thread.join()
+        self._hearing.clear()
         self._publishers.clear()
         self._kept.clear()
         self.session.close()  # type: ignore[no-untyped-call]
         del self.session
+
+
+def _size(sample: zenoh.Sample) -> int:
+    return len(sample.payload) + (0 if sample.attachment is None else len(sample.attachment))
+
+
+def _source(sample: zenoh.Sample) -> Source | None:
+    info = sample.source_info
+    if info is None:
+        return None
+    return Source(f"{info.source_id.zid}/{info.source_id.eid}", info.source_sn)
 
 
 def _require_shared_memory(error: zenoh.ZError) -> None:

@@ -10,6 +10,7 @@ from rich.text import Text
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import SweepComparison
 from airhilt.report.comparison.words import measure_row, metric_row
+from airhilt.text import readable
 
 
 def tables(found: RunComparison | SweepComparison) -> Iterator[Table | str]:
@@ -51,7 +52,7 @@ def _runs(found: RunComparison) -> Iterator[Table | str]:
         for each in found.metrics:
             row = metric_row(each)
             texts = (row[name] for name in ("name", "unit", "first", "second", "difference"))
-            table.add_row(*map(Text, texts))
+            table.add_row(*(Text(readable(text)) for text in texts))
         yield table
     yield f"{found.equal} metrics have the same value in both"
 

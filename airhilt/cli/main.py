@@ -9,6 +9,7 @@ from typing import NoReturn
 import click
 
 from airhilt._version import __version__
+from airhilt.cli.notices import tell
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family, Members
 
@@ -88,7 +89,7 @@ def main() -> NoReturn:
         code = cli.main(standalone_mode=False)
     except AirhiltError as error:
         for line in str(error).splitlines():
-            click.echo(f"airhilt: {line}", err=True)
+            tell(line)
         sys.exit(error.exit_code)
     except click.ClickException as error:
         error.show()

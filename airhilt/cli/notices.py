@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import click
+from airhilt.cli.output import echo
 
 
 def tell(text: str) -> None:
     """Print a line on standard error, as errors are."""
-    click.echo(f"airhilt: {text}", err=True)
+    echo(f"airhilt: {text}", err=True)

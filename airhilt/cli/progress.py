@@ -20,6 +20,7 @@ from airhilt.metrics.summary import (
     VisionStatistics,
     WarningParts,
 )
+from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0
@@ -77,7 +78,8 @@ class ProgressLine(Observer):
 
     def notice(self, text: str) -> None:
         """Print a line that stays."""
-        self._console.print(Text(f"airhilt: {text}", style="yellow"), soft_wrap=True)
+        line = readable(f"airhilt: {text}", LONGEST_LINE)
+        self._console.print(Text(line, style="yellow"), soft_wrap=True)
 
     def _line(self) -> Text:
         snapshot = self._snapshot
@@ -103,7 +105,8 @@ class ProgressLine(Observer):
 
 
 def _advisory_text(advisory: Advisory) -> Text:
-    return Text(f"{advisory.severity.value} {advisory.message}", style=STYLES[advisory.severity])
+    text = readable(f"{advisory.severity.value} {advisory.message}")
+    return Text(text, style=STYLES[advisory.severity])
 
 
 def print_summary(summary: Summary, folder: Path) -> None:
@@ -113,10 +116,10 @@ def print_summary(summary: Summary, folder: Path) -> None:
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
     for label, value in _rows(summary):
-        table.add_row(label, value)
+        table.add_row(Text(readable(label)), Text(readable(value)))
     console.print(table)
     console.print(_latency_table(summary))
-    console.print(f"run folder: {folder}")
+    console.print(f"run folder: {folder}", markup=False)
 
 
 def _rows(summary: Summary) -> list[tuple[str, str]]:
@@ -154,6 +157,7 @@ def _rows(summary: Summary) -> list[tuple[str, str]]:
         *_declared_rows(summary),
         ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
         ("nuisance alerts", _nuisance(summary.nuisance_alerts)),
+        *_dropped_rows(summary),
         ("radio", _radio(summary.radio)),
         *_recognition_rows(summary),
         *_vision_rows(summary.vision),
@@ -212,6 +216,12 @@ def _declared_rows(summary: Summary) -> list[tuple[str, str]]:
     if summary.unassisted_as_declared is not False:
         return []
     return [("as declared", "no: nobody was warned, and the declared outcome did not come about")]
+
+
+def _dropped_rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return a row on the messages of programs that were dropped, if any were."""
+    counts = [f"{number:,} on {what}" for what, number in summary.messages_dropped.items()]
+    return [("dropped messages", ", ".join(counts))] if counts else []
 
 
 def _evidence_rows(summary: Summary) -> list[tuple[str, str]]:

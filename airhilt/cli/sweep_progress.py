@@ -15,6 +15,7 @@ from rich.text import Text
 from airhilt.cli.words import counted
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.outcome import Outcome
+from airhilt.text import LONGEST_LINE, readable
 
 LINE_PERIOD_S = 10.0
 """Between two lines where standard error is no terminal."""
@@ -89,7 +90,8 @@ class SweepProgress(SweepObserver):
 
     def notice(self, text: str) -> None:
         """Print a line that stays."""
-        self._console.print(Text(f"airhilt: {text}", style="yellow"), soft_wrap=True)
+        line = readable(f"airhilt: {text}", LONGEST_LINE)
+        self._console.print(Text(line, style="yellow"), soft_wrap=True)
 
     @contextmanager
     def interruptible(self) -> Iterator[None]:

@@ -2,23 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import partial
 
 from pydantic import ValidationError
 
-from airhilt.bus.session import Bus
+from airhilt.bus.intake import Intake
+from airhilt.bus.session import Bus, Refusal
 from airhilt.commands import Command
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.errors import WorkerError, first_problem
-from airhilt.messages import UNREGISTERED, ActorCommand, Advisory, Message
+from airhilt.messages import (
+    UNREGISTERED,
+    ActorCommand,
+    Advisory,
+    AdvisoryAudio,
+    Detections,
+    DropCause,
+    DroppedMessages,
+    Limit,
+    Message,
+    PartialTranscript,
+    Transcript,
+)
 from airhilt.sim import Director, RealTime, Virtual
+from airhilt.text import readable
 from airhilt.workers.pool import parse_output
 
-PATTERNS = ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "command/*", "tts/*")
-"""Keys that are heard; what comes on the last is refused, for a voice needs grants."""
+HEARD: Mapping[str, type[Message]] = {
+    "advisory/*": Advisory,
+    "asr/*": Transcript,
+    "asr/*/partial": PartialTranscript,
+    "vision/*": Detections,
+    "command/*": ActorCommand,
+    "tts/*": AdvisoryAudio,
+}
+"""Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
+ANSWERS = "worker/*/step"
+"""Keys on which programs answer that were not asked."""
+ANSWERS_LIMIT = Limit(size_bytes=0, rate_hz=20)
+LIMITS = {keys: kind.limit for keys, kind in HEARD.items() if kind.limit is not None}
+MOST_NOTICES = 20
+"""Number of refusals that are told on the terminal; the log has all."""
+DROPPED: Mapping[DropCause, str] = {
+    "size": "larger than {limit.size_bytes:,} bytes",
+    "rate": "more than {limit.rate_hz} in a second",
+    "queue": "more than the run has time for",
+    "transport": "lost before they came, as the numbers of their sender say",
+}
 
 
 class ExternalPrograms:
@@ -65,22 +99,38 @@ class ExternalPrograms:
         self._obey = obey
         self._workers = workers
         self._is_strict = is_strict
+        self._intake = Intake(LIMITS | {ANSWERS: ANSWERS_LIMIT}, self._dropping)
+        self._dropped: dict[str, int] = {}
 
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
-        bus.hear_refusals(
-            lambda refusal: self._director.post(
-                lambda: self.take_refused(refusal.key, refusal.cause)
-            )
+        bus.hear_refusals(self._hear_refusal)
+        for keys in HEARD:
+            bus.hear(keys, self._post, partial(self._intake.admit, keys))
+
+    def _hear_refusal(self, refusal: Refusal) -> None:
+        if self._intake.admit(ANSWERS, 0):
+            self._director.post(lambda: self._take_answer(refusal))
+
+    def _take_answer(self, refusal: Refusal) -> None:
+        self._intake.release(0)
+        self.take_refused(refusal.key, refusal.cause)
+
+    def _post(self, key: str, data: bytes) -> None:
+        self._director.post(lambda: self._hear(key, data))
+
+    def _dropping(self, keys: str, cause: DropCause) -> None:
+        """Tell of the first message of its kind that is dropped for this cause (any thread)."""
+        limit = LIMITS.get(keys, ANSWERS_LIMIT)
+        text = (
+            f"messages on {keys} are dropped: {DROPPED[cause].format(limit=limit)}; summary.json "
+            "will say how many"
         )
-        for pattern in PATTERNS:
-            bus.hear(
-                pattern,
-                lambda key, data: self._director.post(lambda: self._hear(key, data)),
-            )
+        self._director.post(lambda: self.take_refused(keys, text))
 
     def _hear(self, key: str, data: bytes) -> None:
         """Take a message from the bus; a program that takes no grants needs real time."""
+        self._intake.release(len(data))
         if isinstance(self._director.pace, Virtual):
             self._director.change_pace(RealTime())
             self._observer.notice(
@@ -135,6 +185,24 @@ class ExternalPrograms:
         self._note_first(key)
         self._refuse(key, cause)
 
+    def count_dropped(self, recorded: Iterable[DroppedMessages]) -> None:
+        """Count what an earlier run has dropped."""
+        for each in recorded:
+            self._intake.dropped[each.keys, each.cause] += each.messages
+
+    def finish(self) -> None:
+        """Publish how many messages were dropped; what is dropped from now on is not counted."""
+        for (keys, cause), number in sorted(self._intake.dropped.items()):
+            self._dropped[f"{keys}: {cause}"] = number
+            message = DroppedMessages(
+                t_ns=self._director.now_ns, keys=keys, cause=cause, messages=number
+            )
+            self._router.publish("truth/dropped", message)
+
+    def dropped(self) -> dict[str, int]:
+        """Return how many messages were dropped, by kind of key and cause; see `finish`."""
+        return self._dropped
+
     def _note_first(self, key: str) -> None:
         """Tell once that such a program has published."""
         if not self.heard:
@@ -142,10 +210,14 @@ class ExternalPrograms:
             self._event("unregistered", key, "a program that takes no grants has published")
 
     def _refuse(self, key: str, cause: str) -> None:
-        self._event("refused", key, cause)
-        if cause not in self._refusals:
-            self._refusals.add(cause)
-            self._observer.notice(cause)
+        cause = readable(cause)
+        self._event("refused", readable(key), cause)
+        if cause in self._refusals or len(self._refusals) > MOST_NOTICES:
+            return
+        self._refusals.add(cause)
+        if len(self._refusals) > MOST_NOTICES:
+            cause = "more was refused: the log has it all, as events of the kind refused"
+        self._observer.notice(cause)
 
 
 def _parse(key: str, data: bytes, now_ns: int) -> Message:

@@ -8,6 +8,7 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.errors import RunStopped
 from airhilt.messages import EventKind, Modality, ModalityState, Status
 from airhilt.sim import Director
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 
@@ -62,6 +63,7 @@ class Modalities:
         RunStopped
             The run is strict.
         """
+        cause = readable(cause)
         self.set(modality, "lost", cause)
         self._event(kind, subject, cause)
         t_s = self._director.now_ns / SECOND_NS

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from airhilt.messages import Event
+from airhilt.messages import DroppedMessages, Event
 from airhilt.record import Loss
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sim import LatencySpec
@@ -43,6 +43,8 @@ class Recorded:
         Messages of unregistered programs.
     refused
         Events of messages that the earlier run refused: they have key and cause of each.
+    dropped
+        Numbers of messages that the earlier run dropped.
     unavailable_reason
         Why no pictures could be drawn from the start; empty if they could.
     cameras_lost
@@ -59,6 +61,7 @@ class Recorded:
     losses: Mapping[str, Loss] = field(default_factory=dict)
     unregistered: tuple[UnregisteredMessage, ...] = ()
     refused: tuple[Event, ...] = ()
+    dropped: tuple[DroppedMessages, ...] = ()
     unavailable_reason: str = ""
     cameras_lost: tuple[int, str] | None = None
     has_pictures: bool = False

@@ -17,6 +17,7 @@ from airhilt.errors import SpeechError
 from airhilt.messages import (
     UNREGISTERED,
     AdvisoryAudio,
+    DroppedMessages,
     EnhancedTransmission,
     Event,
     SpokenTruth,
@@ -93,6 +94,11 @@ def read_recorded(
             UnregisteredMessage(logged.key, logged.t_ns, logged.data)
             for logged in log
             if logged.publisher == UNREGISTERED
+        ),
+        dropped=tuple(
+            DroppedMessages.model_validate_json(logged.data)
+            for logged in log
+            if logged.key == "truth/dropped"
         ),
         refused=tuple(event for event in _events(log) if event.kind == "refused"),
     )

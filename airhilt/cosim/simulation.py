@@ -48,6 +48,7 @@ from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
+from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
 from airhilt.workers.pool import WorkerPool
@@ -346,6 +347,7 @@ class Simulation:
         for event in recorded.refused:
             refuse = partial(self._programs.take_refused, event.subject, event.text)
             self._director.at(event.t_ns, refuse, Priority.SCRIPT)
+        self._programs.count_dropped(recorded.dropped)
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
@@ -413,6 +415,7 @@ class Simulation:
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
             stack.callback(self._vision.finish)
             self._event(self._phase, "run", cause or "came to its end")
+            self._programs.finish()
             self._publish_clock()
             self._radio.close()
             for step in (*self._pool.unfinished(), *sensed):
@@ -446,6 +449,7 @@ class Simulation:
                 "assistant": self._participants.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
                 "inputs_dropped": self._pool.inputs_dropped(),
+                "messages_dropped": self._programs.dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
                 "cpu_s": cpu_s,
             },
@@ -465,6 +469,7 @@ class Simulation:
     def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
         if worker.modality == "tts":
             self._advisories.voice_lost()
+        cause = readable(cause)
         self._latency_log.lost(worker.name, self._director.now_ns, cause)
         self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
 
@@ -537,6 +542,6 @@ def _said(failure: BaseException) -> str:
         case KeyboardInterrupt():
             return "interrupted"
         case AirhiltError():
-            return str(failure)
+            return readable(str(failure), LONGEST_LINE)
         case _:
-            return f"{type(failure).__name__}: {failure}"
+            return readable(f"{type(failure).__name__}: {failure}", LONGEST_LINE)

@@ -197,6 +197,13 @@ DERIVED = (
         lambda summary: sum((summary.get("inputs_dropped") or {}).values()),
     ),
     Derived(
+        "messages_dropped",
+        "int64",
+        "messages of programs without grants that did not count: too large, too many, or lost on "
+        "the way",
+        lambda summary: sum((summary.get("messages_dropped") or {}).values()),
+    ),
+    Derived(
         "actors_ended",
         "int64",
         "actors that ended before the run did",

@@ -354,6 +354,11 @@ class Summary(BaseModel):
     )
     latencies: dict[Stage, LatencyStatistics] = Field(description="latency by stage")
     inputs_dropped: dict[str, int]
+    messages_dropped: dict[str, int] = Field(
+        default_factory=dict,
+        description="messages of programs without grants that did not count because they were too "
+        "large or too many, or were lost on the way, by kind of key and cause",
+    )
     evidence: dict[str, EvidenceAge] = Field(
         default_factory=dict,
         description="age of what the assistant had to judge by, by modality; empty: nobody decided",

@@ -1,7 +1,8 @@
 """Assembles a page from its sections, with Jinja: one HTML file that opens offline.
 
 Texts of a scenario or a worker may be hostile. They are only ever data: in a template Jinja escapes
-them, in the JSON of the page nothing can end the script element, and scripts show them as text.
+them, in the JSON of the page nothing can end the script element, and scripts show them as text. The
+page has no character without a shape, such as those that turn the direction of writing.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from airhilt.errors import AirhiltError
 from airhilt.report.page_section import PageSection, cannot_be_shown
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -67,7 +68,7 @@ class Assembly:
         self._title = title
         self._shared = shared
         self._sections = sections
-        self._data = data
+        self._data: Json = _readable(data)
         self._figures = figures or {}
         self._scripts: dict[str, str] = {}
         """Scripts of the sections whose markup could be made, by the name of the section."""
@@ -136,7 +137,7 @@ class Assembly:
         )
 
     def _note(self, text: str) -> None:
-        self._data["notes"].append(cut(text))
+        self._data["notes"].append(readable(text))
 
     def _all_scripts(self) -> list[_Script]:
         """Return all scripts; that of a section has a scope and an element of its own."""
@@ -160,6 +161,18 @@ def _own_file(name: str) -> str:
 def inline(script: str) -> str:
     """Return a script in which no text can end the element that it lies in."""
     return END_OF_SCRIPT.sub(lambda found: found[0][0] + "\\" + found[0][1:], script)
+
+
+def _readable(data: Any) -> Any:
+    """Return data whose texts have no character without a shape."""
+    match data:
+        case str():
+            return readable(data, longest=None)
+        case dict():
+            return {_readable(key): _readable(value) for key, value in data.items()}
+        case list() | tuple():
+            return [_readable(value) for value in data]
+    return data
 
 
 def embeddable(data: Json) -> str:

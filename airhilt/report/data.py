@@ -20,7 +20,6 @@ from airhilt.record import Logged, Run, RunFolder, RunInfo
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
 from airhilt.report.sections import GuardedContent
-from airhilt.report.text import cut
 from airhilt.report.tracks import (
     Locate,
     Phases,
@@ -32,6 +31,7 @@ from airhilt.report.tracks import (
 )
 from airhilt.report.unread import UnreadMessages
 from airhilt.shapes.sizes import Size
+from airhilt.text import readable
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.surface.kinds import load_kind
@@ -108,7 +108,7 @@ class RunData:
             "run": info.run,
             "scenario": {name: str(realised.get(name, "")) for name in texts},
             "phase": info.phase,
-            "cause": cut(info.cause),
+            "cause": readable(info.cause),
             "options": info.options.model_dump(mode="json")
             | {"assistant": info.assistant, "pace": info.pace},
             "unregistered": info.unregistered_programs,
@@ -142,7 +142,7 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
         Receivers of messages: each gets those with the keys of its section.
     """
     info, folder = recorded.info, recorded.folder
-    notes = [f"Damaged: {cut(line)}." for line in recorded.damage]
+    notes = [f"Damaged: {readable(line)}." for line in recorded.damage]
     log = _Log(_points_a_track(info), contents)
     log.read(recorded, notes)
     summary = _summary(folder, notes)
@@ -187,7 +187,9 @@ class _Log:
             for logged in recorded.messages():
                 self._take(logged)
         except RunFolderError as error:
-            notes.append(f"The log cannot be read, so there is nothing to draw: {cut(str(error))}")
+            notes.append(
+                f"The log cannot be read, so there is nothing to draw: {readable(str(error))}"
+            )
         self._parse_states()
         if note := self._unread.note():
             notes.append(note)
@@ -230,7 +232,7 @@ def _summary(folder: RunFolder, notes: list[str]) -> Summary | None:
     try:
         loaded = folder.summary()
     except RunFolderError as error:
-        notes.append(f"The numbers below are missing: {cut(str(error))}")
+        notes.append(f"The numbers below are missing: {readable(str(error))}")
         return None
     if loaded is None:
         notes.append(
@@ -252,7 +254,7 @@ def _note_how_it_ended(info: RunInfo, log: _Log, notes: list[str]) -> None:
             f"The log breaks off at {log.end_ns / SECOND_NS:.1f} s: what came after is not known."
         )
     if info.phase == "stopped":
-        notes.append(f"The run was stopped before its end: {cut(info.cause)}")
+        notes.append(f"The run was stopped before its end: {readable(info.cause)}")
     if log.events.left_out:
         notes.append(
             f"The timeline shows the first {MOST_EVENTS} events; {log.events.left_out} later ones "
@@ -285,7 +287,7 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
     try:
         return ReportAirport(name)
     except AirhiltError as error:
-        notes.append(f"The airport cannot be drawn: {cut(str(error))}")
+        notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None
 
 

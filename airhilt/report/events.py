@@ -7,7 +7,8 @@ from typing import Any
 
 from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunInfo
-from airhilt.report.text import cut, runway_name
+from airhilt.report.text import runway_name
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]
@@ -58,7 +59,7 @@ def _with_line(row: Json, lines: dict[str, Json]) -> Json:
     line = lines.get(row["who"]) if row["kind"] == "failure" else None
     if line is None:
         return row
-    return row | {"speaker": line["speaker"], "line": cut(line["text"])}
+    return row | {"speaker": line["speaker"], "line": readable(line["text"])}
 
 
 def _row(logged: Logged) -> Json | None:
@@ -69,7 +70,9 @@ def _row(logged: Logged) -> Json | None:
     row = make(json.loads(logged.data), logged)
     if row is None:
         return None
-    short = {name: cut(value) if isinstance(value, str) else value for name, value in row.items()}
+    short = {
+        name: readable(value) if isinstance(value, str) else value for name, value in row.items()
+    }
     return {"t": logged.t_ns / SECOND_NS, **short}
 
 

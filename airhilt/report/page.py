@@ -10,7 +10,7 @@ from airhilt.record.run import Notice, untold
 from airhilt.report.assembly import Assembly
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 SHARED = (
     "document",
@@ -71,7 +71,7 @@ def render(recorded: Run, page: Path) -> str:
     run = read_run(recorded, page, contents)
     own = {content.section.name: content.as_json(run) for content in contents}
     problems += [note for content in contents for note in content.notes]
-    run.notes.extend(map(cut, problems))
+    run.notes.extend(map(readable, problems))
     whole = [content.section for content in contents if content.is_whole]
     data = run.as_json() | {"sections": own}
     return Assembly("run", "AIRHILT run report", SHARED, whole, data).page()

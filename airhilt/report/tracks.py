@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from airhilt.geodesy.wgs84 import Place, offset_m
 from airhilt.record import Logged
 from airhilt.report.intervals import Intervals, seconds
-from airhilt.report.text import cut
+from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 Json = dict[str, Any]
@@ -102,7 +102,7 @@ class Phases:
     def as_json(self) -> list[Json]:
         """Return the phases; the last one ends with the last state."""
         return [
-            {"what": cut(phase.what), **phase.times_as_json()}
+            {"what": readable(phase.what), **phase.times_as_json()}
             for phase in self._intervals.until(self._last_ns)
         ]
 

@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from airhilt.errors import first_problem
 from airhilt.record import Logged
-from airhilt.report.text import cut
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 CANNOT_READ = (ValueError, LookupError, TypeError, AttributeError)
@@ -44,7 +44,7 @@ class UnreadMessages:
                 f"{self._count} messages of the log are not as this version writes them, and left "
                 "out. The first is"
             )
-        return cut(f"{begin}: {self._first}")
+        return readable(f"{begin}: {self._first}")
 
 
 def _name(logged: Logged) -> str:

@@ -225,6 +225,9 @@ def step(query):
             reply["outputs"] = [{"key": "advisory/a#b", "size": 2}]
         if answer == "sizes":
             reply["outputs"] = [{"key": "advisory/ATC", "size": 99}]
+        if answer == "large":
+            payload = b" " * 40_000
+            reply["outputs"] = [{"key": "advisory/ATC", "size": 40_000}]
         if answer == "seq":
             reply["seq"] += 1
         query.reply(key + "/step", payload, attachment=json.dumps(reply))
@@ -245,6 +248,7 @@ time.sleep(60)
         ("future", "expected a time that has come"),
         ("wild", "no Advisory"),
         ("sizes", "sizes"),
+        ("large", "40,000 bytes; expected at most 32,000"),
         ("seq", "expected the seq of the grant"),
     ],
 )

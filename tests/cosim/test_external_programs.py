@@ -7,10 +7,12 @@ from typing import Any, cast
 
 import pytest
 
-from airhilt.cosim.external_programs import ExternalPrograms
+from airhilt.bus.access import PUBLISHED
+from airhilt.cosim.external_programs import HEARD, LIMITS, MOST_NOTICES, ExternalPrograms
 from airhilt.cosim.observer import Observer
 from airhilt.errors import WorkerError
 from airhilt.sim import Director, Virtual
+from airhilt.text import MOST_CHARACTERS
 
 
 class Notices(Observer):
@@ -65,6 +67,24 @@ def test_a_refused_message_is_said_to_be_of_a_program(key: str, words: str) -> N
     assert notices.texts[0].startswith(words)
     with pytest.raises(WorkerError, match=words):
         programs(notices, [], is_strict=True).take(key, b"{}")
+
+
+def test_the_terminal_tells_of_few_refusals_and_the_log_of_all() -> None:
+    notices, events = Notices(), list[Any]()
+    heard = programs(notices, events)
+    for number in range(100):
+        heard.take("advisory/ATC", json.dumps({f"\x1b[{number}m": "x" * 1000}).encode())
+        heard.take_refused("worker/own/step", f"{number}" + "\u202e" * 10_000)
+    assert len(notices.texts) == MOST_NOTICES + 1
+    assert notices.texts[-1].startswith("more was refused: the log has it all")
+    assert len([event for event in events if event[0] == "refused"]) == 200
+    for text in (*notices.texts, *(event[2] for event in events)):
+        assert text.isprintable()
+        assert len(text) <= MOST_CHARACTERS
+
+
+def test_every_key_that_is_heard_has_a_limit() -> None:
+    assert set(LIMITS) == set(HEARD) == {key for keys in PUBLISHED.values() for key in keys}
 
 
 def test_an_advisory_in_the_name_of_a_worker_is_refused() -> None:

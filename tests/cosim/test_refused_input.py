@@ -99,3 +99,36 @@ def test_a_replay_of_a_run_that_refused_input_ended_is_identical(
     assert outside(tmp_path / "run")[-1] == ("refused", "command/DAL456")
     verdict = replay(tmp_path / "run")
     assert verdict.identical, verdict.difference
+
+
+class Floods(Sends):
+    """Sends a message that is taken, and many that are too large or too many."""
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        if self._programs is not None and self._left and snapshot.t_s > 1.0:
+            for _ in range(300):
+                self._programs._intake.admit("advisory/*", 1_000_000)
+                self._programs._intake.admit("command/*", 10)
+        super().snapshot(snapshot)
+
+
+def test_what_was_dropped_is_counted_in_log_and_summary_and_in_a_replay(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patched:
+        flood = Floods(patched, [("command/AAL123", CLIMB)])
+        events = recorded(encounter, tmp_path / "run", flood)
+    assert events == [
+        ("unregistered", "advisory/*"), ("refused", "advisory/*"), ("refused", "command/*"),
+    ]  # fmt: skip
+    logged = read_log(tmp_path / "run" / "log.mcap")
+    counts = {
+        f"{told['keys']}: {told['cause']}": told["messages"]
+        for told in (json.loads(each.data) for each in logged if each.key == "truth/dropped")
+    }
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["messages_dropped"] == counts
+    assert counts["advisory/*: size"] == 300
+    assert 200 < counts["command/*: rate"] <= 250
+    verdict = replay(tmp_path / "run")
+    assert verdict.identical, verdict.difference

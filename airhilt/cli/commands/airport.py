@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from airhilt.cli.output import echo, echo_json
 from airhilt.errors import ScenarioError
 
 FILE = click.Path(path_type=Path, dir_okay=False)
@@ -87,12 +88,12 @@ def show(name: str, out: Path | None, as_json: bool) -> None:
     if as_json:
         from airhilt.world.surface.description import describe
 
-        click.echo(json.dumps(describe(layout), indent=2, ensure_ascii=False))
+        echo_json(json.dumps(describe(layout), indent=2, ensure_ascii=False))
     elif out is None:
         from airhilt.world.surface.description import as_lines
 
         for line in as_lines(layout):
-            click.echo(line)
+            echo(line)
 
 
 @airport.command(
@@ -143,7 +144,7 @@ def import_(ident: str, out: Path | None, overwrite: bool, **given: Any) -> None
     click.echo(target)
     if note := made.sources["runways"].note:
         for line in note.split("; "):
-            click.echo(f"note: {line}", err=True)
+            echo(f"note: {line}", err=True)
 
 
 COMMAND = airport

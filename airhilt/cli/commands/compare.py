@@ -76,14 +76,16 @@ def compare(
 
 def _print(found: RunComparison | SweepComparison) -> None:
     from rich.console import Console
+    from rich.text import Text
 
     from airhilt.cli.comparison_tables import tables
+    from airhilt.text import LONGEST_LINE, readable
 
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = FILE_WIDTH
     for each in tables(found):
-        console.print(each, markup=False) if isinstance(each, str) else console.print(each)
+        console.print(Text(readable(each, LONGEST_LINE)) if isinstance(each, str) else each)
 
 
 COMMAND = compare

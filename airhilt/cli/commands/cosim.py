@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from airhilt.cli.output import echo_json
+
 
 class RunCommand(click.Command):
     """A command with the flags of a run; they are made when somebody asks for them."""
@@ -51,7 +53,7 @@ def cosim(context: click.Context, /, scenario: str, as_json: bool, **_: object) 
     with ProgressLine(scenario) as progress:
         result = run(load(scenario), options, progress)
     if as_json:
-        click.echo(result.summary.model_dump_json(indent=2))
+        echo_json(result.summary.model_dump_json(indent=2))
         click.echo(f"run folder: {result.folder}", err=True)
     else:
         print_summary(result.summary, result.folder)

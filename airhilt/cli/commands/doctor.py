@@ -7,6 +7,8 @@ import sys
 
 import click
 
+from airhilt.cli.output import echo
+
 
 @click.command(
     epilog="""\b
@@ -28,7 +30,7 @@ def doctor(as_json: bool) -> None:
         click.echo(json.dumps([finding.as_dict() for finding in findings], indent=2))
     else:
         for finding in findings:
-            click.echo(str(finding))
+            echo(finding)
     if any(finding.is_broken or (finding.needed and not finding.found) for finding in findings):
         sys.exit(1)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.notices import tell
+from airhilt.cli.output import echo
 
 
 @click.command(
@@ -43,7 +44,7 @@ def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_jso
         files = {"wav": str(wav), "transcript": str(text)}
         click.echo(json.dumps(recording.as_dict() | files, indent=2))
     else:
-        click.echo(recording.text())
+        echo(recording.text())
         click.echo(f"{wav}\n{text}")
 
 

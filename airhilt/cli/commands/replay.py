@@ -8,6 +8,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.output import echo
+
 
 @click.command(
     epilog="""\b
@@ -31,7 +33,7 @@ def replay(run_folder: Path, as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps(verdict.as_dict(), indent=2))
     else:
-        click.echo(str(verdict))
+        echo(verdict)
     if not verdict.identical:
         sys.exit(1)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from airhilt.cli.output import echo
 from airhilt.errors import AirhiltError, ScenarioError
 
 
@@ -29,7 +30,7 @@ def validate(file: str) -> None:
     require_known_equipment(scenario.equipment)
     realised, _ = draw(scenario, 0)
     build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
-    click.echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
+    echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
 
 
 COMMAND = validate

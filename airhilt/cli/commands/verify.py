@@ -8,6 +8,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.output import echo
+
 
 @click.command(
     epilog="""\b
@@ -36,7 +38,7 @@ def verify(run_folder: Path, key: Path | None, as_json: bool) -> None:
     from airhilt.record.verification import verify as verify_run
 
     found = verify_run(run_folder, key)
-    click.echo(json.dumps(found.as_dict(), indent=2) if as_json else str(found))
+    echo(json.dumps(found.as_dict(), indent=2) if as_json else found)
     sys.exit(found.exit_code)
 
 

@@ -14,7 +14,7 @@ from airhilt.report.comparison.sweeps import MeasureDifference, SweepComparison
 from airhilt.report.comparison.words import measure_row, metric_row
 from airhilt.report.figures import COLOURS, DIM, MARKERS, Figures
 from airhilt.report.page_section import PageSection
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 Json = dict[str, Any]
 
@@ -40,7 +40,7 @@ def write_comparison(comparison: RunComparison | SweepComparison, page: Path) ->
         own = _of_sweeps(comparison, figures)
     else:
         own = _of_runs(comparison)
-    title = f"{cut(comparison.second)} compared with {cut(comparison.first)}"
+    title = f"{readable(comparison.second)} compared with {readable(comparison.first)}"
     data = {"title": title, "notes": [], "sections": {comparison.kind: own}}
     sections = [SECTIONS[comparison.kind]]
     html = Assembly("comparison", title, SHARED, sections, data, figures.markup).page()

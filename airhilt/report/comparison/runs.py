@@ -10,7 +10,7 @@ from airhilt.errors import AirhiltError
 from airhilt.metrics.columns import Value, metric_columns, metrics_of
 from airhilt.record import Run, RunInfo
 from airhilt.report.data import RunData, read_run
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 Json = dict[str, Any]
 
@@ -128,7 +128,7 @@ def _settings(first: RunInfo, second: RunInfo) -> Iterator[tuple[str, tuple[str,
     names = dict.fromkeys((*pairs[0], *pairs[1]))
     differing = [name for name in names if pairs[0].get(name) != pairs[1].get(name)]
     for name in differing[:MOST_SETTINGS]:
-        one, other = (cut(str(pair.get(name, "–"))) for pair in pairs)
+        one, other = (readable(str(pair.get(name, "–"))) for pair in pairs)
         yield name, (one, other)
     if len(differing) > MOST_SETTINGS:
         yield f"{len(differing) - MOST_SETTINGS} more", ("…", "…")

@@ -14,7 +14,7 @@ from airhilt.record import Logged, RunFolder
 from airhilt.record.pictures import OCCASIONS, PictureName
 from airhilt.report.intervals import BridgedIntervals
 from airhilt.report.sections import Content, Section
-from airhilt.report.text import cut
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ class Cameras(Content):
             "state": self._state,
             "timelines": [timeline.as_json(run) for timeline in self._timelines.values()],
             "pictures": [picture for picture in shown if picture is not None],
-            "cause": cut(self._cause),
+            "cause": readable(self._cause),
         }
 
     def _picture(self, name: PictureName, sources: PictureSources) -> Json | None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from airhilt.messages import Advisory
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content, Section
-from airhilt.report.text import cut
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:
@@ -41,12 +41,14 @@ class AdvisoryEvidence(Content):
         self._rows[key] = {
             "t": logged.t_ns / SECOND_NS,
             "severity": advisory.severity,
-            "id": cut(advisory.id),
+            "id": readable(advisory.id),
             "recipients": _names(advisory.recipients),
-            "note": cut(evidence.note or advisory.message),
+            "note": readable(evidence.note or advisory.message),
             "rules": _names(evidence.rules),
             "sources": _names(evidence.sources),
-            "shares": {cut(name): share for name, share in [*evidence.shares.items()][:MOST_NAMES]},
+            "shares": {
+                readable(name): share for name, share in [*evidence.shares.items()][:MOST_NAMES]
+            },
             "radio": _names(evidence.radio_ids),
             "cameras": _names(evidence.camera_ids),
             "tracks": _names(evidence.tracks),
@@ -76,7 +78,7 @@ class AdvisoryEvidence(Content):
 
 def _names(names: tuple[str, ...]) -> list[str]:
     more = len(names) - MOST_NAMES
-    shown = [cut(name) for name in names[:MOST_NAMES]]
+    shown = [readable(name) for name in names[:MOST_NAMES]]
     return [*shown, f"and {more} more"] if more > 0 else shown
 
 

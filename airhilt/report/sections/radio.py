@@ -18,7 +18,7 @@ from airhilt.metrics.words import align
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content, Section
 from airhilt.report.sounds import Sounds
-from airhilt.report.text import cut
+from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:
@@ -84,19 +84,19 @@ def _model(key: str) -> type[Message] | None:
 
 def _call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:
     return {
-        "id": cut(said.id),
+        "id": readable(said.id),
         "from": round(said.t_tx_ns / SECOND_NS, 3),
         "to": round(said.t_end_ns / SECOND_NS, 3),
         "frequency_khz": said.frequency_khz,
-        "who": cut(said.speaker),
-        "addressed": None if said.addressed is None else cut(said.addressed),
-        "said": cut(said.text),
-        "blocked_by": [cut(name) for name in said.blocked_by],
+        "who": readable(said.speaker),
+        "addressed": None if said.addressed is None else readable(said.addressed),
+        "said": readable(said.text),
+        "blocked_by": [readable(name) for name in said.blocked_by],
         "snr_db": said.snr_db,
         "received": call.received is not None,
         "transcripts": [_transcript(transcript, said) for transcript in call.recognised],
         "hearings": [
-            {"who": cut(one.actor), "outcome": one.outcome, "text": cut(one.text)}
+            {"who": readable(one.actor), "outcome": one.outcome, "text": readable(one.text)}
             for one in call.hearings
         ],
         "sound": None if call.received is None else sounds.of(call.received),
@@ -106,25 +106,25 @@ def _call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:
 def _transcript(transcript: Transcript, said: SpokenTruth) -> Json:
     """Return what was recognised, beside what was said."""
     return {
-        "engine": cut(transcript.engine),
+        "engine": readable(transcript.engine),
         "confidence": transcript.confidence,
         "after_end_s": (transcript.t_ns - said.t_end_ns) / SECOND_NS,
         "words": [
             {"kind": one.kind, "said": " ".join(one.said), "heard": " ".join(one.heard)}
-            for one in align(cut(said.text), cut(transcript.text))
+            for one in align(readable(said.text), readable(transcript.text))
         ],
     }
 
 
 def _advisory(audio: AdvisoryAudio, sounds: Sounds) -> Json:
     return {
-        "id": cut(audio.id),
+        "id": readable(audio.id),
         "revision": audio.revision,
         "from": round(audio.t_ns / SECOND_NS, 3),
         "to": round(audio.t_ns / SECOND_NS + audio.samples / SAMPLE_RATE_HZ, 3),
-        "recipient": cut(audio.recipient),
-        "said": cut(audio.text),
-        "engine": cut(audio.engine),
+        "recipient": readable(audio.recipient),
+        "said": readable(audio.text),
+        "engine": readable(audio.engine),
         "after_decision_s": (audio.t_ns - audio.t_dec_ns) / SECOND_NS,
         "sound": sounds.of(audio),
     }

@@ -10,7 +10,8 @@ from airhilt.messages import RunwayTruth
 from airhilt.record import Logged, RunFolder
 from airhilt.report.intervals import Interval, Intervals
 from airhilt.report.sections import Content, Section
-from airhilt.report.text import cut, runway_name
+from airhilt.report.text import runway_name
+from airhilt.text import readable
 from airhilt.units import NAUTICAL_MILE, SECOND_NS
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class RunwayTimeline:
         return {
             "runway": self._name,
             "occupants": [
-                {"what": cut(interval.what), **interval.times_as_json()}
+                {"what": readable(interval.what), **interval.times_as_json()}
                 for interval in self._occupants.until(run.end_ns)
             ],
             "approaches": [

@@ -15,7 +15,7 @@ from airhilt.report.figures import Figures
 from airhilt.report.page_section import cannot_be_shown
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
 from airhilt.report.sweeps.sections import SweepSection, load_sections
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 SHARED = ("document", "page", "words", "tables")
 """Scripts that all sections may use, in the order in which they build on each other."""
@@ -74,6 +74,6 @@ def render(sweep: SweepData, figures: Figures) -> str:
             shown.append(section)
             own[section.name] = data
     title = f"{sweep.folder.path.absolute().name}: AIRHILT sweep"
-    notes = [cut(each) for each in (*sweep.notes, *problems)]
+    notes = [readable(each) for each in (*sweep.notes, *problems)]
     data = {"title": title, "notes": notes, "sections": own}
     return Assembly("sweep", title, SHARED, shown, data, figures.markup).page()

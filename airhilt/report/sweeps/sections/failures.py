@@ -7,7 +7,7 @@ from typing import Any
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 MOST_KEYS = 4
 """Greatest number of runs that are named for one cause."""
@@ -24,7 +24,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:  # noq
     rows = [
         {
             "status": str(status).replace("_", " "),
-            "cause": cut(str(cause)),
+            "cause": readable(str(cause)),
             "count": len(group),
             "runs": [
                 {"key": str(key)[:16], "scenario": scenarios.get(key, "")}

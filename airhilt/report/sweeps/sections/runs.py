@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import BEFORE_PARAMETERS, SweepData
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.report.text import cut
+from airhilt.text import readable
 
 if TYPE_CHECKING:
     from pandas import Series
@@ -94,7 +94,7 @@ def _values(column: Series) -> list[Any]:
 def _value(value: Any) -> Any:
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
-    return cut(value) if isinstance(value, str) else value
+    return readable(value) if isinstance(value, str) else value
 
 
 def _link(sweep: SweepData, folder: str) -> str:

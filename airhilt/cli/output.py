@@ -1,0 +1,25 @@
+"""Prints what may have text from outside in it, such as names in a file that somebody sent."""
+
+from __future__ import annotations
+
+import click
+
+from airhilt.text import LONGEST_LINE, readable
+
+
+def echo(text: object, err: bool = False) -> None:
+    """Print lines, none of which can command the terminal or is very long."""
+    for line in str(text).splitlines():
+        click.echo(readable(line, LONGEST_LINE), err=err)
+
+
+def echo_json(document: str) -> None:
+    """Print a JSON document whole, with escapes for what is no printable character."""
+    click.echo("".join(map(_escaped, document)))
+
+
+def _escaped(character: str) -> str:
+    if character == "\n" or character.isprintable():
+        return character
+    pairs = character.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{pairs[at : at + 4]}" for at in range(0, len(pairs), 4))
