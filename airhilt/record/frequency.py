@@ -18,6 +18,7 @@ from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.folder import RunFolder
 from airhilt.record.run import Notice, Run, open_run, untold
+from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
 
 
@@ -67,7 +68,8 @@ class FrequencyRecording:
         """Return the transcript for people to read."""
         head = f"{self.run}, {_megahertz(self.frequency_khz)}, {len(self.calls)} calls"
         notes = (f"Damaged: {note}" for note in self.notes)
-        return "\n\n".join([head, *notes, *map(_paragraph, self.calls)]) + "\n"
+        lines = "\n\n".join([head, *notes, *map(_paragraph, self.calls)]).split("\n")
+        return "".join(f"{readable(line, LONGEST_LINE)}\n" for line in lines)
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything but the sound, for JSON."""

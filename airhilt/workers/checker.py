@@ -187,6 +187,12 @@ def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> 
     except WorkerError as error:
         yield str(error)
         return
+    limit = message.limit
+    if limit is not None and len(output.payload) > limit.size_bytes:
+        yield (
+            f"worker {name!r} published on {output.key!r} {len(output.payload):,} bytes; expected "
+            f"at most {limit.size_bytes:,}"
+        )
     expected = OUTPUTS.get(description.modality)
     if expected is not None and output.key.split("/")[0] not in expected:
         yield (

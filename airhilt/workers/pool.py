@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.deferred import Payload
-from airhilt.errors import WorkerError, first_problem
+from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
     UNREGISTERED,
     WORKER_OUTPUTS,
@@ -280,7 +280,7 @@ def _check_key(who: str, worker: str, key: str, message: Message) -> None:
         case PartialTranscript() if key != f"asr/{message.frequency_khz}/partial":
             what, part = f"a partial transcript of {message.frequency_khz} kHz", "frequency"
         case Detections() if key != f"vision/{message.camera}":
-            what, part = f"what is in a picture of camera {message.camera!r}", "camera"
+            what, part = f"what is in a picture of camera {shown(message.camera)}", "camera"
         case Advisory() if key != f"advisory/{message.recipient}":
             what, part = f"an advisory for {message.recipient!r}", "recipient"
         case EquipmentAlert() if (

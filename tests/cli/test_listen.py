@@ -139,6 +139,12 @@ def test_the_transcript_says_who_said_what_and_what_was_heard(
         assert part in written
 
 
+def test_the_transcript_has_no_control_characters(recording: Recording, tmp_path: Path) -> None:
+    recording.call("r-1", 1.0, 0.1, heard="\x1b[2J\u202e" + "x" * 5000, speaker="\x9b\nEVIL")
+    _, _, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    assert all(line.isprintable() and len(line) <= 1000 for line in text.read_text().split("\n"))
+
+
 def test_the_only_frequency_needs_no_naming_but_one_of_several_does(
     recording: Recording, tmp_path: Path
 ) -> None:

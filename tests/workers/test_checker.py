@@ -157,6 +157,11 @@ class Garbage(Ears):
         return Output("asr/118300", b"{}")
 
 
+class Large(Ears):
+    def heard(self, t_ns: int, item: Input) -> Output:
+        return Output("asr/118300", super().heard(t_ns, item).payload + b" " * 32_000)
+
+
 class Early(Ears):
     def heard(self, t_ns: int, item: Input) -> Output:
         return Output("asr/118300", super().heard(t_ns, item).payload, t_out_ns=t_ns - 1)
@@ -223,6 +228,7 @@ def test_the_examples_pass(example: str, worker: str) -> None:
         ),
         (WrongFrequency, "a transcript of 118300 kHz; expected the frequency in the key"),
         (Garbage, "published on 'asr/118300' something that is no Transcript: id: Field required"),
+        (Large, "bytes; expected at most 32,000"),
         (Early, "wants 'asr/118300' published at 999999999 ns, before its step at 1000000000 ns"),
         (Restless, "to be called again at 1000000000 ns; expected a later time"),
         (Eyes, "of modality vision published on 'asr/118300'; expected vision/..."),

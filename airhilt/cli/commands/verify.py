@@ -38,7 +38,10 @@ def verify(run_folder: Path, key: Path | None, as_json: bool) -> None:
     from airhilt.record.verification import verify as verify_run
 
     found = verify_run(run_folder, key)
-    echo(json.dumps(found.as_dict(), indent=2) if as_json else found)
+    if as_json:
+        click.echo(json.dumps(found.as_dict(), indent=2))
+    else:
+        echo(found)
     sys.exit(found.exit_code)
 
 
