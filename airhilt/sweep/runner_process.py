@@ -16,9 +16,16 @@ from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
 COMMAND = command_of("airhilt.sweep.runner")
-ENVIRONMENT = {"MALLOC_TRIM_THRESHOLD_": None}
-"""Environment of a runner. Dask gives its workers this variable, with which the C library asks the
-system for the memory of each array anew: two fifths of what it costs to draw pictures."""
+ENVIRONMENT = {
+    "MALLOC_TRIM_THRESHOLD_": None,
+    "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+}
+"""Environment of a runner. Dask gives its workers the first variable, with which the C library asks
+the system for the memory of each array anew: two fifths of what it costs to draw pictures. It gives
+them the others, too, but a worker without a nanny has none, and neither has the probe of a dry run:
+libraries of linear algebra would start a thread for each core there."""
 STARTING_S = 120.0
 """Time that a runner has to start, in s."""
 WATCH_S = 0.5

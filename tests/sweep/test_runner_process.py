@@ -57,13 +57,16 @@ def test_a_runner_that_is_stopped_gives_its_run_back(runner: RunnerProcess) -> N
         runner.run(request("hangs"))
 
 
-def test_a_runner_does_not_inherit_how_dask_lets_its_workers_give_memory_back(
+def test_a_runner_has_one_thread_and_its_own_memory_whoever_starts_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("MALLOC_TRIM_THRESHOLD_", "65536")
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "16")
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     with closing(RunnerProcess("", LIMITS)) as runner:
-        process = psutil.Process(runner.run(request("good")).machine.process)
-        assert "MALLOC_TRIM_THRESHOLD_" not in process.environ()
+        environment = psutil.Process(runner.run(request("good")).machine.process).environ()
+    assert "MALLOC_TRIM_THRESHOLD_" not in environment
+    assert (environment["OPENBLAS_NUM_THREADS"], environment["OMP_NUM_THREADS"]) == ("1", "1")
 
 
 def test_a_disk_on_which_no_runner_can_be_started_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
