@@ -253,7 +253,7 @@ def _run_missing(
             observer.begun(
                 total, total - len(requests), described(client, work.dashboard is not None)
             )
-            ordered = apart(requests, max(workers.threads(), work.workers or 1))
+            ordered = apart(requests, max(workers.threads(), count))
             for outcome in outcomes(client, plugin.name, ordered, workers, stops):
                 folder.keep(part_of([outcome]))
                 observer.ended(outcome)

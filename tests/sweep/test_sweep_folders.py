@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -164,6 +164,23 @@ def test_runs_are_given_out_for_the_threads_that_a_cluster_has(
     monkeypatch.setattr(engine, "apart", noted)
     sweeps.run(finishes, fake=FakeClient(threads=[7]))
     assert abreast == [7]
+
+
+def test_runs_are_set_apart_for_the_workers_that_are_asked_for_though_one_is_there(
+    sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Jobs of a queue begin one after the other."""
+    expected: list[int] = []
+
+    def noted(requests: Sequence[Request], workers: int) -> list[Request]:
+        expected.append(workers)
+        return list(requests)
+
+    monkeypatch.setattr(engine, "apart", noted)
+    monkeypatch.setattr(engine, "default_workers", lambda _: 3)
+    sweeps.run(finishes, seeds=5, fake=FakeClient(threads=[1]))
+    sweeps.run(finishes, seeds=11, fake=FakeClient(threads=[4]))
+    assert expected == [3, 4]
 
 
 class Probe:
