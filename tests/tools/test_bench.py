@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+
 from airhilt.world.checks import check
+from benchmarks.process_tree import cpu_s
 from benchmarks.traffic import fifty_scenario
 
 
@@ -10,3 +13,11 @@ def test_the_scenario_of_fifty_is_one_that_flies() -> None:
     scenario = fifty_scenario()
     check(scenario, "fifty")
     assert len(scenario.actors) == 50
+
+
+def test_the_cpu_time_of_a_command_is_also_that_of_what_outlives_it() -> None:
+    busy = "import time\nwhile time.process_time() < 0.4: pass"
+    leaves = f"import subprocess, sys; subprocess.Popen([sys.executable, '-c', {busy!r}])"
+    waits = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {busy!r}])"
+    assert cpu_s([sys.executable, "-c", leaves]) > 0.4
+    assert cpu_s([sys.executable, "-c", waits]) > 0.4

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import airhilt
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.engine import sweep as run_sweep
 from airhilt.sweep.outcome import Outcome
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.work import Work
+from benchmarks.process_tree import cpu_s
 
 SCENARIO = "s02a_headon"
 RUNS = 30
+FEW = 3
+"""Runs of the command from which another one with more runs is told apart."""
+MANY = 1000
+"""Runs for which the CPU time of sweep and direct calls is extrapolated."""
 OPTIONS: dict[str, Any] = {"cameras": False, "speech": False, "latency": "fixed"}
 LIMITS = Limits(wall_s=600.0, memory_mb=4000.0)
 
@@ -45,17 +51,19 @@ class Times(SweepObserver):
 
 
 def sweep() -> dict[str, float]:
-    """Measure runs by one worker, by two, and by direct calls in one process."""
+    """Measure runs by one worker and by two, and all of their CPU time beside direct calls."""
     one, two = _swept(1), _swept(2)
-    direct_s = _direct_cpu_s()
+    swept, direct = _cpu_of(_sweep_command), _cpu_of(_direct_command)
     return {
         "wall_s_a_run_one_worker": one.per_run_s(2),
         "wall_s_a_run_two_workers": two.per_run_s(4),
         "gain_of_the_second_worker": one.per_run_s(2) / two.per_run_s(4),
         "engine_overhead_s_a_run": one.per_run_s(2) - one.mean("wall_s", 2),
-        "cpu_s_a_run_one_worker": one.mean("cpu_s", 2),
-        "cpu_s_a_direct_call": direct_s,
-        "cpu_ratio_to_direct": one.mean("cpu_s", 2) / direct_s,
+        "cpu_s_of_a_sweep_alone": swept.alone_s,
+        "cpu_s_a_run_of_a_sweep": swept.run_s,
+        "cpu_s_a_direct_call": direct.run_s,
+        "cpu_ratio_to_direct_calls": swept.run_s / direct.run_s,
+        f"cpu_ratio_of_{MANY}_runs": swept.of(MANY) / direct.of(MANY),
         "peak_memory_mb": one.mean("peak_memory_mb", 2),
     }
 
@@ -70,12 +78,55 @@ def _swept(workers: int) -> Times:
     return times
 
 
-def _direct_cpu_s() -> float:
-    scenario = airhilt.load(SCENARIO)
-    spent: list[float] = []
-    for seed in range(RUNS // 2):
+@dataclass(frozen=True)
+class Cpu:
+    """CPU time of a command and of every process that it starts, in s.
+
+    Attributes
+    ----------
+    alone_s
+        What it takes however many runs it does: imports, workers, tables.
+    run_s
+        What each run takes.
+    """
+
+    alone_s: float
+    run_s: float
+
+    def of(self, runs: int) -> float:
+        """Return the time for a number of runs."""
+        return self.alone_s + runs * self.run_s
+
+
+def _cpu_of(command: Callable[[int, Path], list[str]]) -> Cpu:
+    """Return the CPU time of a command by two numbers of runs.
+
+    Parameters
+    ----------
+    command
+        Returns the command for a number of runs, with a folder that it may write to.
+    """
+
+    def measured(runs: int) -> float:
         with tempfile.TemporaryDirectory() as scratch:
-            begun = time.process_time()
-            airhilt.run(scenario, out=Path(scratch) / "run", seed=seed, report=False, **OPTIONS)
-            spent.append(time.process_time() - begun)
-    return sum(spent[2:]) / len(spent[2:])
+            return cpu_s(command(runs, Path(scratch)))
+
+    few_s = measured(FEW)
+    run_s = (measured(FEW + RUNS) - few_s) / RUNS
+    return Cpu(few_s - FEW * run_s, run_s)
+
+
+def _sweep_command(runs: int, scratch: Path) -> list[str]:
+    flags = ["--no-cameras", "--no-speech", "--latency", "fixed", "--workers", "1", "--quiet"]
+    asked = ["--scenario", SCENARIO, "--seeds", str(runs), "--out", str(scratch / "sweep")]
+    return [sys.executable, "-m", "airhilt", "sweep", *asked, *flags]
+
+
+def _direct_command(runs: int, scratch: Path) -> list[str]:
+    program = (
+        "import airhilt\n"
+        f"for seed in range({runs}):\n"
+        f"    out = f'{scratch}/{{seed}}'\n"
+        f"    airhilt.run({SCENARIO!r}, out=out, seed=seed, report=False, **{OPTIONS!r})\n"
+    )
+    return [sys.executable, "-c", program]
