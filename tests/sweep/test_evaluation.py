@@ -46,7 +46,9 @@ def row(scenario: str = "s01a_one", seed: int = 0, **fields: Any) -> dict[str, A
         "lead_before_closest_approach_s": 30.0, "margin_over_tcas_ta_s": 5.0,
         "margin_over_tcas_ra_s": 15.0, "nuisance_alerts": 0, "duration_s": 1800.0,
         "advisories": 2, "cautions": 1, "warnings": 1, "latencies_asr_p50_s": 5.9,
-        "latencies_vision_p50_s": None, "first_detection_range_m": None,
+        "latencies_vision_p50_s": None, "collision": False, "nmac": False,
+        "loss_of_separation": False, "runway_incursion_category": None,
+        "first_detection_range_m": None,
         **{f"first_warning_parts_{part}_s": 1.0 for part in PARTS}, **fields,
     }  # fmt: skip
 
@@ -198,6 +200,25 @@ def test_a_family_in_which_an_assistant_has_nothing_to_read_is_not_held_against_
     assert text(cells(table, "S01B", "adsb_only")["warned"]).startswith("3 of 3")
     assert any("`adsb_only` does not apply to" in note for note in table.notes)
     assert text(cells(table, "all", "reference")["avoided"]).startswith("24 of 24")
+
+
+def test_what_is_not_avoided_is_told_by_the_worst_that_came_of_it() -> None:
+    name = "s01a_bad_readback"
+    bad = [row(name, seed, avoided=False, collision=True) for seed in range(4)]
+    ends: list[dict[str, Any]] = [
+        {"avoided": None, "warned": False},
+        {"avoided": False, "collision": True, "runway_incursion_category": "accident"},
+        {"avoided": False, "runway_incursion_category": "B"},
+        {"avoided": False, "loss_of_separation": True, "runway_incursion_category": "C"},
+    ]
+    rows: dict[str, list[Row]] = {sweep: [] for sweep in full.specifications(NO_CAMERAS)}
+    rows |= {"none": [*bad, row(name, 4)], "reference": [row(name, 4)]}
+    rows["reference"] += [row(name, seed, **end) for seed, end in enumerate(ends)]
+    (table,) = [one for one in full.tables(Results(NO_CAMERAS, rows)) if one.name == "harms"]
+    found = cells(table, name)
+    assert found["none"] == "collision 4"
+    assert found["reference"] == "avoided 1, collision 1, incursion B 1, loss of separation 1"
+    assert found["paper"] == "-"
 
 
 def test_severity_modalities_and_topologies_have_tables() -> None:

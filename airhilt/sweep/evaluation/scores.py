@@ -14,6 +14,9 @@ from airhilt.metrics.estimates import Estimate, mean_of, rate_of, share_of
 from airhilt.metrics.measures import HOUR_S
 from airhilt.sweep.evaluation.preset import Row
 
+AVOIDED = "avoided"
+SERIOUS_INCURSIONS = ("A", "B")
+"""Categories of runway incursions that are harm; an accident is a collision."""
 Pair = tuple[str, int]
 """Scenario and seed, which runs with different assistants share."""
 SEVERITIES: Mapping[str, Callable[[Row], int]] = {
@@ -88,6 +91,19 @@ def avoided(rows: Sequence[Row], baselines: Baselines) -> Estimate:
     its warning was over before the conflict began.
     """
     return share_of([row["avoided"] is not False for row in rows if pair_of(row) in baselines.lost])
+
+
+def harm_of(row: Row) -> str:
+    """Return the worst that a run came to, `AVOIDED` if the pair came to no harm."""
+    if row["avoided"] is not False:
+        return AVOIDED
+    category = row["runway_incursion_category"]
+    found = {
+        "collision": row["collision"],
+        "NMAC": row["nmac"],
+        f"incursion {category}": category in SERIOUS_INCURSIONS,
+    }
+    return next((harm for harm, has_it in found.items() if has_it), "loss of separation")
 
 
 def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimate:

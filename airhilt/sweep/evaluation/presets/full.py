@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
@@ -10,7 +11,7 @@ from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
-from airhilt.sweep.evaluation.tables import Cell, Table, number, percent, share
+from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number, percent, share
 from airhilt.sweep.specification import Specification
 
 MODALITIES = "modalities"
@@ -62,7 +63,7 @@ def _given(choice: Choice) -> Mapping[str, str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the tables: families, severities, modalities, topologies."""
+    """Return the tables: families, harms, severities, modalities, topologies."""
     rows = results.rows
     baselines = Baselines.of(rows[NO_ASSISTANT], rows["well_clear"])
     return tuple(_tables(results, baselines))
@@ -70,6 +71,7 @@ def tables(results: Results) -> Sequence[Table]:
 
 def _tables(results: Results, baselines: Baselines) -> Iterator[Table]:
     yield _families(results, baselines)
+    yield _harms(results, baselines)
     yield _severities(results, baselines)
     yield _modalities(results, baselines)
     if TOPOLOGIES in results.rows:
@@ -118,6 +120,37 @@ def _notes(results: Results) -> Iterator[str]:
 
 def _of_scenario_family(results: Results, sweep: str, family: str) -> bool:
     return any(row["family"] == family for row in results.rows[sweep])
+
+
+def _harms(results: Results, baselines: Baselines) -> Table:
+    """Return what became, by scenario, of the runs with harm to the pair without an assistant."""
+    names = (NO_ASSISTANT, *(each.name for each in ASSISTANTS))
+    counts = {name: _harm_counts(results.rows[name], baselines) for name in names}
+    return Table(
+        name="harms",
+        title="What is avoided, by scenario",
+        columns=("scenario", *names),
+        rows=tuple(
+            (scenario, *(counts[name].get(scenario, NOTHING) for name in names))
+            for scenario in counts[NO_ASSISTANT]
+        ),
+        notes=(
+            "Number of runs by the worst that they came to, of those in which the pair came to "
+            "harm without an assistant. An incursion is harm if its category is A or B.",
+        ),
+    )
+
+
+def _harm_counts(rows: Sequence[Row], baselines: Baselines) -> Mapping[str, str]:
+    """Return the worst that runs came to, with their numbers, by scenario."""
+    harms: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for row in rows:
+        if scores.pair_of(row) in baselines.lost:
+            harms[row["scenario"]][scores.harm_of(row)] += 1
+    return {
+        scenario: ", ".join(f"{harm} {count}" for harm, count in sorted(harms[scenario].items()))
+        for scenario in sorted(harms)
+    }
 
 
 def _severities(results: Results, baselines: Baselines) -> Table:

@@ -1,1 +1,0 @@
-"""Comparison of assistants over scenarios and seeds."""
