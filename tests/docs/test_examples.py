@@ -164,8 +164,8 @@ def test_the_python_of_a_page_can_be_run(
     request: pytest.FixtureRequest,
 ) -> None:
     work = Path(environment["PWD"])
-    if "sweeps/" in example.text:
-        shutil.copytree(request.getfixturevalue("sweep_folder"), work / "sweeps" / "s01a")
+    for name in set(re.findall(r"sweeps/(\w+)", example.text)):
+        shutil.copytree(request.getfixturevalue("sweep_folder"), work / "sweeps" / name)
     (work / "example.py").write_text(example.text)
     (work / "launch.py").write_text(
         f"import runpy, sys\nsys.path.append({str(SUPPORT)!r})\n"
