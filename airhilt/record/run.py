@@ -16,6 +16,7 @@ from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
 from airhilt.record.log_reader import Logged, LogReader, gaps_text
 from airhilt.record.manifest import FileRecord, digest, problem_of
+from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
 
 Notice = Callable[[str], None]
@@ -106,7 +107,7 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
     for line in run.damage:
         text = f"{run.folder.path}: {line}"
         if notice is None:
-            warnings.warn(text, DamagedRunWarning, stacklevel=2)
+            warnings.warn(readable(text, LONGEST_LINE), DamagedRunWarning, stacklevel=2)
         else:
             notice(text)
     return run

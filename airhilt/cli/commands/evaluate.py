@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from airhilt.cli.output import echo
 from airhilt.cli.words import counted
 from airhilt.cli.work_flags import work_flags, work_given
 
@@ -110,7 +111,7 @@ def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
     if as_json:
         click.echo(json.dumps(evaluation.document(), indent=2))
     elif not quiet:
-        click.echo(evaluation.markdown())
+        echo(evaluation.markdown())
         rows, runs = counted(evaluation.rows, "row"), counted(evaluation.runs, "run")
         click.echo(f"{rows} of {runs} in {evaluation.folder}")
 

@@ -7,6 +7,8 @@ from typing import Any
 
 import click
 
+from airhilt.cli.notices import tell
+
 
 @click.command(
     epilog="""\b
@@ -63,7 +65,7 @@ def schema(
 
         types, problems = load_sensor_types()
         for problem in problems:
-            click.echo(f"airhilt: {problem}", err=True)
+            tell(str(problem))
         document = json_schemas(sensor_messages(types))
     click.echo(json.dumps(document, indent=2))
 
