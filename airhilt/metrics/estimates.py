@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 CONFIDENCE = 0.95
 RESAMPLES = 1999
@@ -86,6 +87,30 @@ def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Esti
     return Estimate(mean, low, high, sample.size)
 
 
+def mean_of_groups(values: Sequence[float] | Array, groups: Sequence[int] | IntArray) -> Estimate:
+    """Return the mean, with the interval of a bootstrap over groups of values that go together.
+
+    Whole groups are drawn again (Davison and Hinkley, Bootstrap Methods and their Application,
+    1997, section 3.8), so that values that depend on each other count as one. Where each value is a
+    group it is `mean_of`. The interval is None for fewer than `FEWEST_RESAMPLED` groups.
+
+    Parameters
+    ----------
+    groups
+        Number of the group of each value, from 0 on without gaps.
+    """
+    sample = np.asarray(values, dtype=np.float64)
+    counts = np.bincount(np.asarray(groups, dtype=np.int64)).astype(np.float64)
+    if counts.size == sample.size:
+        return mean_of(sample)
+    mean = float(sample.mean())
+    if counts.size < FEWEST_RESAMPLED:
+        return Estimate(mean, None, None, sample.size)
+    sums = np.bincount(np.asarray(groups, dtype=np.int64), weights=sample).astype(np.float64)
+    low, high = _interval_of_ratio(sums, counts)
+    return Estimate(mean, low, high, sample.size)
+
+
 def median_of(values: Sequence[float] | Array) -> Estimate:
     """Return the median, with the interval of a percentile bootstrap over the runs.
 
@@ -130,10 +155,16 @@ def rate_of(
         return Estimate(rate, None, None, events.size)
     if rate == 0.0:
         return Estimate(0.0, 0.0, -math.log((1.0 - CONFIDENCE) / 2.0) / total, events.size)
+    low, high = _interval_of_ratio(events, whole)
+    return Estimate(rate, low, high, events.size)
+
+
+def _interval_of_ratio(above: Array, below: Array) -> tuple[float, float]:
+    """Return the interval of the ratio of two sums, by a bootstrap over their parts together."""
     random = np.random.default_rng(SEED)
-    drawn = random.multinomial(events.size, np.full(events.size, 1.0 / events.size), RESAMPLES)
-    low, high = np.quantile((drawn @ events) / (drawn @ whole), _tails())
-    return Estimate(rate, float(low), float(high), events.size)
+    drawn = random.multinomial(above.size, np.full(above.size, 1.0 / above.size), RESAMPLES)
+    low, high = np.quantile((drawn @ above) / (drawn @ below), _tails())
+    return float(low), float(high)
 
 
 def _interval_of_mean(sample: Array) -> tuple[float, float]:

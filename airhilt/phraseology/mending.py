@@ -108,10 +108,10 @@ def candidates(word: str) -> tuple[str, ...]:
 def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
     """Replace the words that fit as others that sound like them, in place."""
     for at, word in enumerate(texts):
-        found = candidates(word)
-        if not found or at == 0 or texts[at - 1] in _BEFORE_FIX:
+        if at == 0 or texts[at - 1] in _BEFORE_FIX:
             continue
-        if not _is_operators(word, texts[at + 1 : at + 2]):
+        found = candidates(word)
+        if found and not _is_operators(word, texts[at + 1 : at + 2]):
             before, after = " ".join(texts[max(at - 6, 0) : at]), " ".join(texts[at + 1 : at + 7])
             target = next((each for each in found if _fits(each, before, after)), None)
             if target is not None:

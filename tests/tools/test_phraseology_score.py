@@ -67,6 +67,20 @@ def test_kinds_out_of_scope_are_listed_and_not_missed() -> None:
     assert (counts.items, counts.out_of_scope["atis"]) == (0, 1)
 
 
+def test_a_call_is_acted_upon_if_what_it_says_was_heard_with_confidence() -> None:
+    line = {"text": TURN, "roster": ROSTER, "callsign": "DAL456", "items": [HEADING]}
+    words = len(TURN.split())
+    sure = score([line | {"word_confidences": [0.95] * words}])
+    doubtful = score([line | {"word_confidences": [0.5] * words}])
+    assert (sure.acted_upon, sure.acted_upon_wrongly) == (1, 0)
+    assert (doubtful.items_right, doubtful.acted_upon) == (1, 0)
+
+
+def test_a_call_is_acted_upon_wrongly_if_something_else_was_said() -> None:
+    counts = scored(TURN, {**HEADING, "value": 280})
+    assert (counts.acted_upon, counts.acted_upon_wrongly) == (1, 1)
+
+
 def test_of_calls_as_people_make_them_no_clearance_is_invented_with_confidence() -> None:
     corpus = Path(phraseology_judge.__file__).parent / "colloquial.jsonl"
     counts = score(json.loads(line) for line in corpus.read_text().splitlines())

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import random
 import sys
-from itertools import islice
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import asr_speech
 from airhilt.errors import SpeechError
@@ -78,9 +81,17 @@ def test_timbres_of_noise_sound_the_same_every_time() -> None:
         assert np.array_equal(first, again), voice.name
 
 
+def spoken(
+    made_by: Synthesiser, voices: Sequence[Voice], count: int, *, held_out_names: bool = False
+) -> list[tuple[dict[str, Any], NDArray[np.int16]]]:
+    rng = random.Random(5)
+    calls = asr_speech.made_up(count, rng, held_out_names=held_out_names)
+    return list(asr_speech.speech(made_by, voices, calls, rng))
+
+
 def test_the_same_seed_gives_the_same_calls() -> None:
     made_by = synthesiser("espeak")
-    first, again = (list(asr_speech.speech(made_by, made_by.voices, 3, 5)) for _ in range(2))
+    first, again = (spoken(made_by, made_by.voices, 3) for _ in range(2))
     assert [about for about, _ in first] == [about for about, _ in again]
     assert all(np.array_equal(one[1], other[1]) for one, other in zip(first, again, strict=True))
 
@@ -88,7 +99,7 @@ def test_the_same_seed_gives_the_same_calls() -> None:
 def test_voices_take_turns() -> None:
     made_by = synthesiser("espeak")
     voices = made_by.voices[:3]
-    said = [about["voice"] for about, _ in islice(asr_speech.speech(made_by, voices, 6, 5), 6)]
+    said = [about["voice"] for about, _ in spoken(made_by, voices, 6)]
     assert sorted(said) == sorted(voice.name for voice in voices for _ in range(2))
 
 
@@ -107,20 +118,36 @@ def test_shards_say_who_speaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     assert len(samples) == sum(line["samples"] for line in lines)
 
 
+def test_calls_of_a_file_are_spoken_and_keep_what_they_mean(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[dict[str, Any]] = [
+        {"text": "delta two roger", "callsign": "DAL2", "items": []},
+        {"text": "wind calm", "callsign": None, "items": [{"kind": "wind"}]},
+    ]
+    exam = tmp_path / "exam.jsonl"
+    exam.write_text("".join(f"{json.dumps(call)}\n" for call in calls))
+    monkeypatch.setattr(sys, "argv", ["", str(tmp_path / "out"), "espeak", "--calls", str(exam)])
+    asr_speech.main()
+    lines = (tmp_path / "out" / "espeak-exam-0-000.jsonl").read_text().splitlines()
+    assert len(lines) == 2
+    for call, line in zip(calls, lines, strict=True):
+        about = json.loads(line)
+        assert {name: about[name] for name in call} == call
+
+
 def test_held_out_names_are_in_a_set_of_their_own() -> None:
     made_by = synthesiser("espeak")
     words = [
         {
             word
-            for about, _ in asr_speech.speech(
-                made_by, made_by.voices[:1], 12, 5, held_out_names=held_out
-            )
+            for about, _ in spoken(made_by, made_by.voices[:1], 12, held_out_names=held_out)
             for word in about["text"].split()
         }
         for held_out in (False, True)
     ]
     assert words[0] != words[1]
-    assert asr_speech.stem("espeak", "all", held_out_names=True) == "espeak-all-names"
+    assert asr_speech.stem("espeak", "all", "names") == "espeak-all-names"
 
 
 def test_unseen_voices_are_no_seen_ones() -> None:

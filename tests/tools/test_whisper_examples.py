@@ -39,7 +39,7 @@ class Features:
 
 def call(text: str, callsign: str | None, voice: str = "en-us+max") -> SpokenCall:
     tone = 9_000 * np.sin(np.arange(2 * SECOND) * 0.2)
-    return SpokenCall(text, callsign, voice, tone.astype(np.int16))
+    return SpokenCall({"text": text, "callsign": callsign, "voice": voice}, tone.astype(np.int16))
 
 
 CALLS = [

@@ -2,11 +2,14 @@
 
 A shard is two files: `NAME.npy`, all samples one after another (int16, 16 kHz), and `NAME.jsonl`,
 one line an utterance with its text, callsign, voice, rate and length. NAME begins with the
-synthesiser, then has the choice of voices unless it is ``seen``, and ``names`` for held-out names.
+synthesiser, then has the choice of voices unless it is ``seen``, and ``names`` for held-out names
+or the name of the file of calls. Calls of a file keep what they are said to mean.
 
     python tools/asr/asr_speech.py build/asr espeak --count 30000 --seed 1
     python tools/asr/asr_speech.py build/asr espeak --voices unseen --count 600 --seed 3
     python tools/asr/asr_speech.py build/asr flite --voices all --count 6000 --seed 2
+    python tools/asr/asr_speech.py build/asr/exam pico --voices all \
+        --calls tools/phraseology_judge/third_exam.jsonl
 
 Several runs with other seeds may work at the same time.
 """
@@ -18,8 +21,10 @@ import json
 import random
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from itertools import count as count_from
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -43,27 +48,19 @@ CALLS, FEW = 10_000, 3
 def speech(
     made_by: Synthesiser,
     voices: Sequence[Voice],
-    count: int,
-    seed: int,
-    *,
-    held_out_names: bool = False,
+    calls: Iterable[dict[str, Any]],
+    rng: random.Random,
 ) -> Iterator[tuple[dict[str, Any], NDArray[np.int16]]]:
     """Yield what a shard says of each call, and its samples; the voices take turns."""
-    rng = random.Random(f"{made_by.name} {seed}")  # Synthesisers say different things.
-    talk = Talk(rng, held_out=held_out_names)
     talker = made_by.create()
     turn: list[Voice] = []
-    for _ in range(count):
-        is_salad = rng.random() < SALAD
-        text = talk.salad(_words()) if is_salad else talk.call()
-        spoken = _with_pauses(text, rng)
+    for call in calls:
+        spoken = _with_pauses(call["text"], rng)
         turn = turn or rng.sample(voices, len(voices))
         voice = turn.pop()
         rate = round(rng.uniform(*WORDS_PER_MINUTE), 1)
         pitch = round(rng.uniform(*made_by.pitches), 3)
-        about = {
-            "text": text,
-            "callsign": None if is_salad else talk.callsign_of_call,
+        about = call | {
             "engine": made_by.name,
             "voice": voice.name,
             "speaker": voice.speaker,
@@ -72,6 +69,19 @@ def speech(
             "pitch": pitch,
         }
         yield about, speak(talker, voice, spoken, rate, pitch)
+
+
+def made_up(
+    count: int, rng: random.Random, *, held_out_names: bool = False
+) -> Iterator[dict[str, Any]]:
+    """Yield texts of the corpus, each with its callsign."""
+    talk = Talk(rng, held_out=held_out_names)
+    for _ in range(count):
+        if rng.random() < SALAD:
+            yield {"text": talk.salad(_words()), "callsign": None}
+        else:
+            text = talk.call()
+            yield {"text": text, "callsign": talk.callsign_of_call}
 
 
 @cache
@@ -88,18 +98,29 @@ def _with_pauses(text: str, rng: random.Random) -> str:
     return f"{' '.join(words).rstrip(',')}."
 
 
-def stem(name: str, voices: str, *, held_out_names: bool = False) -> str:
+def stem(name: str, voices: str, texts: str = "") -> str:
     """Return how the names of shards begin."""
     chosen = voices if voices in CHOICES else "chosen"
-    return "-".join(
-        [name, *([] if voices == "seen" else [chosen]), *(["names"] if held_out_names else [])]
-    )
+    return "-".join(filter(None, [name, "" if voices == "seen" else chosen, texts]))
 
 
 def write(
-    folder: Path, name: str, count: int, seed: int, voices: str, *, held_out_names: bool = False
+    folder: Path,
+    name: str,
+    count: int,
+    seed: int,
+    voices: str,
+    *,
+    held_out_names: bool = False,
+    calls: Path | None = None,
 ) -> None:
     """Write the shards of a synthesiser.
+
+    Parameters
+    ----------
+    calls
+        File of calls to speak, one JSON object a line with its ``text`` and ``callsign``; None:
+        ``count`` calls of the corpus.
 
     Raises
     ------
@@ -108,17 +129,23 @@ def write(
     """
     made_by = synthesiser(name)
     chosen = made_by.choose(voices)
-    utterances = speech(made_by, chosen, count, seed, held_out_names=held_out_names)
-    begin = stem(name, voices, held_out_names=held_out_names)
+    rng = random.Random(f"{name} {seed}")  # Synthesisers say different things.
+    if calls is None:
+        texts = "names" if held_out_names else ""
+        of_calls = made_up(count, rng, held_out_names=held_out_names)
+    else:
+        texts = calls.stem
+        of_calls = iter([json.loads(line) for line in calls.read_text().splitlines()])
+    utterances = speech(made_by, chosen, of_calls, rng)
+    begin = stem(name, voices, texts)
     folder.mkdir(parents=True, exist_ok=True)
-    for shard in range(-(-count // SHARD)):
-        lines, samples = [], []
-        for _ in range(min(SHARD, count - shard * SHARD)):
-            about, pcm = next(utterances)
-            lines.append(json.dumps(about | {"samples": len(pcm)}))
-            samples.append(pcm)
+    for shard in count_from(0):
+        spoken = list(islice(utterances, SHARD))
+        if not spoken:
+            break
+        lines = [json.dumps(about | {"samples": len(pcm)}) for about, pcm in spoken]
         path = folder / f"{begin}-{seed}-{shard:03d}"
-        np.save(path.with_suffix(".tmp.npy"), np.concatenate(samples))
+        np.save(path.with_suffix(".tmp.npy"), np.concatenate([pcm for _, pcm in spoken]))
         path.with_suffix(".jsonl").write_text("\n".join(lines) + "\n")
         path.with_suffix(".tmp.npy").rename(path.with_suffix(".npy"))
         print(f"{path.name}: {len(lines)} utterances", flush=True)
@@ -142,6 +169,9 @@ def main() -> None:
         action="store_true",
         help="places and fixes that no training text has, instead of the others",
     )
+    parser.add_argument(
+        "--calls", type=Path, help="file of calls to speak instead of the corpus (.jsonl)"
+    )
     given = parser.parse_args()
     try:
         write(
@@ -151,6 +181,7 @@ def main() -> None:
             given.seed,
             given.voices,
             held_out_names=given.held_out_names,
+            calls=given.calls,
         )
     except SpeechError as error:
         print(f"asr_speech.py: {error}", file=sys.stderr)

@@ -70,10 +70,9 @@ def main() -> None:
     parser.add_argument("model", type=Path)
     given = parser.parse_args()
     engine = Ctc(given.model)
-    words = (given.model / "words.txt").read_text().split()
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
     rosters = rosters_for(utterances)
-    calls = list(heard_calls(engine, words, utterances, rosters))
+    calls = list(heard_calls(engine, utterances, rosters))
     silent = [
         [emission.posterior for emission in engine.path(engine.posteriors(audio), rosters[0])]
         for audio in noise_alone(SILENT_CALLS, seed=6)
@@ -101,7 +100,6 @@ def main() -> None:
 
 def heard_calls(
     engine: Ctc,
-    words: Sequence[str],
     utterances: Sequence[SpokenCall],
     rosters: Sequence[tuple[str, ...]],
 ) -> Iterator[HeardCall]:
@@ -112,7 +110,7 @@ def heard_calls(
             rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
             heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
             path = engine.path(engine.posteriors(heard), rosters[index])
-            hypothesis = [words[emission.unit - 1] for emission in path]
+            hypothesis = [emission.word for emission in path]
             yield HeardCall(
                 each.text.split(),
                 hypothesis,

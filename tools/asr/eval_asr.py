@@ -1,11 +1,13 @@
-"""Measures recognisers: word error rate and callsigns, by voice and by signal-to-noise ratio.
+"""Measures recognisers: words, callsigns, and what is made of calls, by lineage of voices and SNR.
 
     python tools/asr/eval_asr.py build/asr/test --engine embedded
-    python tools/asr/eval_asr.py build/asr/test --engine embedded --engine whisper:DIR --markdown
+    python tools/asr/eval_asr.py build/asr/exam --engine embedded --engine whisper:DIR
 
 The folder holds shards of `asr_speech`. Each utterance goes through the channel "vhf" with a noise
-of its own, the same for each engine. A callsign is right if the parser finds it among ten that are
-on the frequency. Confidence is compared with how often calls are wholly right.
+of its own, the same for each engine. A callsign is right if the parser finds it among those on the
+frequency: ten, or those that the call names itself. Of calls that say what they mean
+(`tools/phraseology_judge`), the items are compared with what the parser reads in the transcript.
+Confidence is compared with how often calls are wholly right.
 """
 
 from __future__ import annotations
@@ -30,25 +32,38 @@ from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
 
+sys.path.append(str(Path(__file__).parents[1]))
+
+from phraseology_judge.score import Score as Meanings
+
 RATIOS: tuple[float | None, ...] = (None, 20.0, 10.0, 5.0, 0.0, -3.0)
 MISLEADING_DB = 10.0
 SILENT_CALLS = 300
-SETS = {
-    "espeak": "seen voices",
-    "flite": "seen flite voices",
-    "espeak-unseen": "unseen voices",
-    "flite-unseen": "unseen engine (flite awb)",
-}
 
 
 @dataclass(frozen=True)
 class SpokenCall:
     """One utterance of a shard. Its samples stay on the disk until they are asked for."""
 
-    text: str
-    callsign: str | None
-    voice: str
+    about: dict[str, Any]
+    """Its line: text, callsign, voice, lineage; of an exam its roster and items too."""
     pcm: NDArray[np.int16]
+
+    @property
+    def text(self) -> str:
+        """What was said."""
+        return str(self.about["text"])
+
+    @property
+    def callsign(self) -> str | None:
+        """Callsign of the call; None if it names nobody."""
+        callsign: str | None = self.about["callsign"]
+        return callsign
+
+    @property
+    def voice(self) -> str:
+        """Name of the voice that says it."""
+        return str(self.about["voice"])
 
     @property
     def speech(self) -> Audio:
@@ -64,6 +79,8 @@ class Score:
     hypotheses: list[str]
     confidences: list[float]
     callsigns: list[bool]
+    meanings: Meanings
+    """Counts of the calls that say what they mean."""
 
     @property
     def word_error_rate(self) -> float:
@@ -79,11 +96,11 @@ def spoken(path: Path) -> Iterator[SpokenCall]:
         about = json.loads(line)
         pcm = samples[at : at + about["samples"]]
         at += about["samples"]
-        yield SpokenCall(about["text"], about["callsign"], about["voice"], pcm)
+        yield SpokenCall(about, pcm)
 
 
 def rosters_for(utterances: list[SpokenCall]) -> list[tuple[str, ...]]:
-    """Return who is on the frequency of each call: ten, its speaker or addressee among them.
+    """Return who is on the frequency of each call: its roster, or ten with its callsign among them.
 
     There are fewer if all calls together name fewer.
     """
@@ -91,7 +108,11 @@ def rosters_for(utterances: list[SpokenCall]) -> list[tuple[str, ...]]:
     others = min(9, len(everybody))
     rng = random.Random(0)
     return [
-        tuple(filter(None, (each.callsign, *rng.sample(everybody, others)))) for each in utterances
+        tuple(
+            each.about.get("roster")
+            or filter(None, (each.callsign, *rng.sample(everybody, others)))
+        )
+        for each in utterances
     ]
 
 
@@ -101,12 +122,13 @@ def misled(utterances: list[SpokenCall], engine_name: str, snr_db: float) -> flo
     channel = VhfChannel(PROFILES["vhf"])
     rng = random.Random(1)
     everybody = [each.callsign for each in utterances if each.callsign]
+    others = min(9, len(everybody))
     taken = []
     for index, each in enumerate(utterances):
-        if each.callsign is None:
+        if each.callsign is None or not any(sign.isdigit() for sign in each.callsign):
             continue
         other = one_digit_off(each.callsign, rng)
-        roster = [other, *(name for name in rng.sample(everybody, 9) if name != each.callsign)]
+        roster = [other, *(name for name in rng.sample(everybody, others) if name != each.callsign)]
         noise = np.random.default_rng([index, int(snr_db) + 100])
         audio = channel.transmit(each.speech, snr_db, noise, (), "cockpit")
         text = engine.recognise(audio, roster).text
@@ -146,7 +168,7 @@ def score(
     engine = asr_engine(engine_name)
     channel = VhfChannel(PROFILES["vhf"])
     rosters = rosters_for(utterances)
-    result = Score([], [], [], [])
+    result = Score([], [], [], [], Meanings())
     spent = heard_s = 0.0
     for index, each in enumerate(utterances):
         noise = np.random.default_rng([index, 1 if snr_db is None else int(snr_db) + 100])
@@ -161,6 +183,12 @@ def score(
         if each.callsign is not None:
             named = parse_call(recognised.text, rosters[index]).callsign
             result.callsigns.append(named == each.callsign)
+        if "items" in each.about:
+            words = {
+                "text": recognised.text,
+                "word_confidences": [confidence for _, confidence in recognised.words],
+            }
+            result.meanings.take(each.about | words)
     return result, spent / heard_s
 
 
@@ -186,42 +214,72 @@ def reliability(scores: list[Score]) -> list[tuple[str, int, float, float]]:
     return rows
 
 
-def sets_of(folder: Path, limit: int) -> Iterator[tuple[str, str, list[SpokenCall]]]:
-    """Yield name, title and utterances of each set of which there are any."""
-    for name, title in SETS.items():
-        paths = sorted(folder.glob(f"{name}-[0-9]*.jsonl"))
-        utterances = [each for path in paths for each in spoken(path)][:limit]
-        if utterances:
-            yield name, title, utterances
+def sets_of(folder: Path, limit: int) -> Iterator[tuple[str, list[SpokenCall]]]:
+    """Yield the lineages of voices, and the first calls of each."""
+    of_lineage: dict[str, list[SpokenCall]] = {}
+    for path in sorted(folder.glob("*.jsonl")):
+        for each in spoken(path):
+            of_lineage.setdefault(each.about["lineage"], []).append(each)
+    for lineage, utterances in sorted(of_lineage.items()):
+        yield lineage, utterances[:limit]
 
 
-def evaluate(engine: str, folder: Path, limit: int) -> list[dict[str, Any]]:
+def evaluate(
+    engine: str, folder: Path, limit: int, lineages: tuple[str, ...] = ()
+) -> list[dict[str, Any]]:
     """Print the tables of an engine, and return the numbers of the first."""
-    print(f"\n### {engine}\n\n| WER % (callsigns right %) | " + " | ".join(
-        "clean" if snr is None else f"{snr:g} dB" for snr in RATIOS) + " |")  # fmt: skip
-    print("|---|" + "---|" * len(RATIOS))
+    print(f"\n### {engine}\n\n| lineage | SNR | WER % | callsigns right % | items right % "
+          "| acted upon % | of these wrong % |\n|---|---|---|---|---|---|---|")  # fmt: skip
     numbers = []
     scores: list[Score] = []
     factors = []
     all_utterances: list[SpokenCall] = []
-    for name, title, utterances in sets_of(folder, limit):
+    for lineage, utterances in sets_of(folder, limit):
+        if lineages and lineage not in lineages:
+            continue
         all_utterances += utterances
-        cells = []
         for snr in RATIOS:
             got, factor = score(utterances, engine, snr)
             scores.append(got)
             factors.append(factor)
-            rate, right = 100 * got.word_error_rate, 100 * float(np.mean(got.callsigns))
-            numbers.append(
-                {"engine": engine, "set": name, "snr_db": snr, "wer": rate, "callsigns": right}
-            )
-            cells.append(f"{rate:.1f} ({right:.0f})")
-        print(f"| {title}, {len(utterances)} calls | " + " | ".join(cells) + " |")
-        sys.stdout.flush()
-    print_mistakes(engine, all_utterances)
+            numbers.append({"engine": engine, "lineage": lineage, "snr_db": snr} | measures(got))
+            print(row_of(numbers[-1]))
+            sys.stdout.flush()
+    if not scores:
+        print(f"\nNo calls of {', '.join(lineages) or 'any lineage'} in {folder}.")
+        return numbers
+    if any(each.callsign for each in all_utterances):
+        print_mistakes(engine, all_utterances)
     print(f"\nReal-time factor {np.mean(factors):.4f}, one core.\n")
     print_reliability(scores)
     return numbers
+
+
+def measures(got: Score) -> dict[str, Any]:
+    """Return the numbers of a score: shares in percent, None where there is nothing to count."""
+    meant = got.meanings
+
+    def percent(part: float, whole: float) -> float | None:
+        return 100.0 * part / whole if whole else None
+
+    return {
+        "calls": len(got.references),
+        "wer": 100.0 * got.word_error_rate,
+        "callsigns": percent(sum(got.callsigns), len(got.callsigns)),
+        "items": percent(meant.items_right, meant.items),
+        "acted_upon": percent(meant.acted_upon, meant.calls),
+        "acted_upon_wrongly": percent(meant.acted_upon_wrongly, meant.acted_upon),
+    }
+
+
+def row_of(numbers: dict[str, Any]) -> str:
+    """Return a row of the table."""
+    snr = "clean" if numbers["snr_db"] is None else f"{numbers['snr_db']:g} dB"
+    shares = [
+        "" if numbers[name] is None else f"{numbers[name]:.1f}"
+        for name in ("wer", "callsigns", "items", "acted_upon", "acted_upon_wrongly")
+    ]
+    return f"| {numbers['lineage']}, {numbers['calls']} calls | {snr} | {' | '.join(shares)} |"
 
 
 def print_mistakes(engine: str, utterances: list[SpokenCall]) -> None:
@@ -249,11 +307,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--engine", action="append", required=True)
-    parser.add_argument("--limit", type=int, default=10_000, help="utterances a set")
+    parser.add_argument("--limit", type=int, default=10_000, help="utterances of a lineage")
+    parser.add_argument(
+        "--lineage", action="append", default=[], help="lineage of voices; all if not given"
+    )
     parser.add_argument("--json", type=Path, help="write all numbers here too")
     given = parser.parse_args()
     numbers = [
-        row for engine in given.engine for row in evaluate(engine, given.folder, given.limit)
+        row
+        for engine in given.engine
+        for row in evaluate(engine, given.folder, given.limit, tuple(given.lineage))
     ]
     if given.json:
         given.json.write_text(json.dumps(numbers, indent=1) + "\n")

@@ -1,13 +1,14 @@
 """Trains the embedded recogniser on speech that `asr_speech` has made, and writes its ONNX file.
 
-A TDNN-CTC network (temporal convolutions with residuals) whose units are the words of
-`asr_corpus`, so that it can give no word that aviators do not use. Noise and levels vary anew
-each time an utterance is seen: they are mixed as mel powers, which costs next to nothing. The
-last part of the training adds calls that really went through `airhilt.sensors.radio.channel`.
+A TDNN-CTC network (temporal convolutions with residuals) whose units are the word pieces of
+`learn_pieces`, so that it can write words that no training text has. Noise and levels vary anew
+each time an utterance is seen: they are mixed as mel powers, which costs next to nothing. A share
+of the calls really went through `airhilt.sensors.radio.channel`.
 
+    python tools/asr/learn_pieces.py build/asr/pieces.txt
     python tools/asr/train_asr.py prepare build/asr/train     (as often as there are new shards)
-    python tools/asr/train_asr.py train build/asr --minutes 90
-    python tools/asr/train_asr.py export build/asr airhilt/assistant/asr/model
+    python tools/asr/train_asr.py train build/asr --into build/asr/full --steps 36000
+    python tools/asr/train_asr.py export build/asr/full airhilt/assistant/asr/model
 
 Needs torch, which the package itself does not.
 """
@@ -18,36 +19,40 @@ import argparse
 import json
 import math
 import random
+import shutil
 import time
+import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor, nn
 
 from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
+from airhilt.assistant.asr.pieces import Pieces
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
-from asr_corpus import Talk
+from synthesisers import FAMILY
 
 STRIDE = 6
 """Frames of features to one of the output: 60 ms."""
-WIDTH = 224
+WIDTH, NARROW = 224, 128
 DILATIONS = (1, 1, 2, 1, 2, 4, 1, 2)
+HALFWAY, HALFWAY_WEIGHT = 4, 0.3
+"""Block after which the pieces are asked for too, and the weight of that loss (intermediate CTC:
+Lee and Watanabe, ICASSP 2021)."""
 BATCH_FRAMES = 9_000
+EASY_SHARE = 0.06
+"""Share of the steps at the beginning in which only short, clear calls are drawn."""
 REAL_SHARE = 0.25
 """Share of the utterances that `prepare` also sends through the real channel, with noise."""
 
 
-def vocabulary() -> list[str]:
-    """Return all words of the corpus, in alphabetical order. Unit 0 is the blank, word i is i+1."""
-    talk = Talk(random.Random(0))
-    return sorted({word for _ in range(60_000) for word in talk.call().split()})
-
-
 class Residual(nn.Module):
-    """Two convolutions' worth of context with a way round them."""
+    """A convolution with a way round it."""
 
     def __init__(self, width: int, dilation: int) -> None:
         super().__init__()
@@ -61,20 +66,30 @@ class Residual(nn.Module):
 
 
 class Recogniser(nn.Module):
-    """Log-mel features (batch, frames, bins) to logits (batch, frames / 6, words + 1)."""
+    """Log-mel features (batch, frames, bins) to logits (batch, frames / 6, pieces + 1)."""
 
-    def __init__(self, words: int) -> None:
+    def __init__(self, pieces: int) -> None:
         super().__init__()
         self.front = nn.Sequential(
-            nn.Conv1d(BINS, WIDTH, 5, stride=2, padding=2), nn.BatchNorm1d(WIDTH), nn.ReLU(),
-            nn.Conv1d(WIDTH, WIDTH, 5, stride=3, padding=2), nn.BatchNorm1d(WIDTH), nn.ReLU(),
+            nn.Conv1d(BINS, NARROW, 5, stride=2, padding=2), nn.BatchNorm1d(NARROW), nn.ReLU(),
+            nn.Conv1d(NARROW, WIDTH, 5, stride=3, padding=2), nn.BatchNorm1d(WIDTH), nn.ReLU(),
         )  # fmt: skip
-        self.body = nn.Sequential(*(Residual(WIDTH, dilation) for dilation in DILATIONS))
-        self.head = nn.Conv1d(WIDTH, words + 1, 1)
+        blocks = [Residual(WIDTH, dilation) for dilation in DILATIONS]
+        self.lower = nn.Sequential(*blocks[:HALFWAY])
+        self.upper = nn.Sequential(*blocks[HALFWAY:])
+        self.head = nn.Conv1d(WIDTH, pieces + 1, 1)
 
     def forward(self, features: Tensor) -> Tensor:
         """Return the logits."""
-        return self.head(self.body(self.front(features.transpose(1, 2)))).transpose(1, 2)
+        return self.both(features)[1]
+
+    def both(self, features: Tensor) -> tuple[Tensor, Tensor]:
+        """Return the logits halfway and at the end."""
+        halfway = self.lower(self.front(features.transpose(1, 2)))
+        return (
+            self.head(halfway).transpose(1, 2),
+            self.head(self.upper(halfway)).transpose(1, 2),
+        )
 
 
 # --- data ----------------------------------------------------------------------------------
@@ -90,7 +105,7 @@ def prepare(folder: Path) -> None:
         if target.exists() or not path.with_suffix(".npy").exists():
             continue
         begun = time.time()
-        rng = np.random.default_rng(abs(hash(path.stem)) % 2**32)
+        rng = np.random.default_rng(zlib.crc32(path.stem.encode()))
         samples = np.load(path.with_suffix(".npy"), mmap_mode="r")
         clean, real, lengths, real_of, at = [], [], [], [], 0
         for index, line in enumerate(path.read_text().splitlines()):
@@ -130,29 +145,48 @@ class Utterance:
     """One call as mel powers, clean or as it was received."""
 
     mel: np.ndarray
-    units: list[int]
+    units: Sequence[int]
     real: bool
 
 
-def load(folder: Path, words: dict[str, int], known: set[str]) -> list[Utterance]:
-    """Return the utterances of shards that are not known yet."""
+def load(folder: Path, pieces: Pieces, known: set[str], without: str) -> list[Utterance]:
+    """Return the utterances of shards that are not known yet.
+
+    Parameters
+    ----------
+    without
+        Lineage that is left out, with all other voices of its speakers; empty for none.
+    """
+    fresh = [path for path in sorted(folder.glob("*.mel.npz")) if path.name not in known]
+    known |= {path.name for path in fresh}
+    left_out = speakers_of(without)
     found = []
-    for path in sorted(folder.glob("*.mel.npz")):
-        if path.name in known:
-            continue
-        known.add(path.name)
-        lines = (folder / path.name.replace(".mel.npz", ".jsonl")).read_text().splitlines()
-        texts = [[words[word] + 1 for word in json.loads(line)["text"].split()] for line in lines]
+    for path in fresh:
+        lines = [json.loads(line) for line in _lines(path)]
+        texts = [pieces.units(line["text"].split()) for line in lines]
+        is_kept = [
+            text is not None and line["lineage"] != without and line["speaker"] not in left_out
+            for text, line in zip(texts, lines, strict=True)
+        ]
         with np.load(path) as shard:
             at, clean = 0, shard["clean"]
-            for units, size in zip(texts, shard["lengths"], strict=True):
-                found.append(Utterance(clean[at : at + size], units, False))
+            for index, size in enumerate(shard["lengths"]):
+                if is_kept[index]:
+                    mel = clean[at : at + size].copy()
+                    found.append(Utterance(mel, texts[index] or (), False))
                 at += size
             at, real = 0, shard["real"]
             for index, size in shard["real_of"]:
-                found.append(Utterance(real[at : at + size], texts[index], True))
+                if is_kept[index]:
+                    found.append(Utterance(real[at : at + size].copy(), texts[index] or (), True))
                 at += size
     return found
+
+
+def speakers_of(lineage: str) -> set[str]:
+    """Return the persons whose voices a lineage has."""
+    voices = (voice for name in FAMILY.names() for voice in FAMILY.load(name).voices)
+    return {voice.speaker for voice in voices if voice.lineage == lineage}
 
 
 def noise_bank() -> np.ndarray:
@@ -244,67 +278,100 @@ class Mixer:
 # --- training ------------------------------------------------------------------------------
 
 
-def train(folder: Path, minutes: float, rate: float, threads: int) -> None:
-    """Train until the time is up; write a checkpoint every few minutes."""
-    torch.set_num_threads(threads)
-    torch.manual_seed(0)
-    words = vocabulary()
-    index = {word: number for number, word in enumerate(words)}
-    network = Recogniser(len(words))
-    optimiser = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.01)
-    checkpoint = folder / "checkpoint.pt"
-    easy = not _resume(network, optimiser, checkpoint)
+@dataclass(frozen=True)
+class Training:
+    """What a training is made of.
+
+    Attributes
+    ----------
+    build
+        Folder with ``pieces.txt`` and the prepared shards in ``train``.
+    into
+        Folder of the checkpoint; a training goes on from the one that is there.
+    without
+        Lineage that is left out; empty for none.
+    begin_with
+        Folder of `keep` whose weights a new training begins with; None: random ones.
+    """
+
+    build: Path
+    into: Path
+    steps: int
+    rate: float = 1.5e-3
+    seed: int = 0
+    without: str = ""
+    begin_with: Path | None = None
+
+
+def train(given: Training) -> None:
+    """Train until the steps are done; write a checkpoint every few minutes."""
+    torch.set_num_threads(1)
+    given.into.mkdir(parents=True, exist_ok=True)
+    shutil.copy((given.begin_with or given.build) / "pieces.txt", given.into / "pieces.txt")
+    pieces = pieces_of(given.into)
+    torch.manual_seed(given.seed)
+    network = Recogniser(len(pieces))
+    optimiser = torch.optim.AdamW(network.parameters(), lr=given.rate, weight_decay=0.01)
+    checkpoint = given.into / "checkpoint.pt"
+    if given.begin_with is not None:
+        network.load_state_dict(weights_of(given.begin_with), strict=False)
+    step = _resume(network, optimiser, checkpoint)
     parameters = sum(p.numel() for p in network.parameters())
     known: set[str] = set()
-    utterances = load(folder / "train", index, known)
-    print(f"{parameters / 1e6:.2f} M parameters, {len(words)} words, {len(utterances)} utterances")
-    mixer, order = Mixer(int(time.time())), random.Random(0)
+    utterances = load(given.build / "train", pieces, known, given.without)
+    print(f"{parameters / 1e6:.2f} M parameters, {len(pieces)} pieces, {len(utterances)} calls")
+    mixer, order = Mixer(given.seed + step), random.Random(given.seed + step)
     begun = saved = looked = time.time()
-    seen, step, mean = 0, 0, 8.0
-    while (elapsed := time.time() - begun) < minutes * 60.0:
-        if time.time() - looked > 60.0:
+    first, mean = step, 8.0
+    network.train()
+    while step < given.steps:
+        if time.time() - looked > 120.0:
             looked = time.time()
-            utterances += load(folder / "train", index, known)
-        now = _rate(rate, elapsed / (minutes * 60.0), step)
-        for group in optimiser.param_groups:
-            group["lr"] = now
+            utterances += load(given.build / "train", pieces, known, given.without)
+        easy = step < EASY_SHARE * given.steps
         for batch in _batches(utterances, order, easy):
-            inputs = [mixer.mix(each, easy) for each in batch]
-            targets = [each.units for each in batch]
-            if not easy and order.random() < 0.3:
-                inputs.append(mixer.noise_alone())
-                targets.append([])
-            loss = _loss(network, inputs, targets)
+            for group in optimiser.param_groups:
+                group["lr"] = _rate(given.rate, step, given.steps)
+            loss = _loss(network, *_mixed(batch, mixer, order, easy))
             optimiser.zero_grad()
             loss.backward()
             nn.utils.clip_grad_norm_(network.parameters(), 1.0)
             optimiser.step()
             step += 1
-            seen += len(batch)
             mean += 0.02 * (loss.item() - mean)
-            if step % 50 == 0:
-                spent = (time.time() - begun) / 60
-                drawn = f"{seen} of {len(utterances)} drawn{', easy ones' if easy else ''}"
-                print(f"{spent:6.1f} min  step {step}  loss {mean:.3f}  {drawn}", flush=True)
-            if easy and mean < 1.0:
-                easy = False
-                print("all utterances from here on", flush=True)
+            if step % 100 == 0:
+                each = (time.time() - begun) / (step - first)
+                about = f"{len(utterances)} calls{', easy ones' if easy else ''}"
+                print(f"step {step}  {each:.2f} s each  loss {mean:.3f}  {about}", flush=True)
+            if step >= given.steps:
+                break
         if time.time() - saved > 240.0:
             saved = time.time()
-            _save(network, optimiser, checkpoint)
-    _save(network, optimiser, checkpoint)
-    _note_minutes(folder / "minutes.json", minutes)
+            _save(network, optimiser, step, given, len(utterances))
+    _save(network, optimiser, step, given, len(utterances))
 
 
-def _note_minutes(journal: Path, minutes: float) -> None:
-    earlier = json.loads(journal.read_text()) if journal.exists() else []
-    journal.write_text(json.dumps([*earlier, minutes]))
+def pieces_of(folder: Path) -> Pieces:
+    """Return the pieces of a build folder or a model."""
+    return Pieces((folder / "pieces.txt").read_text(encoding="utf-8").split())
 
 
-def _rate(most: float, progress: float, step: int) -> float:
+def _rate(most: float, step: int, steps: int) -> float:
     """Return the learning rate: a warm-up, then constant, then a cosine."""
-    rate = most * (0.5 * (1 + math.cos(math.pi * max(0.0, (progress - 0.35) / 0.65))) + 0.003)
-    return rate * min(1.0, (step + 1) / 200)
+    decay = max(0.0, (step / steps - 0.35) / 0.65)
+    return most * min(1.0, (step + 1) / 300) * (0.5 * (1 + math.cos(math.pi * decay)) + 0.003)
+
+
+def _mixed(
+    batch: list[Utterance], mixer: Mixer, order: random.Random, easy: bool
+) -> tuple[list[np.ndarray], list[Sequence[int]]]:
+    """Return features and units of a batch, at times with a call in which nobody speaks."""
+    inputs = [mixer.mix(each, easy) for each in batch]
+    targets = [each.units for each in batch]
+    if not easy and order.random() < 0.3:
+        inputs.append(mixer.noise_alone())
+        targets.append(())
+    return inputs, targets
 
 
 def _batches(
@@ -325,40 +392,79 @@ def _batches(
     return batches
 
 
-def _loss(network: Recogniser, inputs: list[np.ndarray], targets: list[list[int]]) -> Tensor:
+def _loss(network: Recogniser, inputs: list[np.ndarray], targets: list[Sequence[int]]) -> Tensor:
     longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
     features = torch.zeros(len(inputs), longest, BINS)
     for row, mixed in enumerate(inputs):
         features[row, : len(mixed)] = torch.from_numpy(mixed)
-    logits = network(features).log_softmax(2).transpose(0, 1)
-    sizes = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
-    return nn.functional.ctc_loss(
-        logits, torch.tensor([u for t in targets for u in t]), sizes,
-        torch.tensor([len(t) for t in targets]), zero_infinity=True,
-    )  # fmt: skip
+    units = torch.tensor([u for t in targets for u in t])
+    steps = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
+    sizes = torch.tensor([len(t) for t in targets])
+    halfway, end = (
+        nn.functional.ctc_loss(
+            logits.log_softmax(2).transpose(0, 1), units, steps, sizes, zero_infinity=True
+        )
+        for logits in network.both(features)
+    )
+    return (1.0 - HALFWAY_WEIGHT) * end + HALFWAY_WEIGHT * halfway
 
 
-def _resume(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> bool:
-    """Go on from a checkpoint; return False if there is none."""
+def weights_of(folder: Path) -> dict[str, Tensor]:
+    """Return the weights that `keep` has written."""
+    with np.load(folder / "weights.npz", allow_pickle=False) as archive:
+        return {name: torch.from_numpy(archive[name].astype(np.float32)) for name in archive.files}
+
+
+def keep(folder: Path, target: Path) -> None:
+    """Write the weights of a checkpoint in half precision, for other trainings to begin with."""
+    state = torch.load(folder / "checkpoint.pt", weights_only=True)["network"]
+    arrays: dict[str, Any] = {
+        name: weight.numpy().astype(np.float16)
+        for name, weight in state.items()
+        if weight.is_floating_point()
+    }
+    target.mkdir(parents=True, exist_ok=True)
+    np.savez_compressed(target / "weights.npz", **arrays)
+    for name in ("pieces.txt", "training.json"):
+        shutil.copy(folder / name, target / name)
+
+
+def _resume(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> int:
+    """Go on from a checkpoint; return the steps that are done, 0 if there is none."""
     if not path.exists():
-        return False
+        return 0
     state = torch.load(path, weights_only=True)
     network.load_state_dict(state["network"])
     optimiser.load_state_dict(state["optimiser"])
-    print("goes on from the checkpoint")
-    return True
+    print(f"goes on from step {state['step']}")
+    return int(state["step"])
 
 
-def _save(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> None:
-    state = {"network": network.state_dict(), "optimiser": optimiser.state_dict()}
-    torch.save(state, path.with_suffix(".tmp"))
-    path.with_suffix(".tmp").rename(path)
+def _save(
+    network: nn.Module, optimiser: torch.optim.Optimizer, step: int, given: Training, calls: int
+) -> None:
+    state = {"network": network.state_dict(), "optimiser": optimiser.state_dict(), "step": step}
+    path = given.into / "checkpoint.tmp"
+    torch.save(state, path)
+    path.rename(given.into / "checkpoint.pt")
+    card = {
+        "made_by": "tools/asr/learn_pieces.py, asr_speech.py, vary_speech.py, train_asr.py",
+        "parameters": sum(p.numel() for p in network.parameters()),
+        "calls": calls,
+        "steps": step,
+        "batch_frames": BATCH_FRAMES,
+        "rate": given.rate,
+        "seed": given.seed,
+        "without": given.without,
+        "begun_with": str(given.begin_with or ""),
+    }
+    (given.into / "training.json").write_text(json.dumps(card, indent=2) + "\n")
 
 
 def export(folder: Path, target: Path) -> None:
-    """Write the network as ONNX with its words beside it."""
-    words = vocabulary()
-    network = Recogniser(len(words))
+    """Write the network as ONNX, with its pieces and a card that is not calibrated yet."""
+    pieces = pieces_of(folder)
+    network = Recogniser(len(pieces))
     network.load_state_dict(torch.load(folder / "checkpoint.pt", weights_only=True)["network"])
     network.eval()
     target.mkdir(parents=True, exist_ok=True)
@@ -367,25 +473,20 @@ def export(folder: Path, target: Path) -> None:
         input_names=["features"], output_names=["logits"],
         dynamic_axes={"features": {0: "batch", 1: "frames"}, "logits": {0: "batch", 1: "frames"}},
     )  # fmt: skip
-    (target / "words.txt").write_text("\n".join(words) + "\n")
-    shards = sorted((folder / "train").glob("*.mel.npz"))
-    lines = {path.name: _lines(path) for path in shards}
-    card = {
-        "made_by": "tools/asr/asr_corpus.py, tools/asr/asr_speech.py, tools/asr/train_asr.py",
-        "parameters": sum(p.numel() for p in network.parameters()),
-        "utterances": sum(lines.values()),
-        "training_minutes": round(sum(json.loads((folder / "minutes.json").read_text())), 1),
+    shutil.copy(folder / "pieces.txt", target / "pieces.txt")
+    card = json.loads((folder / "training.json").read_text()) | {
         "word_calibration": {"slope": 1.0, "offset": 0.0},
         "call_calibration": {"slope": 1.0, "offset": 0.0},
         "least_word_confidence": 0.0,
         "best_word_threshold": 0.0,
+        "language_weight": 0.4,
+        "piece_reward": 2.5,
     }
     (target / "card.json").write_text(json.dumps(card, indent=2) + "\n")
 
 
-def _lines(path: Path) -> int:
-    text = path.with_name(path.name.replace(".mel.npz", ".jsonl")).read_text()
-    return len(text.splitlines())
+def _lines(path: Path) -> list[str]:
+    return path.with_name(path.name.replace(".mel.npz", ".jsonl")).read_text().splitlines()
 
 
 def main() -> None:
@@ -395,21 +496,29 @@ def main() -> None:
     one = commands.add_parser("prepare", help="turn speech into features")
     one.add_argument("folder", type=Path)
     two = commands.add_parser("train", help="train, from the checkpoint if there is one")
-    two.add_argument("folder", type=Path)
-    two.add_argument("--minutes", type=float, default=90.0)
+    two.add_argument("build", type=Path)
+    two.add_argument("--into", type=Path, required=True, help="folder of the checkpoint")
+    two.add_argument("--steps", type=int, default=36_000)
     two.add_argument("--rate", type=float, default=1.5e-3)
-    two.add_argument("--threads", type=int, default=1)
+    two.add_argument("--seed", type=int, default=0)
+    two.add_argument("--begin-with", type=Path, help="folder with weights to begin with")
+    two.add_argument("--without", default="", help="lineage that is left out")
     three = commands.add_parser("export", help="write the ONNX file")
-    three.add_argument("folder", type=Path)
+    three.add_argument("folder", type=Path, help="folder of the checkpoint")
     three.add_argument("target", type=Path)
-    given = parser.parse_args()
-    match given.command:
+    four = commands.add_parser("keep", help="write the weights for other trainings to begin with")
+    four.add_argument("folder", type=Path, help="folder of the checkpoint")
+    four.add_argument("target", type=Path)
+    given = vars(parser.parse_args())
+    match given.pop("command"):
         case "prepare":
-            prepare(given.folder)
+            prepare(**given)
         case "train":
-            train(given.folder, given.minutes, given.rate, given.threads)
+            train(Training(**given))
         case "export":
-            export(given.folder, given.target)
+            export(**given)
+        case "keep":
+            keep(**given)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,9 @@ import numpy as np
 import onnx
 from onnx import TensorProto, helper, numpy_helper
 
+from airhilt.assistant.asr.language import key
+from airhilt.assistant.asr.pieces import BEGIN
+
 WORDS = ("alfa", "bravo", "charlie")
 BANDS = (15, 30, 45, 60)
 """Mel bands whose centres are near 588, 1202, 2108 and 3446 Hz."""
@@ -31,8 +34,19 @@ STANDS_OUT = 5.0
 """Excess over the mean of a band that makes a tone, in the natural logarithm of power."""
 
 
+def write_even_language(path: Path) -> None:
+    """Write a language model to which all units are alike."""
+    units = 1 + len(WORDS)
+    np.savez(
+        path,
+        keys1=np.array([key((unit,)) for unit in range(units)], np.uint64),
+        scores1=np.full(units, -np.log(units), np.float16),
+        backoffs1=np.zeros(units, np.float16),
+    )
+
+
 def main() -> None:
-    """Write the network, its words and its card."""
+    """Write the network, its pieces, an even language model and its card."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
     out = parser.parse_args().out
@@ -63,7 +77,9 @@ def main() -> None:
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
     onnx.checker.check_model(model)
     (out / "ctc.onnx").write_bytes(model.SerializeToString())
-    (out / "words.txt").write_text("\n".join(WORDS) + "\n", encoding="utf-8")
+    pieces = [BEGIN + word for word in WORDS]
+    (out / "pieces.txt").write_text("\n".join(pieces) + "\n", encoding="utf-8")
+    write_even_language(out / "language.npz")
     as_it_is = {"slope": 1.0, "offset": 0.0}
     card = {
         "made_by": "tools/make/tiny_recogniser.py",
@@ -71,6 +87,8 @@ def main() -> None:
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,
         "best_word_threshold": 0.0,
+        "language_weight": 0.0,
+        "piece_reward": 0.0,
     }
     (out / "card.json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
 

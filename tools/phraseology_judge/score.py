@@ -48,6 +48,10 @@ class Score:
     items_right: int = 0
     wrong_and_confident: int = 0
     """Calls with a callsign or an instruction in effect that is confident and not true."""
+    acted_upon: int = 0
+    """Calls with an instruction in effect that is confident."""
+    acted_upon_wrongly: int = 0
+    """Calls among them of which one such instruction is not true."""
     only_unnamed: int = 0
     """Calls among them that are wrong only in kinds that the vocabulary of the judge lacks."""
     wrong_callsigns: int = 0
@@ -63,8 +67,11 @@ class Score:
         return self.kinds.setdefault(name, Kind())
 
     def take(self, line: dict[str, Any]) -> None:
-        """Count one call."""
-        call = parse_call(line["text"], line["roster"])
+        """Count one call: a line of the corpus, or what a recogniser made of it.
+
+        The latter has its ``word_confidences`` beside its text.
+        """
+        call = parse_call(line["text"], line["roster"], line.get("word_confidences"))
         truth = list(facts_of_items(line["items"]))
         self.calls += 1
         self.callsign_right += call.callsign == line["callsign"]
@@ -74,7 +81,10 @@ class Score:
         read = list(facts_of_call(call))
         self._take_items(truth, {fact for fact, _ in read})
         true = {fact for fact, status in truth if status in TRUE}
-        untrue = {fact for fact, sure in read if sure >= TAU_ASR and _in_effect(fact)} - true
+        certain = {fact for fact, sure in read if sure >= TAU_ASR and _in_effect(fact)}
+        untrue = certain - true
+        self.acted_upon += bool(certain)
+        self.acted_upon_wrongly += bool(untrue)
         for fact in untrue:
             self.kind(fact.kind).wrong += 1
         wrong_name = call.callsign not in (None, line["callsign"]) and call.match.score >= TAU_ASR

@@ -2,7 +2,7 @@
 
 The roster says who may be on the frequency, and a name that is half heard is probably one of
 those. For each way to say a callsign the likeliest alignment is found (Viterbi over the CTC states
-of its words, which may begin and end anywhere in the call). It is compared with the likeliest path
+of its pieces, which may begin and end anywhere in the call). It is compared with the likeliest path
 of all over the same time. If little is lost, the callsign counts as said.
 """
 
@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from airhilt.assistant.asr.pieces import Pieces
 from airhilt.phraseology import LETTERS, TELEPHONY
 from airhilt.phraseology.numbers import speak_digits, speak_group
 from airhilt.phraseology.telephony import names
@@ -36,13 +37,19 @@ class Spotted:
     """A callsign where it was probably said."""
 
     callsign: str
-    units: tuple[int, ...]
+    words: tuple[str, ...]
     begin: int
     """First step of its alignment."""
     end: int
     """Step after the last one of its alignment."""
     loss: float
     """Log-likelihood lost against the likeliest path there, per word; 0 if it is that path."""
+
+
+def is_same(one: Sequence[str], other: Sequence[str]) -> bool:
+    """Return whether words are the same, or stand for the same digits."""
+    first_of = {word: variants[0] for variants in SAME for word in variants}
+    return [first_of.get(word, word) for word in one] == [first_of.get(w, w) for w in other]
 
 
 def spoken_forms(callsign: str) -> Iterator[tuple[str, ...]]:
@@ -74,27 +81,31 @@ class Spotter:
 
     Parameters
     ----------
-    words
-        Words of the recogniser; unit 0 is the blank, unit i is word i - 1.
+    pieces
+        Pieces of the recogniser.
     """
 
-    def __init__(self, words: Sequence[str], callsigns: Sequence[str]) -> None:
-        unit_of = {word: unit for unit, word in enumerate(words, start=1)}
-        self._same = [[unit_of[word] for word in variants if word in unit_of] for variants in SAME]
-        standing_for = {
-            word: next((v for v in variants if v in unit_of), word)
+    def __init__(self, pieces: Pieces, callsigns: Sequence[str]) -> None:
+        known = [
+            {word: unit for word in variants if (unit := pieces.unit(word)) is not None}
             for variants in SAME
+        ]
+        self._same = [list(units.values()) for units in known if units]
+        standing_for = {
+            word: next(iter(units), word)
+            for variants, units in zip(SAME, known, strict=True)
             for word in variants
         }
-        self._forms: list[tuple[str, tuple[int, ...]]] = []
+        self._forms: list[tuple[str, tuple[str, ...], tuple[int, ...]]] = []
         for callsign in dict.fromkeys(callsigns):
             for form in dict.fromkeys(spoken_forms(callsign)):
-                said = [standing_for.get(word, word) for word in form]
-                if all(word in unit_of for word in said):
-                    self._forms.append((callsign, tuple(unit_of[word] for word in said)))
-        longest = max((len(units) for _, units in self._forms), default=0)
+                words = tuple(standing_for.get(word, word) for word in form)
+                units = pieces.units(words)
+                if units is not None:
+                    self._forms.append((callsign, words, units))
+        longest = max((len(units) for _, _, units in self._forms), default=0)
         self._units = np.zeros((len(self._forms), longest), np.intp)
-        for row, (_, units) in enumerate(self._forms):
+        for row, (_, _, units) in enumerate(self._forms):
             self._units[row, : len(units)] = units
 
     def spot(self, posteriors: NDArray[np.float32]) -> Spotted | None:
@@ -109,7 +120,7 @@ class Spotter:
             return None
         best, *others = sorted(
             self._aligned(self._losses(posteriors)),
-            key=lambda each: (each.loss, -len(each.units), each.callsign),
+            key=lambda each: (each.loss, -len(each.words), each.callsign),
         )
         rivals = (
             other.loss
@@ -132,12 +143,12 @@ class Spotter:
     def _aligned(self, log: NDArray[np.float32]) -> Iterator[Spotted]:
         """Yield the best alignment of each form.
 
-        A form has a state for each of its words and one for the gap after it.
+        A form has a state for each of its pieces and one for the gap after it.
         """
         count, size = self._units.shape
         repeats = np.zeros((count, size), bool)
         repeats[:, 1:] = self._units[:, 1:] == self._units[:, :-1]
-        last = np.array([len(units) - 1 for _, units in self._forms])
+        last = np.array([len(units) - 1 for _, _, units in self._forms])
         rows = np.arange(count)
         best = np.full(count, -np.inf, np.float32)
         best_begin, best_end = np.zeros((2, count), np.intp)
@@ -158,6 +169,6 @@ class Spotter:
             best = np.where(is_better, ended, best)
             best_begin = np.where(is_better, word_begin[rows, last], best_begin)
             best_end = np.where(is_better, step + 1, best_end)
-        for row, (callsign, units) in enumerate(self._forms):
-            loss = -float(best[row]) / len(units)
-            yield Spotted(callsign, units, int(best_begin[row]), int(best_end[row]), loss)
+        for row, (callsign, words, _) in enumerate(self._forms):
+            loss = -float(best[row]) / len(words)
+            yield Spotted(callsign, words, int(best_begin[row]), int(best_end[row]), loss)

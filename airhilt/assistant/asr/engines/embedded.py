@@ -1,15 +1,14 @@
-"""The embedded recogniser: a network that knows the words of aviation and no others.
+"""The embedded recogniser: a network that hears word pieces, and a language model of calls.
 
 It is a connectionist temporal classification model (Graves et al., ICML 2006) in ONNX, trained
-by ``tools/asr/train_asr.py``. Its words are those of calls, so that noise does not become
-fluent sentences; and where its best guess is poor it says nothing.
+by ``tools/asr/train_asr.py``. Its pieces are words or parts of words. A search weighs what was
+heard against what is usually said, and where its best guess is poor it says nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -17,20 +16,23 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
+from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
-from airhilt.assistant.asr.spotting import Spotted, Spotter
+from airhilt.assistant.asr.language import Language
+from airhilt.assistant.asr.pieces import Pieces
+from airhilt.assistant.asr.spotting import Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
 from airhilt.messages import Confidence
-from airhilt.onnx import open_network
+from airhilt.onnx import first_look, open_network
 
 MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""
-FILES = ("ctc.onnx", "words.txt", "card.json")
+FILES = ("ctc.onnx", "pieces.txt", "language.npz", "card.json")
 """Files of a model's folder."""
-EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/6, words + 1]"
+EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/6, pieces + 1]"
 LEAST_SAMPLES = 1_600
 """Least number of samples that can hold a word: a tenth of a second."""
 STEP_FRAMES = 6
@@ -74,14 +76,19 @@ class Card(BaseModel):
         Field(validation_alias=AliasChoices("best_word_threshold", "least_surest_word")),
     ]
     """Confidence that the best word must have; below it nobody speaks in the transmission."""
+    language_weight: Annotated[float, Field(ge=0.0, le=10.0)]
+    """Weight of the language model against the network."""
+    piece_reward: Annotated[float, Field(ge=-10.0, le=10.0)]
+    """Log-likelihood added for each piece."""
 
 
 @dataclass(frozen=True, slots=True)
 class Emission:
-    """One word of a path through the posteriors."""
+    """One word of a call."""
 
-    unit: int
+    word: str
     posterior: float
+    """Least of its pieces' highest posteriors."""
     begin: int
     """Step at which it begins."""
 
@@ -92,8 +99,7 @@ class Ctc:
     Parameters
     ----------
     folder
-        Folder with ``ctc.onnx``, ``words.txt`` (a word a line) and ``card.json``; None: the model
-        that ships with AIRHILT.
+        Folder with `FILES`; None: the model that ships with AIRHILT.
 
     Raises
     ------
@@ -111,7 +117,8 @@ class Ctc:
                 f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
-        self._words = (where / "words.txt").read_text(encoding="utf-8", errors="replace").split()
+        written = (where / "pieces.txt").read_text(encoding="utf-8", errors="replace")
+        self._pieces = Pieces(written.split())
         try:
             card = Card.model_validate_json((where / "card.json").read_bytes())
         except ValidationError as error:
@@ -126,11 +133,14 @@ class Ctc:
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
         units = self._trial(network)
-        if units != len(self._words) + 1:
+        if units != len(self._pieces) + 1:
             raise SpeechError(
                 f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
-                f"units apart, words.txt has {len(self._words)}; expected one unit more than words"
+                f"units apart, pieces.txt has {len(self._pieces)}; expected one unit more than "
+                "pieces"
             )
+        language = Language(where / "language.npz", units)
+        self._search = BeamSearch(language, card.language_weight, card.piece_reward)
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return the words of a call; see `AsrEngine.recognise`."""
@@ -139,8 +149,8 @@ class Ctc:
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
-            (self._words[step.unit - 1], self._word(step.posterior))
-            for step in self.path(self.posteriors(audio), callsigns)
+            (each.word, self._word(each.posterior))
+            for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
         kept = tuple(each for each in words if each[1] >= self._least)
@@ -150,18 +160,30 @@ class Ctc:
         return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
 
     def path(self, posteriors: NDArray[np.float32], callsigns: Sequence[str]) -> list[Emission]:
-        """Return the words of the likeliest path, with the callsign of the roster that is in it."""
-        path = best_path(posteriors)
+        """Return the likeliest words, with the callsign of the roster that is among them."""
+        path = self._likeliest(posteriors)
         spotted = self._spotter(tuple(callsigns)).spot(posteriors)
         return path if spotted is None else with_callsign(path, spotted)
 
+    def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
+        units = self._search.units(posteriors)
+        heard = aligned(posteriors, units)
+        return [
+            Emission(
+                self._pieces.text(units[first:after]),
+                min(posterior for _, posterior in heard[first:after]),
+                heard[first][0],
+            )
+            for first, after in self._pieces.words(units)
+        ]
+
     def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
         if self._roster is None or self._roster[0] != callsigns:
-            self._roster = (callsigns, Spotter(self._words, callsigns))
+            self._roster = (callsigns, Spotter(self._pieces, callsigns))
         return self._roster[1]
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
-        """Return the posterior of the blank and of each word, shape (steps of 60 ms, units)."""
+        """Return the posterior of the blank and of each piece, shape (steps of 60 ms, units)."""
         features = normalised(mel_power(audio))
         steps = -(-len(features) // STEP_FRAMES)
         windows = [self._window(features, begin) for begin in range(0, steps, WINDOW_STEPS)]
@@ -177,7 +199,7 @@ class Ctc:
         """
         features = np.zeros((1, 2 * STEP_FRAMES + 1, BINS), np.float32)
         try:
-            shape = self._session.run(None, {"features": features})[0].shape
+            shape = first_look(self._session, {"features": features})[0].shape
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             found = first_line(error)
         else:
@@ -199,34 +221,22 @@ class Ctc:
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
 
 
-def best_path(posteriors: NDArray[np.float32]) -> list[Emission]:
-    """Return the words of the likeliest path, each with its highest posterior."""
-    units = posteriors.argmax(axis=1)
-    peaks = posteriors.max(axis=1)
-    changes = np.flatnonzero(np.diff(units)) + 1
-    bounds = [0, *changes.tolist(), len(units)]
-    return [
-        Emission(int(units[begin]), float(peaks[begin:end].max()), begin)
-        for begin, end in pairwise(bounds)
-        if units[begin] != 0
-    ]
-
-
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
-    """Return a path in which a callsign replaces the words at its place."""
-    if spotted.loss == 0.0:
+    """Return words in which a callsign replaces those at its place."""
+    there = [each for each in path if spotted.begin <= each.begin < spotted.end]
+    if is_same([each.word for each in there], spotted.words):
         return list(path)
     posterior = float(np.exp(-spotted.loss))
     return [
         *(each for each in path if each.begin < spotted.begin),
-        *(Emission(unit, posterior, spotted.begin) for unit in spotted.units),
+        *(Emission(word, posterior, spotted.begin) for word in spotted.words),
         *(each for each in path if each.begin >= spotted.end),
     ]
 
 
 ENGINE = Engine(
     name="embedded",
-    summary="network for the words of aviation; ships with AIRHILT",
+    summary="network and language model of aviation; ships with AIRHILT",
     create=lambda folder: Ctc(Path(folder) if folder else None),
     argument="FOLDER",
     takes=lambda text: (Path(text) / FILES[0]).is_file(),

@@ -1,0 +1,156 @@
+"""The likeliest pieces of a call: what was heard, together with what is usually said.
+
+Prefix beam search over connectionist temporal classification (Hannun, Maas, Jurafsky and Ng,
+2014, arXiv:1408.2873) with an n-gram model. A beginning counts by its likeliest alignment, not by
+the sum over all: in a long silence the sum over many places makes up for a poor fit in each.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from airhilt.assistant.asr.language import END, Language
+
+BLANK = 0
+LEAST_POSTERIOR = 0.01
+"""Posterior below which a unit is not tried, unless it is the likeliest."""
+_NEVER = -math.inf
+Prior = Callable[[tuple[int, ...], int], float]
+"""What the language model and the reward say of a unit after others, as a log-likelihood."""
+
+
+@dataclass(slots=True)
+class _Prefix:
+    """A way to begin the call.
+
+    ``blank`` and ``unit`` are log-likelihoods of its best alignments that end with a blank and with
+    its last unit; ``prior`` is what the language model and the reward say.
+    """
+
+    prior: float
+    blank: float = _NEVER
+    unit: float = _NEVER
+
+    def heard(self) -> float:
+        return max(self.blank, self.unit)
+
+    def total(self) -> float:
+        return self.heard() + self.prior
+
+
+@dataclass(frozen=True)
+class BeamSearch:
+    """Finds the likeliest units.
+
+    Attributes
+    ----------
+    weight
+        Weight of the language model's log-likelihood against the network's.
+    reward
+        Log-likelihood added for each unit, because each costs likelihood in the language model.
+    width
+        Number of beginnings that are kept.
+    """
+
+    language: Language
+    weight: float
+    reward: float
+    width: int = 12
+
+    def units(self, posteriors: NDArray[np.float32]) -> tuple[int, ...]:
+        """Return the likeliest units of posteriors, shape (steps, units)."""
+        prior = self._prior()
+        beam: dict[tuple[int, ...], _Prefix] = {(): _Prefix(0.0, blank=0.0)}
+        is_tried = posteriors >= LEAST_POSTERIOR
+        is_tried[np.arange(len(posteriors)), posteriors.argmax(axis=1)] = True
+        log = np.log(np.maximum(posteriors, 1e-10))
+        for step, tried in zip(log, is_tried, strict=True):
+            units = [int(unit) for unit in np.flatnonzero(tried) if unit != BLANK]
+            scores = [(unit, float(step[unit])) for unit in units]
+            beam = self._next(beam, float(step[BLANK]), scores, prior)
+        ended = {units: prefix.total() + prior(units, END) for units, prefix in beam.items()}
+        return max(ended, key=lambda units: (ended[units], units))
+
+    def _next(
+        self,
+        beam: dict[tuple[int, ...], _Prefix],
+        blank: float,
+        units: list[tuple[int, float]],
+        prior: Prior,
+    ) -> dict[tuple[int, ...], _Prefix]:
+        """Return the best beginnings after one more step."""
+        grown: dict[tuple[int, ...], _Prefix] = {}
+        for before, prefix in beam.items():
+            heard = prefix.heard()
+            same = grown.setdefault(before, _Prefix(prefix.prior))
+            same.blank = max(same.blank, heard + blank)
+            last = before[-1] if before else BLANK
+            for unit, score in units:
+                if unit == last:
+                    same.unit = max(same.unit, prefix.unit + score)
+                    likelihood = prefix.blank + score
+                else:
+                    likelihood = heard + score
+                if likelihood == _NEVER:
+                    continue
+                after = (*before, unit)
+                longer = grown.get(after)
+                if longer is None:
+                    longer = grown[after] = _Prefix(prefix.prior + prior(before, unit))
+                longer.unit = max(longer.unit, likelihood)
+        if len(grown) <= self.width:
+            return grown
+        best = sorted(grown.items(), key=lambda each: (-each[1].total(), each[0]))
+        return dict(best[: self.width])
+
+    def _prior(self) -> Prior:
+        """Return the prior of units, which remembers what the language model said in a call."""
+        if self.weight == 0.0:  # The language model has no say, and is not asked.
+            return lambda _, unit: 0.0 if unit == END else self.reward
+        known, before_most = cache(self.language.score), self.language.order - 1
+
+        def prior(before: tuple[int, ...], unit: int) -> float:
+            context = before if len(before) >= before_most else (END, *before)
+            score = known(context[len(context) - before_most :], unit)
+            return self.weight * score + (0.0 if unit == END else self.reward)
+
+        return prior
+
+
+def aligned(posteriors: NDArray[np.float32], units: tuple[int, ...]) -> list[tuple[int, float]]:
+    """Return for each unit of a call the step at which it begins, and its highest posterior.
+
+    The likeliest alignment (Viterbi) of the units to the steps; there are at least as many steps
+    as units and blanks between equal ones.
+    """
+    if not units:
+        return []
+    states = np.zeros(2 * len(units) + 1, np.intp)
+    states[1::2] = units
+    may_skip = np.zeros(len(states), bool)
+    may_skip[3::2] = states[3::2] != states[1:-2:2]
+    log = np.log(np.maximum(posteriors, 1e-10))[:, states]
+    best = np.full(len(states), -np.inf, np.float32)
+    best[:2] = log[0, :2]
+    came = np.zeros(log.shape, np.int8)
+    for at in range(1, len(log)):
+        from_before = np.concatenate(([-np.inf], best[:-1]))
+        from_skipped = np.where(may_skip, np.concatenate(([-np.inf, -np.inf], best[:-2])), -np.inf)
+        ways = np.stack([best, from_before, from_skipped])
+        came[at] = ways.argmax(axis=0)
+        best = ways.max(axis=0) + log[at]
+    state = len(states) - 1 if best[-1] >= best[-2] else len(states) - 2
+    begins, highest = [0] * len(units), [0.0] * len(units)
+    for at in range(len(log) - 1, -1, -1):
+        if state % 2:
+            unit = state // 2
+            begins[unit] = at
+            highest[unit] = max(highest[unit], float(posteriors[at, units[unit]]))
+        state -= int(came[at, state])
+    return list(zip(begins, highest, strict=True))

@@ -1,0 +1,103 @@
+"""The search weighs the posteriors of pieces against the language model."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from airhilt.assistant.asr.beam_search import BeamSearch, aligned
+from airhilt.assistant.asr.language import END, Language, key
+
+
+def language(folder: Path, bigrams: dict[tuple[int, int], float], units: int = 4) -> Language:
+    """Return a model in which some bigrams have a likelihood, and all units are alike elsewhere."""
+    ordered = sorted(bigrams.items(), key=lambda each: key(each[0]))
+    path = folder / "language.npz"
+    np.savez(
+        path,
+        keys1=np.arange(units, dtype=np.uint64),
+        scores1=np.full(units, -np.log(units)),
+        backoffs1=np.zeros(units),
+        keys2=np.array([key(gram) for gram, _ in ordered], np.uint64),
+        scores2=np.log([likelihood for _, likelihood in ordered]),
+        backoffs2=np.zeros(len(ordered)),
+    )
+    return Language(path, units)
+
+
+def collapsed(units: tuple[int, ...]) -> tuple[int, ...]:
+    kept = [unit for at, unit in enumerate(units) if at == 0 or unit != units[at - 1]]
+    return tuple(unit for unit in kept if unit)
+
+
+def likeliest_of_all(posteriors: NDArray[np.float32]) -> tuple[int, ...]:
+    """Return the units of the likeliest of all alignments."""
+    steps, units = posteriors.shape
+    best = max(
+        product(range(units), repeat=steps),
+        key=lambda path: float(np.prod(posteriors[np.arange(steps), path])),
+    )
+    return collapsed(best)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_without_a_language_model_the_likeliest_alignment_decides(
+    seed: int, tmp_path: Path
+) -> None:
+    posteriors = np.random.default_rng(seed).dirichlet(np.full(4, 0.5), 6).astype(np.float32)
+    search = BeamSearch(language(tmp_path, {}), 0.0, 0.0, width=500)
+    assert search.units(posteriors) == likeliest_of_all(posteriors)
+
+
+def test_of_two_that_sound_alike_the_usual_one_is_taken(tmp_path: Path) -> None:
+    said = np.array([[0.1, 0.9, 0, 0], [0.9, 0.1, 0, 0], [0.1, 0, 0.4, 0.5]], np.float32)
+    usual = language(tmp_path, {(1, 2): 0.9, (1, 3): 0.01})
+    assert BeamSearch(usual, 0.0, 0.0).units(said) == (1, 3)
+    assert BeamSearch(usual, 1.0, 0.0).units(said) == (1, 2)
+
+
+def test_what_is_clearly_heard_is_kept_though_it_is_unusual(tmp_path: Path) -> None:
+    said = np.array([[0.01, 0.99, 0, 0], [0.01, 0, 0.0001, 0.9899]], np.float32)
+    usual = language(tmp_path, {(1, 2): 0.9, (1, 3): 0.01})
+    assert BeamSearch(usual, 0.5, 0.0).units(said) == (1, 3)
+
+
+def test_a_reward_makes_up_for_what_each_piece_costs(tmp_path: Path) -> None:
+    said = np.array([[0.55, 0.45, 0, 0]], np.float32)
+    even = language(tmp_path, {})
+    assert BeamSearch(even, 1.0, 0.0).units(said) == ()
+    assert BeamSearch(even, 1.0, 2.0).units(said) == (1,)
+
+
+def test_a_long_silence_does_not_become_a_word(tmp_path: Path) -> None:
+    silence = np.tile(np.array([0.94, 0.02, 0.02, 0.02], np.float32), (1_000, 1))
+    assert BeamSearch(language(tmp_path, {}), 0.5, 1.5).units(silence) == ()
+
+
+def test_a_language_model_without_weight_is_not_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = language(tmp_path, {(1, 2): 0.9})
+    monkeypatch.setattr(Language, "score", lambda *_: pytest.fail("it was asked"))
+    said = np.array([[0.1, 0.9, 0, 0], [0.9, 0.1, 0, 0], [0.1, 0, 0.4, 0.5]], np.float32)
+    assert BeamSearch(model, 0.0, 0.0).units(said) == (1, 3)
+
+
+def test_without_audio_there_is_nothing(tmp_path: Path) -> None:
+    search = BeamSearch(language(tmp_path, {(END, END): 0.5}), 1.0, 0.0)
+    assert search.units(np.zeros((0, 4), np.float32)) == ()
+
+
+def test_each_unit_is_found_where_it_was_said() -> None:
+    said = np.full((7, 3), 0.02, np.float32)
+    said[:, 0] = 0.96
+    for step, unit in ((1, 1), (2, 1), (4, 1), (5, 2)):
+        said[step] = 0.1
+        said[step, unit] = 0.8
+    assert [step for step, _ in aligned(said, (1, 1, 2))] == [1, 4, 5]
+    assert [float(best) for _, best in aligned(said, (1, 1, 2))] == pytest.approx([0.8] * 3)
+    assert aligned(said, ()) == []
