@@ -20,7 +20,9 @@ def tables(found: RunComparison | SweepComparison) -> Iterator[Table | str]:
 
 def _sweeps(found: SweepComparison) -> Iterator[Table | str]:
     alone = f"{found.alone_first} of {found.first}, {found.alone_second} of {found.second}"
-    yield f"{found.pairs} pairs by {', '.join(found.paired_by)}; without a partner: {alone}"
+    by = ", ".join(found.paired_by)
+    draws = "" if found.draws == found.pairs else f", of {found.draws} scenarios with a seed"
+    yield f"{found.pairs} pairs{draws} by {by}; without a partner: {alone}"
     for name, (one, other) in found.differing.items():
         yield f"{name}: {one} and {other}"
     for family, differences in found.families.items():

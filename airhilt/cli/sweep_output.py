@@ -24,11 +24,12 @@ def print_estimate(found: Estimate, as_json: bool) -> None:
         return
     finished = f", {found.finished} of them there already" if found.finished else ""
     rest = f" for the {found.runs - found.finished} that are left" if found.finished else ""
-    click.echo(
-        f"{counted(found.runs, 'run')}{finished}; one took {found.run_s:.1f} s and "
-        f"{found.run_mb:.0f} MB, so about {duration(found.total_s)} with "
-        f"{counted(found.workers, 'worker')}{rest}"
-    )
+    one = f"{counted(found.runs, 'run')}{finished}; one took {found.run_s:.1f} s and "
+    one += f"{found.run_mb:.0f} MB"
+    if found.total_s is None or found.at_once is None:
+        click.echo(f"{one} here; how long all take depends on the workers of the scheduler")
+        return
+    click.echo(f"{one}, so about {duration(found.total_s)}, {found.at_once} at a time{rest}")
 
 
 def print_result(result: SweepResult, again: str, as_json: bool, quiet: bool) -> None:

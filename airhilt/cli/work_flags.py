@@ -61,7 +61,7 @@ FLAGS: tuple[Callable[[Any], Any], ...] = (
         help="Serve Dask's dashboard, such as on 127.0.0.1:8787; it needs the extra cluster.",
     ),
     click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long."),
-    click.option("--quiet", is_flag=True, help="Print nothing but errors."),
+    click.option("--quiet", is_flag=True, help="Print nothing but errors and warnings."),
     click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON."),
 )
 

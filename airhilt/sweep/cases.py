@@ -18,9 +18,10 @@ from pydantic import JsonValue, ValidationError
 from airhilt import library
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.engines import ASSISTANT
-from airhilt.errors import AirhiltError, ScenarioError, first_problem, shown
+from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
+from airhilt.scenario.documents import require_bounded
 from airhilt.scenario.problems import error_for, problems_of
 from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
@@ -260,26 +261,30 @@ def _plan(document: Json, options: Json, combination: Combination, checks: RunCh
         plan = each.put(plan, value)
     assistant = plan.options[ASSISTANT_OPTION] or ASSISTANT
     plan = Plan(plan.document, plan.options | {ASSISTANT_OPTION: assistant})
-    scenario = _scenario(plan.document)
-    if plan.document is not document:
-        check(scenario, scenario.name)
-        plan = Plan(scenario.model_dump(mode="json"), plan.options)
-    checked = _options(plan.options)
-    problems = checks.problems(checked, scenario)
+    problems: list[str] = []
+    try:
+        scenario = _scenario(plan.document, is_changed=plan.document is not document)
+    except AirhiltError as error:
+        problems += getattr(error, "problems", (str(error),))
+    try:
+        checked = Options(**plan.options)
+    except ValidationError as error:
+        problems += [f"option {problem}" for problem in problems_of(error, Options)]
+    if not problems:
+        problems += checks.problems(checked, scenario)
     if problems:
         raise _Refused(problems)
-    return Plan(plan.document, checked.model_dump(mode="json", exclude_defaults=True))
+    written = scenario.model_dump(mode="json") if plan.document is not document else document
+    return Plan(written, checked.model_dump(mode="json", exclude_defaults=True))
 
 
-def _scenario(document: Json) -> Scenario:
+def _scenario(document: Json, *, is_changed: bool) -> Scenario:
+    """Return the scenario of a document; one that is changed is checked in its world again."""
+    require_bounded(document, document["name"])
     try:
-        return Scenario.model_validate(document)
+        scenario = Scenario.model_validate(document)
     except ValidationError as error:
         raise error_for(document["name"], problems_of(error, Scenario)) from None
-
-
-def _options(given: Json) -> Options:
-    try:
-        return Options(**given)
-    except ValidationError as error:
-        raise AirhiltError(f"option {first_problem(error)}") from None
+    if is_changed:
+        check(scenario, scenario.name)
+    return scenario

@@ -211,6 +211,7 @@ def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) ->
             options=case.options | _unseen_options(case),
             keep="all" if key in sampled else work.keep,
             folder=str(runs / folder_name(key)),
+            files=case.files,
         )
 
 

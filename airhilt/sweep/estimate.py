@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import math
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,9 +34,12 @@ class Estimate:
     run_mb
         Most memory of the probe; None: no run is left.
     workers
-        Number of workers that this machine would have.
+        Number of workers that would be asked for.
+    at_once
+        Number of runs that would go on at a time; None: only the cluster knows.
     total_s
-        Wall time of the runs that are left with these workers, if all were like the probe.
+        Wall time of the runs that are left, if all were like the probe and the workers as fast as
+        this machine; None if it is not known how many go on at a time.
     """
 
     runs: int
@@ -44,7 +47,8 @@ class Estimate:
     run_s: float | None
     run_mb: float | None
     workers: int
-    total_s: float
+    at_once: int | None
+    total_s: float | None
 
 
 def estimate(specification: Specification, work: Work) -> Estimate:
@@ -57,7 +61,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     AirhiltError
         Something that was given is wrong, or the probe failed.
     """
-    FAMILY.create(work.scheduler, configuration=work.scheduler_config)
+    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
     grid = cases(specification)
     renderer = renderer_of(grid)
     folder = SweepFolder(work.out)
@@ -71,16 +75,22 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     finally:
         runner.close()
     workers = work.workers or default_workers(renderer)
+    at_once = cluster.concurrency(workers)
     return Estimate(
         runs=len(by_key),
         finished=len(by_key) - len(left),
         run_s=probe.wall_s if probe else None,
         run_mb=probe.peak_memory_mb if probe else None,
         workers=workers,
-        total_s=len(left) * probe.wall_s / min(workers, os.cpu_count() or workers)
-        if probe
-        else 0.0,
+        at_once=at_once,
+        total_s=_total_s(len(left), probe.wall_s if probe else 0.0, at_once),
     )
+
+
+def _total_s(runs: int, run_s: float, at_once: int | None) -> float | None:
+    if not runs:
+        return 0.0
+    return None if at_once is None else math.ceil(runs / at_once) * run_s
 
 
 def _probe(key: str, case: Case, runner: RunnerProcess) -> Machine:
@@ -99,6 +109,7 @@ def _probe(key: str, case: Case, runner: RunnerProcess) -> Machine:
                 options=case.options | {"seed": case.seed},
                 keep="none",
                 folder=str(Path(scratch) / "run"),
+                files=case.files,
             )
         )
     if outcome.status != "finished":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,37 @@ class NamedFiles:
             is_there = os.path.exists if may_be_folder else os.path.isfile
             self._known[key] = _read(path) if path and is_there(path) else ""
         return self._known[key]
+
+
+class OtherFilesError(AirhiltError):
+    """A file is not here, or not the one that a run was planned with."""
+
+    is_of_machine = True
+
+
+def require_planned(
+    planned: Mapping[str, str], document: Mapping[str, Any], options: Mapping[str, Any]
+) -> None:
+    """Complain if the files that a run names are not those it was planned with.
+
+    Parameters
+    ----------
+    planned
+        What `NamedFiles.of` returned when the run got its key.
+
+    Raises
+    ------
+    OtherFilesError
+        One is missing or has another content, or is here and was not there.
+    """
+    found = NamedFiles().of(document, options)
+    for text in sorted(planned.keys() | found.keys()):
+        if found.get(text) != planned.get(text):
+            what = "another file than" if text in found else "not the file that was there"
+            raise OtherFilesError(
+                f"{text}: {what} when the sweep began, on {socket.gethostname()} in {Path.cwd()}; "
+                "expected the same files for all workers, unchanged until the sweep ends"
+            )
 
 
 def _texts(value: Any) -> Iterator[str]:

@@ -124,9 +124,16 @@ class JobQueue:
             cluster.scale(jobs=jobs)
             cluster.sync(_settled, cluster)
             if self._refusals:
-                raise ClusterError(f"scheduler: the queue does not take a job: {self._refusals[0]}")
+                raise ClusterError(
+                    f"scheduler: the queue does not take a job: {self._refusals[0]}; what a job "
+                    "asks for is in --scheduler-config (docs/clusters.md)"
+                )
             cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)  # Puts new ones for those that end.
             yield client
+
+    def concurrency(self, workers: int) -> int:
+        """Return the number of workers: each has a core of its own."""
+        return workers
 
     @contextmanager
     def scheduler(self, dashboard: str | None) -> Iterator[JobQueueCluster]:

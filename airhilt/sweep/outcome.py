@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
@@ -27,6 +28,8 @@ class Request(BaseModel):
     keep: Keep
     folder: str
     """Place of the run folder if it stays."""
+    files: Mapping[str, str] = {}
+    """SHA-256 of each file that scenario or options name, as the key has them."""
 
 
 class Machine(BaseModel):

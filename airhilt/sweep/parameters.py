@@ -109,6 +109,8 @@ def parameter(path: str) -> Parameter:
     path = path.replace("/", ".").strip(".")  # Perturbations of scenarios write a/b.
     if path == "seed":
         raise AirhiltError("parameter seed: expected in seeds (--seeds), not among the parameters")
+    if path == "name":
+        raise AirhiltError("parameter name: it tells scenarios apart; expected a value of theirs")
     path = OPTIONS_OF_PATHS.get(path, path)
     if path in Options.model_fields and path not in swept_options():
         raise AirhiltError(f"parameter {path}: this option belongs to one run; sweeps have it not")

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 import queue
-import resource
 import socket
 import sys
 import tempfile
@@ -21,8 +20,7 @@ from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
-import psutil
-
+from airhilt.child_process import cpu_s
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, failure_in, is_of_machine
@@ -32,6 +30,7 @@ from airhilt.options import Options
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.renderer_link import RendererKeeper
 from airhilt.sweep.environment import environment
+from airhilt.sweep.files import require_planned
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
 
@@ -71,7 +70,7 @@ def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outco
     """
     status: Status = "finished"
     cause, metrics = "", {}
-    begun_wall, begun_cpu = time.perf_counter(), _cpu_s()
+    begun_wall, begun_cpu = time.perf_counter(), cpu_s()
     with tempfile.TemporaryDirectory(prefix="airhilt-run-") as scratch:
         folder = Path(scratch) / "run"
         losses = _Losses()
@@ -88,7 +87,7 @@ def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outco
         is_kept = _settle(folder, Path(request.folder), is_kept)
     machine = Machine(
         wall_s=time.perf_counter() - begun_wall,
-        cpu_s=_cpu_s() - begun_cpu,
+        cpu_s=cpu_s() - begun_cpu,
         peak_memory_mb=0.0,
         host=socket.gethostname(),
         process=os.getpid(),
@@ -121,6 +120,7 @@ def _told(error: Exception) -> str:
 def _summary(
     request: Request, folder: Path, keeper: RendererKeeper | None, observer: Observer
 ) -> Summary:
+    require_planned(request.files, request.scenario, request.options)
     scenario = Scenario.model_validate(request.scenario)
     options = Options.model_validate(
         request.options | {"out": folder, "report": request.keep == "all"}
@@ -145,17 +145,6 @@ def _settle(folder: Path, kept: Path, is_kept: bool) -> bool:
         return True
     rmtree(folder, ignore_errors=True)
     return False
-
-
-def _cpu_s() -> float:
-    """Return the CPU time of this process and of its children, ended or not."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    total = sum(each.ru_utime + each.ru_stime for each in used)
-    for child in psutil.Process().children():
-        with suppress(psutil.Error):
-            living = child.cpu_times()
-            total += living.user + living.system
-    return total
 
 
 def _read(questions: int, requests: queue.SimpleQueue[str]) -> None:

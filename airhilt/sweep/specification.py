@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError
 
-from airhilt.errors import AirhiltError, first_problem
+from airhilt.errors import AirhiltError
+from airhilt.scenario.problems import problems_of
 from airhilt.sweep.axes import Interval, Values
 
 ParameterPath = Annotated[str, Field(min_length=1)]
@@ -76,5 +77,5 @@ def specification_of(document: Any, origin: str) -> Specification:
     try:
         return Specification.model_validate(document)
     except ValidationError as error:
-        problem = first_problem(error).replace("Value error, ", "")
-        raise AirhiltError(f"{origin}: {problem}") from None
+        problems = problems_of(error, Specification)
+        raise AirhiltError("\n".join(f"{origin}: {problem}" for problem in problems)) from None

@@ -55,20 +55,28 @@ def test_a_quiet_sweep_says_nothing(airhilt_command: Any) -> None:
 
 
 def test_an_estimate_says_what_is_there_already(capsys: pytest.CaptureFixture[str]) -> None:
-    some = Estimate(runs=5, finished=3, run_s=2.0, run_mb=300.0, workers=1, total_s=4.0)
+    some = Estimate(runs=5, finished=3, run_s=2.0, run_mb=300.0, workers=1, at_once=1, total_s=4.0)
     print_estimate(some, False)
     print_estimate(replace(some, finished=5, run_s=None, run_mb=None, total_s=0.0), False)
     assert capsys.readouterr().out == (
-        "5 runs, 3 of them there already; one took 2.0 s and 300 MB, so about 4 s with 1 worker "
+        "5 runs, 3 of them there already; one took 2.0 s and 300 MB, so about 4 s, 1 at a time "
         "for the 2 that are left\n"
         "5 runs, all of them there already\n"
     )
 
 
+def test_an_estimate_for_a_cluster_tells_no_time(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = Estimate(5, 0, run_s=2.0, run_mb=300.0, workers=2, at_once=None, total_s=None)
+    print_estimate(asked, False)
+    told = capsys.readouterr().out
+    assert "how long all take depends on the workers of the scheduler" in told
+    assert "about" not in told
+
+
 def test_one_run_is_no_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    one = Estimate(runs=1, finished=0, run_s=2.0, run_mb=300.0, workers=1, total_s=2.0)
+    one = Estimate(runs=1, finished=0, run_s=2.0, run_mb=300.0, workers=1, at_once=1, total_s=2.0)
     print_estimate(one, False)
     SweepProgress(quiet=False).begun(1, 0, "1 worker")
     captured = capsys.readouterr()
-    assert captured.out == "1 run; one took 2.0 s and 300 MB, so about 2 s with 1 worker\n"
+    assert captured.out == "1 run; one took 2.0 s and 300 MB, so about 2 s, 1 at a time\n"
     assert captured.err == "1 run; 1 worker\n"

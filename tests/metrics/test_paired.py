@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,27 +11,32 @@ from airhilt.metrics.estimates import UNKNOWN
 from airhilt.metrics.paired import mcnemar, mean_difference, share_difference
 
 
+def alone(pairs: int) -> np.ndarray[Any, np.dtype[np.int64]]:
+    """Groups of one pair each."""
+    return np.arange(pairs)
+
+
 def test_mcnemar_counts_the_pairs_that_differ() -> None:
     first = np.array([True, True, True, False, False])
     second = np.array([True, False, False, True, False])
-    found = mcnemar(first, second)
+    found = mcnemar(first, second, alone(5))
     assert (found.only_first, found.only_second) == (2, 1)
 
 
 def test_the_exact_test_is_that_of_the_binomial_distribution() -> None:
     # 1 of 10 discordant pairs, two-sided: 2 (C(10,0) + C(10,1)) / 2^10.
-    found = mcnemar(np.arange(12) < 1, (np.arange(12) >= 1) & (np.arange(12) < 10))
+    found = mcnemar(np.arange(12) < 1, (np.arange(12) >= 1) & (np.arange(12) < 10), alone(12))
     assert found.p_value == pytest.approx(22 / 1024)
 
 
 def test_pairs_that_agree_prove_nothing() -> None:
-    assert mcnemar(np.array([True]), np.array([True])).p_value == 1.0
+    assert mcnemar(np.array([True]), np.array([True]), alone(1)).p_value == 1.0
 
 
 def test_a_difference_that_all_pairs_share_is_sure_whatever_the_spread() -> None:
     random = np.random.default_rng(1)
     first = random.normal(0.0, 100.0, 30)
-    found = mean_difference(first, first + random.normal(2.0, 0.1, 30))
+    found = mean_difference(first, first + random.normal(2.0, 0.1, 30), alone(30))
     assert found.value == pytest.approx(2.0, abs=0.1)
     assert found.low is not None
     assert found.low > 1.9
@@ -41,7 +48,7 @@ def test_a_difference_of_shares_has_the_interval_of_agresti_and_min() -> None:
     # to -0.021 (section 10.1.1).
     first, second = np.zeros(1600, bool), np.zeros(1600, bool)
     first[:150] = second[150:236] = True
-    found = share_difference(first, second)
+    found = share_difference(first, second, alone(1600))
     assert found.value == pytest.approx(-0.04)
     assert (found.low, found.high) == (
         pytest.approx(-0.0588, abs=1e-3),
@@ -51,7 +58,7 @@ def test_a_difference_of_shares_has_the_interval_of_agresti_and_min() -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 3])
 def test_a_few_pairs_that_all_differ_are_no_sure_difference(n: int) -> None:
-    found = share_difference(np.zeros(n, bool), np.ones(n, bool))
+    found = share_difference(np.zeros(n, bool), np.ones(n, bool), alone(n))
     assert found.value == 1.0
     assert found.low is not None
     assert found.low < 0.0 or n == 3
@@ -59,7 +66,7 @@ def test_a_few_pairs_that_all_differ_are_no_sure_difference(n: int) -> None:
 
 
 def test_pairs_that_agree_leave_room_for_a_difference() -> None:
-    found = share_difference(np.ones(10, bool), np.ones(10, bool))
+    found = share_difference(np.ones(10, bool), np.ones(10, bool), alone(10))
     assert found.value == 0.0
     assert found.low == pytest.approx(-found.high)
     assert found.high > 0.1
@@ -67,4 +74,37 @@ def test_pairs_that_agree_leave_room_for_a_difference() -> None:
 
 def test_no_pairs_have_no_difference() -> None:
     nothing = np.zeros(0, bool)
-    assert share_difference(nothing, nothing) == UNKNOWN
+    assert share_difference(nothing, nothing, alone(0)) == UNKNOWN
+
+
+def test_many_pairs_of_one_seed_prove_no_more_than_one() -> None:
+    first, second, seeds = np.zeros(10, bool), np.ones(10, bool), np.zeros(10, np.int64)
+    assert mcnemar(first, second, seeds).p_value == 1.0
+    found = share_difference(first, second, seeds)
+    assert (found.value, found.low, found.high, found.n) == (1.0, None, None, 10)
+
+
+def test_groups_of_alike_pairs_have_the_p_of_one_pair_each() -> None:
+    once = np.arange(8)
+    first, second = once < 1, once >= 2
+    expected = mcnemar(first, second, once).p_value
+    many = mcnemar(np.repeat(first, 5), np.repeat(second, 5), np.repeat(once, 5))
+    assert many.p_value == pytest.approx(expected)
+
+
+def test_signs_that_are_drawn_come_close_to_all_of_them() -> None:
+    once = np.arange(18)
+    first, second = once < 4, once >= 4
+    expected = mcnemar(first, second, once).p_value
+    many = mcnemar(np.repeat(first, 2), np.repeat(second, 2), np.repeat(once, 2))
+    assert many.p_value == pytest.approx(expected, abs=0.01)
+
+
+def test_the_interval_of_groups_is_as_wide_as_that_of_their_means() -> None:
+    random = np.random.default_rng(3)
+    means = random.normal(1.0, 1.0, 40)
+    once = mean_difference(np.zeros(40), means, alone(40))
+    many = mean_difference(np.zeros(400), np.repeat(means, 10), np.repeat(alone(40), 10))
+    assert many.value == pytest.approx(once.value)
+    assert many.low == pytest.approx(once.low, abs=0.05)
+    assert many.high == pytest.approx(once.high, abs=0.05)

@@ -88,6 +88,12 @@ def test_the_page_asks_for_nothing_from_elsewhere(written: Path) -> None:
     assert not re.search(r"""(src|href)=["'](?:https?:)?//""", text)
 
 
+def test_the_specification_keeps_its_lines(written: Path) -> None:
+    page = (written / "report.html").read_text()
+    (shown,) = re.findall(r"<pre[^>]*>(.*?)</pre>", page, re.DOTALL)
+    assert len(shown.splitlines()) > 3
+
+
 def test_no_text_of_a_run_becomes_markup(written: Path) -> None:
     text = (written / "report.html").read_text()
     assert "<script>alert" not in text

@@ -23,6 +23,7 @@ from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.other_packages import PACKAGE_FILES
 from airhilt.sweep.specification import Specification, specification_of
 from engine_package import installed
+from shortened import shortened
 
 HERE = Environment(versions={"airhilt": "1"}, code_sha256="0", renderer="embree")
 
@@ -105,11 +106,26 @@ def test_two_spellings_of_one_parameter_are_one() -> None:
         ({"axes": {"assistant": ["refrence"]}}, "did you mean 'reference'"),
         ({"axes": {"assistant.tau_asr": [0.5]}, "options": {"assistant": "none"}}, "do nothing"),
         ({"axis": {}}, "axis"),
+        ({"options": {"snr_dbb": 1}}, "unknown field; did you mean 'snr_db'"),
+        ({"axes": {"name": ["other"]}}, "parameter name"),
     ],
 )
 def test_what_cannot_be_run_is_refused_by_name(fields: dict[str, Any], problem: str) -> None:
     with pytest.raises(AirhiltError, match=problem):
         grid(**fields)
+
+
+def test_all_that_is_wrong_with_a_grid_is_told_at_once() -> None:
+    wrong: dict[str, list[JsonValue]] = {
+        "visibility_m": [-4, 0, -7],
+        "assistant": ["nobody"],
+        "actors.AAL123.initial.cas_kt": [9000],
+    }
+    with pytest.raises(AirhiltError) as told:
+        grid(axes=wrong)
+    lines = str(told.value).splitlines()
+    for found in ("found -4", "found 0", "found -7", "nobody", "cas_kt"):
+        assert any(found in line for line in lines), (found, lines)
 
 
 def test_a_grid_without_end_is_refused_before_it_is_made() -> None:
@@ -139,7 +155,7 @@ def test_a_folder_that_an_option_names_is_part_of_the_key(
 
 def test_every_kind_of_file_of_the_package_is_known_to_decide_results_or_not() -> None:
     package = Path(airhilt.__file__).parent
-    of_none = {".html", ".js", ".css", ".typed", ".pyc", ".md", ".LICENSE"}
+    of_none = {".html", ".svg", ".js", ".css", ".typed", ".pyc", ".md", ".LICENSE"}
     paths = (path for path in package.rglob("*") if path.is_file())
     endings = {path.suffix for path in paths if path.relative_to(package).parts[0] != "library"}
     assert endings <= {*PACKAGE_FILES, *of_none}
@@ -182,7 +198,7 @@ def test_a_recorded_latency_is_of_one_seed(encounter: Scenario, tmp_path: Path) 
 
 
 def encounter_of_a_second(encounter: Scenario) -> Scenario:
-    return encounter.model_copy(update={"duration_s": 1.0})
+    return Scenario.model_validate(shortened(encounter.model_dump(mode="json"), 1.0))
 
 
 @pytest.mark.parametrize(

@@ -24,6 +24,7 @@ from airhilt.sweep.outcome import Outcome
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.specification import Specification, specification_of
 from airhilt.sweep.work import Work
+from shortened import shortened
 
 OPTIONS: dict[str, Any] = {"speech": False, "latency": "lognormal:0.3"}
 UNLIMITED = Limits(wall_s=300.0, memory_mb=4000.0)
@@ -46,7 +47,7 @@ class Noted(SweepObserver):
 @pytest.fixture(scope="session")
 def scenario_file(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Some seconds of an encounter whose drawn speeds are out of range with some seeds."""
-    document = encounter.model_dump(mode="json") | {"name": "short", "duration_s": 6.0}
+    document = shortened(encounter.model_dump(mode="json"), 6.0) | {"name": "short"}
     document["perturbations"] = [
         {
             "path": "actors/AAL123/initial/cas_kt",

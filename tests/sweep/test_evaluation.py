@@ -30,6 +30,7 @@ from airhilt.sweep.evaluation.scores import (
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.work import Work
+from shortened import shortened
 from sweep_tables import sweep_row, write_sweep
 
 NO_CAMERAS = Choice(1, {"cameras": False})
@@ -274,8 +275,8 @@ def stopping(_name: str) -> Iterator[SweepObserver]:
 def small(encounter: Scenario, tmp_path: Path) -> Preset:
     """A preset of two short runs."""
     path = tmp_path / "short.json"
-    short = encounter.model_copy(update={"name": "short", "duration_s": 4.0})
-    path.write_text(short.model_dump_json())
+    short = shortened(encounter.model_dump(mode="json"), 4.0) | {"name": "short"}
+    path.write_text(json.dumps(short))
 
     def tables(results: Results) -> Sequence[Table]:
         rows: Sequence[Mapping[str, Any]] = results.rows["only"]
@@ -327,17 +328,25 @@ def test_runs_that_failed_are_named_under_each_table(
 ) -> None:
     rows = [sweep_row("short", "none", 0), sweep_row("short", "none", 1, status="failed")]
     folder = SweepFolder(write_sweep(tmp_path / "out" / "only", rows))
-    result = SweepResult(folder, runs=2, rows=2, failed=1, missing=0)
+    result = SweepResult(folder, runs=5, rows=2, failed=1, missing=3)
     monkeypatch.setattr("airhilt.sweep.evaluation.engine.sweep", lambda *_: result)
     found = evaluate(small, Choice(2, {"speech": False}), Work(tmp_path / "out"), unwatched)
     assert found is not None
-    assert found.failed == 1
+    assert not found.is_complete
     (table,) = found.tables
     assert table.rows == (("none", 0),)
     assert table.notes == (
         "1 run failed and is left out of the tables (1 of `only`): the causes are in "
         "machine.parquet there.",
+        "3 runs did not begin and are left out of the tables (3 of `only`).",
     )
+
+
+def test_tables_of_others_are_not_replaced(small: Preset, tmp_path: Path) -> None:
+    (tmp_path / "evaluation.md").write_text("mine")
+    with pytest.raises(AirhiltError, match=r"evaluation\.md of no evaluation"):
+        evaluate(small, Choice(1, {}), Work(tmp_path), unwatched)
+    assert (tmp_path / "evaluation.md").read_text() == "mine"
 
 
 def test_presets_are_found_by_their_names() -> None:

@@ -14,6 +14,7 @@ from airhilt import load
 from airhilt.errors import AirhiltError, RendererLost, ScenarioError, disk_failed
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
+from airhilt.sweep.files import NamedFiles, require_planned
 from airhilt.sweep.outcome import Request
 
 FULL = OSError(28, "No space left on device")
@@ -81,3 +82,27 @@ def test_a_run_whose_renderer_was_killed_is_no_result_of_it(
     assert (outcome.status, outcome.metrics) == ("crashed", {})
     assert "the process of renderer embree has ended (signal 9)" in outcome.cause
     assert outcome.is_kept
+
+
+def test_a_run_whose_file_is_not_that_of_its_key_is_not_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A worker in another folder, or a file that has changed, would give a row of another run."""
+    scenario = load("s02a_headon").model_dump(mode="json")
+    options = {"cameras": False, "radio_profile": "noise.onnx"}
+    here, elsewhere = tmp_path / "here", tmp_path / "elsewhere"
+    for folder in (here, elsewhere):
+        folder.mkdir()
+    (here / "noise.onnx").write_bytes(b"planned")
+    monkeypatch.chdir(here)
+    planned = NamedFiles().of(scenario, options)
+    request = Request(
+        key="k", scenario=scenario, options=options, keep="none", folder="", files=planned
+    )
+    require_planned(planned, scenario, options)
+    (here / "noise.onnx").write_bytes(b"changed")
+    for folder, problem in ((here, "another file than"), (elsewhere, "not the file that was")):
+        monkeypatch.chdir(folder)
+        found = runner.run_request(request)
+        assert found.status == "crashed"
+        assert f"noise.onnx: {problem}" in found.cause

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, ClassVar
 
 import pytest
 
+from airhilt.child_process import available_cores
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep import engine
@@ -213,7 +216,30 @@ def test_a_dry_run_tries_what_is_left_and_changes_nothing(
     assert (found.runs, found.finished, found.total_s, Probe.seeds) == (4, 2, 20.0, [2])
     found = estimate(first(2), work)
     assert (found.runs, found.finished, found.total_s, Probe.seeds) == (2, 2, 0.0, [])
+    with_many = estimate(first(1002), replace(work, workers=1000))
+    assert with_many.total_s == 10.0 * math.ceil(1000 / available_cores())
+    elsewhere = estimate(first(4), replace(work, scheduler="tcp://127.0.0.1:1"))
+    assert elsewhere.total_s is None
     assert before == {path: path.read_bytes() for path in sweeps.out.rglob("*") if path.is_file()}
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(AirhiltError, match="holds files that are no sweep"):
         estimate(first(2), Work(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("options", "shares"),
+    [
+        ({"latency": "fixed"}, True),
+        ({"latency": "measured"}, False),
+        ({"latency": "fixed", "cameras": False}, False),
+    ],
+)
+def test_runs_share_pictures_where_it_changes_nothing(
+    options: dict[str, Any], shares: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = FakeClient(ends=finishes)
+    monkeypatch.setattr(engine, "FAMILY", SimpleNamespace(create=lambda *_, **__: client))
+    monkeypatch.setattr(engine, "_own_environment", lambda *_: environment(""))
+    asked = {"scenarios": ["s02a_headon"], "options": {"speech": False, **options}}
+    sweep(specification_of(asked, "test"), Work(tmp_path / "sweep"))
+    assert [each.options.get("share_pictures", False) for each in client.submitted] == [shares]

@@ -89,6 +89,9 @@ class SweepComparison:
         Columns in which the sides differ as a whole, with the value of each.
     pairs
         Number of pairs.
+    draws
+        Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
+        other parameters, depend on each other and count as one group.
     alone_first, alone_second
         Number of runs without a partner.
     families
@@ -100,6 +103,7 @@ class SweepComparison:
     paired_by: tuple[str, ...]
     differing: dict[str, tuple[str, str]]
     pairs: int
+    draws: int
     alone_first: int
     alone_second: int
     families: dict[str, list[MeasureDifference]]
@@ -114,6 +118,7 @@ class SweepComparison:
             "paired_by": list(self.paired_by),
             "differing": {name: list(values) for name, values in self.differing.items()},
             "pairs": self.pairs,
+            "draws": self.draws,
             "without_partner": [self.alone_first, self.alone_second],
             "families": {
                 name: [each.as_json() for each in found] for name, found in self.families.items()
@@ -147,6 +152,7 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         paired_by=tuple(by),
         differing=differing,
         pairs=len(pairs),
+        draws=pairs.groupby(list(ALWAYS)).ngroups,
         alone_first=len(first.runs) - len(pairs),
         alone_second=len(second.runs) - len(pairs),
         families=_by_family(pairs),
@@ -221,17 +227,20 @@ def _difference(measure: Measure, pairs: DataFrame) -> MeasureDifference | None:
         return None
     ones, others = (_numbers(values[both]) for values in (first, second))
     is_share = measure.kind == "share"
+    paired = pairs[both]
+    draws = paired.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
     difference = (
-        share_difference(ones > 0, others > 0) if is_share else mean_difference(ones, others)
+        share_difference(ones > 0, others > 0, draws)
+        if is_share
+        else mean_difference(ones, others, draws)
     )
     factor = 100.0 if measure.unit == "%" else 1.0
-    paired = pairs[both]
     return MeasureDifference(
         measure=measure,
         first=measure.estimate(_one_side(measure, paired, FIRST)),
         second=measure.estimate(_one_side(measure, paired, SECOND)),
         difference=difference.times(factor),
-        test=mcnemar(ones > 0, others > 0) if is_share else None,
+        test=mcnemar(ones > 0, others > 0, draws) if is_share else None,
         one_sided=either - int(both.sum()),
     )
 

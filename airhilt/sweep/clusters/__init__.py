@@ -63,6 +63,9 @@ class Cluster(Protocol):
             The scheduler is not there, or nothing can be started.
         """
 
+    def concurrency(self, workers: int) -> int | None:
+        """Return how many runs go on at a time with so many workers, None if that is not known."""
+
 
 FAMILY = EngineFamily[Cluster](
     "scheduler",

@@ -36,6 +36,10 @@ class ExistingScheduler:
         with client:
             yield client
 
+    def concurrency(self, workers: int) -> int | None:  # noqa: ARG002
+        """Return None: only the cluster knows."""
+        return None
+
 
 def _is_address(text: str) -> bool:
     scheme, separator, _ = text.partition("://")

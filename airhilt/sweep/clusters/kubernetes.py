@@ -81,6 +81,10 @@ class KubernetesPods:
         self._cluster: Any = KubeCluster
         self._configuration = configuration
 
+    def concurrency(self, workers: int) -> int:
+        """Return the number of workers: each has a core of its own."""
+        return workers
+
     @contextmanager
     def connect(self, workers: int, dashboard: str | None) -> Iterator[Client]:  # noqa: ARG002
         """Create the resource, and connect by a forwarded port; it is deleted with the context."""

@@ -12,6 +12,7 @@ import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 from distributed.security import Security
 
+from airhilt.child_process import available_cores
 from airhilt.engines import Engine
 from airhilt.sweep.clusters import LOCAL, Cluster, ClusterError
 
@@ -57,6 +58,10 @@ class LocalWorkers:
             with cluster, Client(cluster) as client:
                 client.register_plugin(Uninterrupted())
                 yield client
+
+    def concurrency(self, workers: int) -> int:
+        """Return the number of workers, at most that of the cores."""
+        return min(workers, available_cores())
 
 
 @contextmanager

@@ -54,9 +54,9 @@ class Evaluation:
         return sum(each.rows for each in self.sweeps.values())
 
     @property
-    def failed(self) -> int:
-        """Number of runs that did not finish."""
-        return sum(each.failed for each in self.sweeps.values())
+    def is_complete(self) -> bool:
+        """True if every run finished."""
+        return not any(each.failed or each.missing for each in self.sweeps.values())
 
     def document(self) -> dict[str, Any]:
         """Return ``evaluation.json``."""
@@ -108,6 +108,7 @@ def evaluate(
     AirhiltError
         Something that was given is wrong, or the folder cannot be written.
     """
+    _require_own(work.out)
     sweeps: dict[str, SweepResult] = {}
     for name, specification in specifications_of(preset, choice).items():
         with watched(name) as observer:
@@ -116,9 +117,12 @@ def evaluate(
             if observer.stops:
                 return None
     rows = {name: _finished(each) for name, each in sweeps.items()}
-    failures = _failures({name: each.failed for name, each in sweeps.items()})
+    absent = (
+        *_absent({name: each.failed for name, each in sweeps.items()}, "failed"),
+        *_absent({name: each.missing for name, each in sweeps.items()}, "did not begin"),
+    )
     tables = tuple(
-        table.model_copy(update={"notes": (*table.notes, *failures)})
+        table.model_copy(update={"notes": (*table.notes, *absent)})
         for table in preset.tables(Results(choice, rows))
     )
     evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)
@@ -140,20 +144,41 @@ def specifications_of(preset: Preset, choice: Choice) -> Mapping[str, Specificat
     return specifications
 
 
-def _failures(failed: Mapping[str, int]) -> tuple[str, ...]:
-    """Return a note on the runs that are in no number of the tables, none if all finished.
+def _absent(counts: Mapping[str, int], how: str) -> tuple[str, ...]:
+    """Return a note on runs that are in no number of the tables, none without such runs.
 
     Parameters
     ----------
-    failed
-        Number of runs of each sweep that did not finish.
+    counts
+        Number of these runs of each sweep.
+    how
+        What became of them: ``failed`` or ``did not begin``.
     """
-    total = sum(failed.values())
+    total = sum(counts.values())
     if not total:
         return ()
-    where = ", ".join(f"{count} of `{name}`" for name, count in failed.items() if count)
-    words = "1 run failed and is" if total == 1 else f"{total} runs failed and are"
-    return (f"{words} left out of the tables ({where}): the causes are in machine.parquet there.",)
+    where = ", ".join(f"{count} of `{name}`" for name, count in counts.items() if count)
+    words = f"1 run {how} and is" if total == 1 else f"{total} runs {how} and are"
+    cause = ": the causes are in machine.parquet there" if how == "failed" else ""
+    return (f"{words} left out of the tables ({where}){cause}.",)
+
+
+def _require_own(folder: Path) -> None:
+    """Complain about a folder with files of another origin that the tables would replace.
+
+    Raises
+    ------
+    AirhiltError
+        There are some.
+    """
+    own = folder / "evaluation.json"
+    others = [f"evaluation.{ending}" for ending in ("md", "html")]
+    found = [name for name in others if (folder / name).exists()]
+    if found and not own.exists():
+        raise AirhiltError(
+            f"{folder}: holds {' and '.join(found)} of no evaluation; choose another folder with "
+            "--out"
+        )
 
 
 def _finished(result: SweepResult) -> list[dict[str, Any]]:

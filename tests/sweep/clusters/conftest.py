@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from airhilt.scenario import Scenario
+from shortened import shortened
 
 RUNS = 24
 SweepCommand = Callable[..., list[str]]
@@ -19,7 +20,7 @@ SweepCommand = Callable[..., list[str]]
 @pytest.fixture(scope="session")
 def short_file(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Six seconds of an encounter."""
-    document = encounter.model_dump(mode="json") | {"name": "short", "duration_s": 6.0}
+    document = shortened(encounter.model_dump(mode="json"), 6.0) | {"name": "short"}
     path = tmp_path_factory.mktemp("scenario") / "short.json"
     path.write_text(json.dumps(document))
     return path

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from airhilt.files import sha256
+from airhilt.metrics.measures import HOUR_S
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.sections import SweepSection
@@ -14,8 +15,6 @@ from airhilt.report.sweeps.words import number
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-HOUR_S = 3600.0
 
 
 def content(sweep: SweepData, figures: Figures) -> dict[str, Any]:  # noqa: ARG001
