@@ -12,6 +12,7 @@
     python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
     python tools/bench.py sight             whole runs with cameras against real time
     python tools/bench.py many              runs one after the other in a process: CPU, memory
+    python tools/bench.py soak              two simulated hours with speech: memory, time
     python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
     python tools/bench.py bluesky --bluesky-python VENV/bin/python
@@ -41,6 +42,7 @@ BENCHMARKS = {
     "sight": "pictures",
     "many": "many_runs",
     "sweep": "sweeps",
+    "soak": "soak",
     "startup": "startup",
 }
 """Module of `benchmarks` that has the function of a name."""

@@ -51,7 +51,7 @@ def decode_wav(data: bytes, source: str) -> Audio:
             found = (file.getframerate(), file.getnchannels(), 8 * file.getsampwidth())
             frames = file.getnframes()
             pcm = file.readframes(frames)
-    except (wave.Error, EOFError) as error:
+    except (wave.Error, EOFError, RuntimeError) as error:  # RuntimeError: a chunk that ends too far
         raise SpeechError(
             f"{source}: no WAV file with PCM: {str(error) or 'it breaks off in its header'}"
         ) from None

@@ -6,9 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-Latitude = Annotated[float, Field(ge=-90.0, le=90.0)]
-Longitude = Annotated[float, Field(ge=-180.0, le=180.0)]
-Bearing = Annotated[float, Field(ge=0.0, le=360.0, description="degrees from true north")]
+from airhilt.quantities import DistanceNm, Name, Number
+
+Latitude = Annotated[Number, Field(ge=-90.0, le=90.0)]
+Longitude = Annotated[Number, Field(ge=-180.0, le=180.0)]
+Bearing = Annotated[Number, Field(ge=0.0, le=360.0, description="degrees from true north")]
 RunwayIdent = Annotated[
     str, Field(pattern=r"^\d{1,2}[A-Z]{0,2}$", examples=["01", "18C"], description="one direction")
 ]
@@ -35,8 +37,8 @@ class RelativePosition(_Model):
 
     type: Literal["from_centre"]
     bearing_deg: Bearing
-    distance_nm: float = Field(ge=0.0, le=500.0)
-    offset_nm: float = Field(default=0.0, ge=-100.0, le=100.0)
+    distance_nm: DistanceNm
+    offset_nm: Number = Field(default=0.0, ge=-100.0, le=100.0)
 
 
 class RunwayPosition(_Model):
@@ -48,8 +50,8 @@ class RunwayPosition(_Model):
 
     type: Literal["runway"]
     runway: RunwayIdent
-    along_m: float = Field(ge=-100_000.0, le=20_000.0)
-    offset_m: float = Field(default=0.0, ge=-50_000.0, le=50_000.0)
+    along_m: Number = Field(ge=-100_000.0, le=20_000.0)
+    offset_m: Number = Field(default=0.0, ge=-50_000.0, le=50_000.0)
 
 
 class HoldShortPosition(_Model):
@@ -64,7 +66,7 @@ class NodePosition(_Model):
     """A named node of the airport's taxiways: a stand, a junction."""
 
     type: Literal["node"]
-    node: str = Field(min_length=1, max_length=40)
+    node: Name
 
 
 Position = Annotated[

@@ -66,6 +66,7 @@ def test_half_a_sample_is_refused() -> None:
         (wav(frames=0), "without samples"),
         (wav()[:-20], "truncated: 90 samples; its header promises 100"),
         (wav()[:30], "no WAV file"),
+        (wav()[:17] + b"\x01" + wav()[18:], "no WAV file"),
         (b"", "no WAV file"),
         (b"ID3\x03 this is an mp3", "no WAV file"),
     ],

@@ -100,3 +100,10 @@ def test_where_nobody_decides_there_is_nothing_to_tell() -> None:
     ages = EvidenceAges([])
     ages.take(report(0.0, 0.0))
     assert ages.statistics(seconds_to_ns(20)) == {}
+
+
+def test_ages_count_from_the_first_observation_and_not_from_its_arrival() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(report(1.0, 3.0))
+    ages.step(step(3.0, 1.0))
+    assert ages.statistics(seconds_to_ns(4))["adsb"].mean_s == pytest.approx(1.5)

@@ -21,10 +21,11 @@ from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
 from airhilt.world.flight import Aircraft, InitialCondition, load_aircraft_type
 from airhilt.world.flight.state import Atmosphere
 from airhilt.world.loading import load_text
+from shortened import shortened
 
 
 def asking(scenario: Scenario, *callsigns: str, seconds: float = 10.0) -> Scenario:
-    document = scenario.model_dump(mode="json") | {"duration_s": seconds, "cameras": []}
+    document = shortened(scenario.model_dump(mode="json"), seconds) | {"cameras": []}
     document["cockpits"] = callsigns
     return load_text(json.dumps(document), scenario.name)
 
@@ -121,4 +122,6 @@ def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
     shown = instruments_of("N1", aircraft, None)
     assert shown.north == "true"
     assert shown.gear == 1.0
+    assert shown.radio_height_ft is None
+    assert shown.selected_airspeed_kt == pytest.approx(kind.speeds.approach_kt, abs=1.0)
     assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)

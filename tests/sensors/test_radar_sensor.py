@@ -31,6 +31,7 @@ from airhilt.units import DEGREE, FOOT, SECOND_NS
 from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState, carried_on
 from airhilt.world.site import ScenarioSite
+from shortened import shortened
 
 CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
 TURN_S = {"terminal": 4.8, "en_route": 12.0}
@@ -285,6 +286,16 @@ def test_one_target_more_changes_nothing_in_the_plots_of_another() -> None:
     assert plots == [plot for plot in together.go(60.0).plots if plot.azimuth_deg < 180.0]
 
 
+def test_who_has_ended_is_not_plotted_and_all_others_are() -> None:
+    watch = Watch()
+    gone = watch.add(90.0, 20.0, 10_000.0)
+    watch.add(180.0, 20.0, 10_000.0, index=1)
+    gone.body.ended = "collided"
+    codes = {plot.mode_a for plot in watch.go(15.0).plots}
+    assert len(watch.plots) >= 2
+    assert len(codes) == 1
+
+
 def test_another_seed_draws_other_plots() -> None:
     first, again, other = (Watch(seed=seed) for seed in (1, 1, 2))
     for watch in (first, again, other):
@@ -305,7 +316,7 @@ def radar_messages(folder: Path) -> list[RadarPlot]:
 @pytest.fixture(scope="module")
 def intruder_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Forty seconds of an intruder without a transponder, watched by a terminal radar."""
-    document = load("s02c_intruder_crossing").model_dump(mode="json") | {"duration_s": 40.0}
+    document = shortened(load("s02c_intruder_crossing").model_dump(mode="json"), 40.0)
     document["cameras"] = []
     document["radars"] = [
         {

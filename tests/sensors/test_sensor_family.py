@@ -23,6 +23,7 @@ from airhilt.sim.worker import Input
 from airhilt.workers import Step
 from airhilt.world.loading import load_text
 from paths import ROOT
+from shortened import shortened
 
 GUIDE = (ROOT / "docs" / "sensors.md").read_text()
 
@@ -56,7 +57,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
 @pytest.fixture
 def scenario(encounter: Scenario) -> Scenario:
     """Five seconds of the encounter, and a loop in the pavement."""
-    document = encounter.model_dump(mode="json") | {"duration_s": 5.0}
+    document = shortened(encounter.model_dump(mode="json"), 5.0)
     document["sensors"] = json.loads(block("json"))
     return load_text(json.dumps(document), "encounter")
 

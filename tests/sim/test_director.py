@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.sim import Director, Priority, RealTime, Virtual
+from airhilt.sim import Director, Paused, Priority, RealTime, Virtual
 
 events = st.lists(st.tuples(st.integers(0, 20), st.sampled_from(Priority)), max_size=40)
 
@@ -159,6 +159,20 @@ def test_a_post_wakes_a_director_that_waits_for_the_wall_clock() -> None:
     runner.join(timeout=30.0)
     assert not runner.is_alive()
     assert 0 <= posted_ns[0] < in_an_hour
+
+
+def test_a_pause_that_leaves_no_room_before_the_next_event_can_be_ended() -> None:
+    director = Director(Virtual())
+
+    def pause_and_go_on() -> None:
+        for pace in (Paused(), Virtual()):
+            director.post(lambda pace=pace: director.change_pace(pace))  # type: ignore[misc]
+
+    director.at(5, pause_and_go_on, Priority.SCRIPT)
+    director.at(7, lambda: None, Priority.SCRIPT)
+    director.at(99, director.stop, Priority.SCRIPT)
+    director.run()
+    assert director.now_ns == 99
 
 
 def test_the_pace_may_change_while_it_runs() -> None:

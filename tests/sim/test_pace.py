@@ -7,7 +7,7 @@ from threading import Event
 import pytest
 
 from airhilt.errors import AirhiltError
-from airhilt.sim import RealTime, Virtual, parse_pace
+from airhilt.sim import Paused, RealTime, Virtual, parse_pace
 
 HOUR_NS = 3_600_000_000_000
 
@@ -31,6 +31,14 @@ def test_real_time_says_that_nothing_is_due_when_it_is_woken() -> None:
     pace.start(0)
     wake.set()
     assert not pace.wait_until(HOUR_NS, wake)
+
+
+def test_in_a_pause_nothing_is_due_and_time_stands_still() -> None:
+    pace, wake = Paused(), Event()
+    pace.start(0)
+    wake.set()
+    assert not pace.wait_until(1, wake)
+    assert pace.elapsed_ns(7) == 7
 
 
 def test_what_is_already_due_needs_no_waking() -> None:

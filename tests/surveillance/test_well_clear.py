@@ -12,6 +12,7 @@ from airhilt.surveillance.well_clear import (
     LEVELS,
     PREVENTIVE,
     WARNING,
+    AlertLevel,
     AlertName,
     Gap,
     level_of,
@@ -95,3 +96,12 @@ def test_two_that_are_too_close_already_have_violated_it() -> None:
 def test_the_miss_distance_that_counts_is_0_66_nm(miss_nm: float, is_lost: bool) -> None:
     violation_s = time_to_violation_s(meets(60.0, 500.0, miss_nm), LEVEL, WARNING.volume)
     assert (violation_s is not None) == is_lost
+
+
+@pytest.mark.parametrize(
+    ("level", "earliest_s"), [(PREVENTIVE, 75), (CORRECTIVE, 75), (WARNING, 55)]
+)
+def test_the_times_of_the_levels_are_those_of_do_365b(level: AlertLevel, earliest_s: int) -> None:
+    assert level.earliest_s == earliest_s
+    assert level.alert_s == (25.0 if level is WARNING else 55.0)
+    assert level.volume.zthr_m == (700 if level is PREVENTIVE else 450) * FOOT

@@ -6,6 +6,7 @@ import sys
 
 from airhilt.world.checks import check
 from benchmarks.process_tree import cpu_s
+from benchmarks.soak import soak_scenario
 from benchmarks.traffic import fifty_scenario
 
 
@@ -13,6 +14,12 @@ def test_the_scenario_of_fifty_is_one_that_flies() -> None:
     scenario = fifty_scenario()
     check(scenario, "fifty")
     assert len(scenario.actors) == 50
+
+
+def test_the_scenario_of_the_soak_has_calls_to_its_end() -> None:
+    scenario = soak_scenario(120.0)
+    check(scenario, "soak")
+    assert [line.at_s for line in scenario.radio.lines] == [3.0, 23.0, 43.0, 63.0, 83.0, 103.0]
 
 
 def test_the_cpu_time_of_a_command_is_also_that_of_what_outlives_it() -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.wgs84 import LEAST_CURVATURE_RADIUS_M
 from airhilt.messages import AdsbReport
@@ -91,25 +94,40 @@ class AirTracks:
         Most pairs of a busy sky are too far apart in level or latitude to meet within the
         look-ahead; they are left out here, where it is cheap.
         """
+        names = list(self._tracks)
+        places = {icao24: place for place, icao24 in enumerate(names)}
+        altitude_m, latitude_rad, climb_m, north_m = self._extents(reach.time_s)
         seen = set()
         for icao24 in self._updated:
-            own = self._tracks.get(icao24)
+            own = places.get(icao24)
             if own is None:
                 continue
-            level_m = reach.vertical_m + abs(own.profile().rate_m_s) * reach.time_s
-            north_m = reach.horizontal_m + abs(own.velocity_north_m_s) * reach.time_s
-            for name, other in self._tracks.items():
+            gap_m = np.abs(altitude_m[own] - altitude_m)
+            apart_m = np.abs(latitude_rad[own] - latitude_rad) * LEAST_CURVATURE_RADIUS_M
+            is_near = apart_m <= reach.horizontal_m + north_m[own] + north_m
+            is_near &= gap_m <= reach.vertical_m + climb_m[own] + climb_m
+            partners = [name for pair in wanted if icao24 in pair for name in pair]
+            is_near[[places[name] for name in partners if name in places]] = True
+            is_near[own] = False
+            for place in np.flatnonzero(is_near).tolist():
+                name = names[place]
                 pair = (icao24, name) if icao24 < name else (name, icao24)
-                if name == icao24 or pair in seen:
-                    continue
-                gap_m = abs(own.altitude_m - other.altitude_m)
-                apart_m = abs(own.latitude_rad - other.latitude_rad) * LEAST_CURVATURE_RADIUS_M
-                if pair in wanted or (
-                    apart_m <= north_m + abs(other.velocity_north_m_s) * reach.time_s
-                    and gap_m <= level_m + abs(other.profile().rate_m_s) * reach.time_s
-                ):
+                if pair not in seen:
                     seen.add(pair)
                     yield pair
+
+    def _extents(self, time_s: float) -> NDArray[np.float64]:
+        """Return altitude, latitude, and ways up or down and north or south in a time, by track."""
+        rows = [
+            (
+                track.altitude_m,
+                track.latitude_rad,
+                abs(track.profile().rate_m_s) * time_s,
+                abs(track.velocity_north_m_s) * time_s,
+            )
+            for track in self._tracks.values()
+        ]
+        return np.array(rows, np.float64).reshape(-1, 4).T
 
     def silent_ns(self, pair: Pair, t_ns: int) -> int:
         """Return how long nothing has been heard of either of a pair."""

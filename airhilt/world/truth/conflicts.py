@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
 from typing import NamedTuple
+
+import numpy as np
 
 from airhilt.geodesy.relative_motion import (
     Kinematics,
@@ -45,6 +46,15 @@ TCAS_HEIGHT_M = 3_000.0
 
 
 Pair = tuple[str, str]
+
+
+class _Moving(NamedTuple):
+    """What moves, with its state now, and whether it is in flight."""
+
+    name: str
+    body: Mover
+    state: Kinematics
+    is_in_flight: bool
 
 
 class Approach(NamedTuple):
@@ -208,17 +218,15 @@ class ConflictMonitor:
         height_m = self._minima.vertical_m + 300.0
         far_m, far_up_m = max(reach_m, TCAS_RANGE_M), max(height_m, TCAS_HEIGHT_M)
         moving = [
-            (name, body, body.state, self._in_flight(name))
+            _Moving(name, body, body.state, self._in_flight(name))
             for name, body in self._bodies.items()
             if body.ended is None
         ]
         self._near = []
-        for (name, own, first, flies), (other, its, second, too) in combinations(moving, 2):
-            height = abs(first.altitude_m - second.altitude_m)
-            apart = abs(first.latitude_rad - second.latitude_rad) * LEAST_CURVATURE_RADIUS_M
+        for one, two in self._roughly_near(moving, far_m, far_up_m):
+            (name, own, first, flies), (other, its, second, too) = one, two
             pair = (name, other)
-            if (height > far_up_m or apart > far_m) and pair not in self._always:
-                continue
+            height = abs(first.altitude_m - second.altitude_m)
             motion = relative(first, second)
             distance = motion.distance_m
             if flies and too:
@@ -235,6 +243,28 @@ class ConflictMonitor:
                 self._near.append(pair)
             elif pair in self._always:
                 self._watch(now_ns, pair, min(1.0, now_ns / SECOND_NS))
+
+    def _roughly_near(
+        self, moving: Sequence[_Moving], far_m: float, far_up_m: float
+    ) -> Iterator[tuple[_Moving, _Moving]]:
+        """Yield the pairs that are always watched, or not too far apart in altitude and latitude.
+
+        Most pairs of many are far apart, and arrays find them out at once.
+        """
+        altitudes_m, latitudes_rad = (
+            np.array([(each.state.altitude_m, each.state.latitude_rad) for each in moving])
+            .reshape(-1, 2)
+            .T
+        )
+        is_far = np.abs(np.subtract.outer(altitudes_m, altitudes_m)) > far_up_m
+        north_rad = np.abs(np.subtract.outer(latitudes_rad, latitudes_rad))
+        is_far |= north_rad * LEAST_CURVATURE_RADIUS_M > far_m
+        places = {each.name: place for place, each in enumerate(moving)}
+        for one, other in self._always:
+            if one in places and other in places:
+                is_far[places[one], places[other]] = False
+        for place, later in np.argwhere(np.triu(~is_far, 1)).tolist():
+            yield moving[place], moving[later]
 
     def _check_tcas(self, now_ns: int, pair: Pair, motion: Relative) -> None:
         states = [self._bodies[name].state for name in pair]

@@ -128,6 +128,7 @@ def test_the_way_out_is_away_from_it(altitude_ft: float, sense: str) -> None:
         told = [a.recommendation for a in encounter.to("AAL123") if a.recommendation]
         assert told
         assert {each.sense for each in told} == {sense}
+        assert {each.altitude_ft % 100.0 for each in told} == {0.0}
 
 
 @pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
