@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import selectors
 import subprocess
 import sys
@@ -18,14 +19,26 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
+import psutil
+
 MOST_PRINTED_BYTES = 1 << 20
 """Size of the process's output at which it is thrown away."""
 LAST_PRINTED_BYTES = 1 << 12
 """Size of the end of the output in which its last line is looked for."""
 
 
+STOPPED_FOR_S = 4.0
+"""Time for which a process may be stopped, as by SIGSTOP, before it is given up, in s."""
+LOOK_PERIOD_S = 1.0
+"""Time between two looks at a process that owes an answer, in s."""
+
+
 class NoAnswer(Exception):
     """The process did not answer in time, and was killed."""
+
+
+class Stopped(NoAnswer):
+    """The process was stopped, as by SIGSTOP, and was killed."""
 
 
 class Ended(Exception):
@@ -108,7 +121,7 @@ class ChildProcess:
         Raises
         ------
         NoAnswer
-            There was none within the patience.
+            There was none within the patience; `Stopped` if the process was stopped meanwhile.
         Ended
             The process has ended.
         """
@@ -157,15 +170,19 @@ class ChildProcess:
         self, patience_s: float, watch: Callable[[], None] | None, watch_period_s: float
     ) -> bytes:
         """Return the next line of answers; empty when there will be none."""
-        until_s = time.monotonic() + patience_s
+        now_s = time.monotonic()
+        until_s, stopped_s = now_s + patience_s, now_s + STOPPED_FOR_S
         with selectors.DefaultSelector() as selector:
             selector.register(self._answers, selectors.EVENT_READ)
             while b"\n" not in self._unread:
-                left_s = until_s - time.monotonic()
-                if left_s <= 0.0:
+                now_s = time.monotonic()
+                if not self._is_stopped():
+                    stopped_s = now_s + STOPPED_FOR_S
+                if now_s >= min(until_s, stopped_s):
                     self._process.kill()
-                    raise NoAnswer
-                if not selector.select(left_s if watch is None else min(left_s, watch_period_s)):
+                    raise Stopped if now_s >= stopped_s else NoAnswer
+                wait_s = LOOK_PERIOD_S if watch is None else watch_period_s
+                if not selector.select(min(until_s - now_s, wait_s)):
                     if watch is not None:
                         watch()
                     continue
@@ -175,6 +192,16 @@ class ChildProcess:
                 self._unread += part
         line, _, self._unread = self._unread.partition(b"\n")
         return line
+
+    def _is_stopped(self) -> bool:
+        """Return whether the process does nothing until somebody lets it go on."""
+        if not hasattr(os, "waitid"):
+            return False  # macOS has it from Python 3.13 on.
+        try:
+            look = os.WSTOPPED | os.WNOHANG | os.WNOWAIT
+            return os.waitid(os.P_PID, self._process.pid, look) is not None
+        except ChildProcessError:
+            return False
 
     def _discard_output(self) -> None:
         """Throw much output away: the process writes where this side's file stands too."""
@@ -189,6 +216,17 @@ class ChildProcess:
         last = self._printed.read().decode(errors="replace").strip().splitlines()[-1:]
         cause = f": {last[0]}" if last else ""
         return f"({exit_text(self._process.returncode)}){cause}"
+
+
+def cpu_s() -> float:
+    """Return the CPU time of this process and of its children, ended or not, in s."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    total = sum(each.ru_utime + each.ru_stime for each in used)
+    for child in psutil.Process().children():
+        with suppress(psutil.Error):
+            living = child.cpu_times()
+            total += living.user + living.system
+    return total
 
 
 def available_cores() -> int:

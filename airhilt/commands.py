@@ -9,7 +9,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.geodesy.positions import Position, RunwayIdent, TaxiwayName
+from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
+from airhilt.quantities import AltitudeFt, Flag, Number, VerticalRateFpm
 
 
 class _Command(BaseModel):
@@ -23,9 +24,9 @@ class AltitudeCommand(_Command):
     """Climb or descend to an altitude."""
 
     action: Literal["altitude"]
-    altitude_ft: float
-    vertical_rate_fpm: float | None = Field(
-        default=None, gt=0.0, description="null: the usual rate of the aircraft type"
+    altitude_ft: AltitudeFt
+    vertical_rate_fpm: VerticalRateFpm | None = Field(
+        default=None, description="null: the usual rate of the aircraft type"
     )
 
 
@@ -33,21 +34,21 @@ class TrackCommand(_Command):
     """Turn to a true track by the shorter side."""
 
     action: Literal["track"]
-    track_deg: float = Field(ge=0.0, le=360.0)
+    track_deg: Bearing
 
 
 class TurnCommand(_Command):
     """Turn by an angle from the present track."""
 
     action: Literal["turn"]
-    degrees: float = Field(ge=-180.0, le=180.0, description="positive to the right")
+    degrees: Number = Field(ge=-180.0, le=180.0, description="positive to the right")
 
 
 class SpeedCommand(_Command):
     """Fly a calibrated airspeed."""
 
     action: Literal["speed"]
-    cas_kt: float = Field(gt=0.0)
+    cas_kt: Number = Field(gt=0.0, le=1000.0)
 
 
 class RouteCommand(_Command):
@@ -73,7 +74,7 @@ class EmergencyDescentCommand(_Command):
     """Descend as fast as the type can, and level off at an altitude."""
 
     action: Literal["emergency_descent"]
-    altitude_ft: float
+    altitude_ft: AltitudeFt
 
 
 # --- to and from a runway -------------------------------------------------------------------
@@ -91,7 +92,7 @@ class TakeOffCommand(_Command):
 
     action: Literal["take_off"]
     runway: RunwayIdent
-    climb_to_ft: float = 5000.0
+    climb_to_ft: AltitudeFt = 5000.0
 
 
 class CancelTakeoffCommand(_Command):
@@ -109,14 +110,14 @@ class LandCommand(_Command):
     exit: TaxiwayName | None = Field(
         default=None, description="null: the first exit that a normal rollout can take"
     )
-    vacate: bool = Field(default=True, description="false: the aircraft stops on the runway")
+    vacate: Flag = Field(default=True, description="false: the aircraft stops on the runway")
 
 
 class GoAroundCommand(_Command):
     """Break off the approach and climb straight out."""
 
     action: Literal["go_around"]
-    climb_to_ft: float = 3000.0
+    climb_to_ft: AltitudeFt = 3000.0
 
 
 class SideStepCommand(_Command):
@@ -137,9 +138,9 @@ class TaxiCommand(_Command):
 
     action: Literal["taxi"]
     to: Position
-    via: tuple[TaxiwayName, ...] = ()
-    speed_kt: float | None = Field(default=None, gt=0.0, le=80.0)
-    off_taxiways: bool = Field(default=False, description="true: in a straight line from here")
+    via: tuple[TaxiwayName, ...] = Field(default=(), max_length=40)
+    speed_kt: Number | None = Field(default=None, gt=0.0, le=80.0)
+    off_taxiways: Flag = Field(default=False, description="true: in a straight line from here")
 
 
 class HoldPositionCommand(_Command):
@@ -163,7 +164,7 @@ class MoveCommand(_Command):
     action: Literal["move"]
     gait: Literal["walk", "run", "fly"]
     to: Position
-    height_ft: float = Field(
+    height_ft: Number = Field(
         default=60.0, ge=0.0, le=20_000.0, description="of a flight, above the ground"
     )
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from threading import Timer
+from typing import Any
 
 import onnxruntime
 
 from airhilt.errors import AirhiltError, SpeechError, first_line
+
+FIRST_LOOK_S = 20.0
+"""Longest wall time of the first look of a network, in s; a loop in it may never end."""
 
 
 def open_network(
@@ -47,3 +53,34 @@ def open_network(
         raise error(
             f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
         ) from None
+
+
+def first_look(
+    network: onnxruntime.InferenceSession, inputs: Mapping[str, Any], limit_s: float = FIRST_LOOK_S
+) -> list[Any]:
+    """Return the outputs of a network that may never end.
+
+    Parameters
+    ----------
+    limit_s
+        Wall time after which it is stopped.
+
+    Raises
+    ------
+    TimeoutError
+        It did not end within the limit.
+    """
+    options = onnxruntime.RunOptions()
+    options.log_severity_level = 4
+    timer = Timer(limit_s, setattr, (options, "terminate", True))
+    timer.daemon = True
+    timer.start()
+    try:
+        found: list[Any] = network.run(None, dict(inputs), options)
+    except Exception:
+        if options.terminate:
+            raise TimeoutError(f"does not end within {limit_s:g} s") from None
+        raise
+    finally:
+        timer.cancel()
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile, zip_longest
 from pathlib import Path
@@ -20,7 +20,7 @@ from airhilt.errors import RunFolderError, first_problem
 from airhilt.files import content_sha256
 from airhilt.messages import Event
 from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
-from airhilt.record.folder import versions
+from airhilt.record.folder import machine, versions
 from airhilt.record.run import untold
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
@@ -55,19 +55,24 @@ class Verdict:
     """Number of messages that were compared."""
     difference: str
     notes: tuple[str, ...]
+    cause: str = ""
+    """Why the replay differs, as far as it is known: other software or another machine."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return it for JSON."""
         return {
             "identical": self.identical,
             "messages": self.messages,
+            "cause": self.cause or None,
             "difference": self.difference or None,
             "notes": list(self.notes),
         }
 
     def __str__(self) -> str:
-        head = f"identical: {self.messages} messages" if self.identical else self.difference
-        return "\n".join([head, *(f"note: {note}" for note in self.notes)])
+        head = [f"identical: {self.messages} messages"] if self.identical else [self.difference]
+        if self.cause:
+            head.insert(0, f"cause: {self.cause}")
+        return "\n".join([*head, *(f"note: {note}" for note in self.notes)])
 
 
 def replay(path: Path, observer: Observer | None = None) -> Verdict:
@@ -83,6 +88,11 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
     """
     original = open_run(path, untold)
     folder, info = original.folder, original.info
+    if not info.options.voice_recording:
+        raise RunFolderError(
+            f"{folder.path}: made with --no-voice-recording, so that what people said is not in "
+            "it; expected a run with their voices"
+        )
     _require_comparable(info, folder)
     _require_inputs(original)
     latencies = original.latencies()
@@ -158,12 +168,7 @@ def _require_inputs(original: Run) -> None:
 def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], original: Run) -> Verdict:
     info = original.info
     notes = list(original.damage)
-    now = versions()
-    changed = [
-        f"{name} {was} -> {now.get(name)}"
-        for name, was in info.versions.items()
-        if now.get(name) != was
-    ]
+    changed = _changes(info.versions, versions())
     if changed:
         notes.append(f"versions differ from the recording: {', '.join(changed)}")
     notes += [
@@ -180,8 +185,30 @@ def _compare(recorded: Sequence[Logged], repeated: Sequence[Logged], original: R
         repeated = [logged for logged in repeated if logged.sequence in left]
     for index, (was, now_is) in enumerate(zip_longest(recorded, repeated)):
         if was != now_is:
-            return Verdict(False, index, _difference(index, was, now_is), tuple(notes))
+            cause = _cause([*changed, *_changes(info.platform, machine(), ("machine",))])
+            return Verdict(False, index, _difference(index, was, now_is), tuple(notes), cause)
     return Verdict(True, len(recorded), "", tuple(notes))
+
+
+def _changes(
+    was: Mapping[str, str], now: Mapping[str, str], names: Iterable[str] | None = None
+) -> list[str]:
+    """Return what is not as it was, in words."""
+    return [
+        f"{name} {was[name]} -> {now.get(name)}"
+        for name in (was if names is None else names)
+        if name in was and now.get(name) != was[name]
+    ]
+
+
+def _cause(changed: Sequence[str]) -> str:
+    """Return why a replay differs; empty if nothing is known that could be why."""
+    if not changed:
+        return ""
+    return (
+        f"other software or another machine than the run had ({', '.join(changed)}); the same "
+        "bytes need the same versions, as constraints.txt has them, and the same kind of processor"
+    )
 
 
 def _is_stop(logged: Logged) -> bool:

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
-from airhilt.scenario.models import AllOf, AnyOf, Condition, LineEnded, RadioLine, Scenario
+from airhilt.scenario.models import (
+    AllOf,
+    AnyOf,
+    Condition,
+    LineBegun,
+    LineEnded,
+    RadioLine,
+    Scenario,
+    TimeReached,
+)
 
 
 def needed_lines(scenario: Scenario) -> dict[str, tuple[str, ...]]:
@@ -44,6 +53,37 @@ def _answered(scenario: Scenario) -> dict[str, str]:
 
 def _is_readback(line: RadioLine, before: RadioLine) -> bool:
     return (before.speaker, before.to) == (line.to, line.speaker)
+
+
+def unsayable_lines(scenario: Scenario) -> Set[str]:
+    """Return the ids of the lines whose condition can never come true.
+
+    Such a line waits for itself, for lines that wait for it, or for a time after the run.
+    """
+    waiting = {line.id: line.when for line in scenario.radio.lines if line.when is not None}
+    while sayable := [
+        name
+        for name, when in waiting.items()
+        if _can_come_true(when, waiting.keys(), scenario.duration_s)
+    ]:
+        for name in sayable:
+            del waiting[name]
+    return waiting.keys()
+
+
+def _can_come_true(condition: Condition, waiting: Set[str], duration_s: float) -> bool:
+    """Return whether a condition may come true before any of the lines that wait."""
+    match condition:
+        case TimeReached(at_s=at_s):
+            return at_s < duration_s
+        case LineBegun(line=line) | LineEnded(line=line):
+            return line not in waiting
+        case AllOf(conditions=inner):
+            return all(_can_come_true(one, waiting, duration_s) for one in inner)
+        case AnyOf(conditions=inner):
+            return any(_can_come_true(one, waiting, duration_s) for one in inner)
+        case _:
+            return True
 
 
 def _awaited(condition: Condition) -> Iterator[str]:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.scenario import documents
 from airhilt.scenario.models import Scenario
+from airhilt.scenario.nearby import with_nearby_files
 from airhilt.scenario.problems import error_for, problems_of
-
-MAXIMUM_BYTES = 20_000_000
-"""Size of the largest file that is read."""
 
 
 def find(name_or_file: str | Path) -> Path:
@@ -35,23 +34,21 @@ def find(name_or_file: str | Path) -> Path:
     return library.find("scenarios", str(name_or_file))
 
 
-def read(path: Path) -> Scenario:
-    """Return the scenario in a file, not checked against the world.
+def read(path: Path, allowed: Sequence[Path] = ()) -> Scenario:
+    """Return the scenario in a file, with the files that it names, not checked against the world.
+
+    Parameters
+    ----------
+    allowed
+        Folders besides its own in which it may name files.
 
     Raises
     ------
     ScenarioError
-        The file cannot be read, or does not follow the schema.
+        A file cannot be read, or does not follow the schema.
     """
-    try:
-        if path.stat().st_size > MAXIMUM_BYTES:
-            raise ScenarioError(f"{path}: over {MAXIMUM_BYTES // 1_000_000} MB, no scenario is")
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
-    return parse(text, str(path))
+    document = documents.parse(documents.read_text(path), str(path))
+    return _validated(with_nearby_files(document, path, allowed), str(path))
 
 
 def parse(text: str, origin: str) -> Scenario:
@@ -67,18 +64,10 @@ def parse(text: str, origin: str) -> Scenario:
     ScenarioError
         The text is not JSON, or does not follow the schema.
     """
-    try:
-        document = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise ScenarioError(
-            f"{origin}:{error.lineno}:{error.colno}: not valid JSON: {error.msg}"
-        ) from None
-    except ValueError:
-        raise ScenarioError(
-            f"{origin}: an integer of thousands of digits, no scenario has"
-        ) from None
-    except RecursionError:
-        raise ScenarioError(f"{origin}: nested too deeply") from None
+    return _validated(documents.parse(text, origin), origin)
+
+
+def _validated(document: documents.Json, origin: str) -> Scenario:
     try:
         return Scenario.model_validate(document)
     except ValidationError as error:

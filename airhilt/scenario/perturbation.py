@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import copy
-from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
+from airhilt.scenario.documents import Json
 from airhilt.scenario.models import Normal, Perturbation, Scenario
 from airhilt.sim.streams import stream
-
-Json = Any
-"""JSON document, as `json.load` returns it."""
 
 NAMING_FIELDS = ("callsign", "id", "name")
 """Fields by which a path names an entry of a list."""

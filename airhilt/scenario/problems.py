@@ -13,6 +13,12 @@ from pydantic import BaseModel, ValidationError
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.text import readable
+
+LONGEST_PATH = 100
+"""Number of characters that an error shows of a path."""
+LONGEST_TEXT = 300
+"""Number of characters that an error shows of what is wrong there."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +29,10 @@ class Problem:
     text: str
 
     def __str__(self) -> str:
-        return f"{self.path or '(top)'}: {self.text}"
+        path = self.path or "(top)"
+        if len(path) > LONGEST_PATH:
+            path = f"{path[: LONGEST_PATH // 2]}…{path[-LONGEST_PATH // 2 :]}"
+        return f"{readable(path)}: {readable(self.text, LONGEST_TEXT)}"
 
 
 def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -10,11 +11,16 @@ from airhilt.errors import AirhiltError, ScenarioError, first_problem
 from airhilt.scenario import loading
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.perturbation import Draw, realise
-from airhilt.world.checks import check
+from airhilt.world.checks import check, check_file
 
 
-def load(name_or_file: str | Path) -> Scenario:
+def load(name_or_file: str | Path, allowed: Sequence[Path] = ()) -> Scenario:
     """Return a scenario that ships with AIRHILT, by name, or one from a file; it is checked.
+
+    Parameters
+    ----------
+    allowed
+        Folders besides that of the file in which it may name files.
 
     Raises
     ------
@@ -22,8 +28,8 @@ def load(name_or_file: str | Path) -> Scenario:
         There is none of that name, or it is not valid.
     """
     path = loading.find(name_or_file)
-    scenario = loading.read(path)
-    check(scenario, str(path))
+    scenario = loading.read(path, allowed)
+    check_file(scenario, str(path))
     return scenario
 
 
@@ -41,7 +47,7 @@ def load_text(text: str, origin: str) -> Scenario:
         The text is not JSON, or not a valid scenario.
     """
     scenario = loading.parse(text, origin)
-    check(scenario, origin)
+    check_file(scenario, origin)
     return scenario
 
 

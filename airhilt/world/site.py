@@ -59,7 +59,7 @@ class ScenarioSite:
         from airhilt.world.surface.airport import load_airport
         from airhilt.world.surface.layout import Layout
 
-        layout = Layout(load_airport(scene.airport))
+        layout = Layout(load_airport(scene.airport, scenario.files))
         latitude, longitude = layout.local_frame.to_place(0.0, 0.0)
         centre = GeodeticPosition(
             type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE

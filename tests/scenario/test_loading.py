@@ -276,6 +276,99 @@ def test_a_number_of_five_thousand_digits_is_refused() -> None:
         load_text(text, "test.json")
 
 
+@pytest.mark.parametrize(
+    ("path", "value", "what"),
+    [
+        ("radio/lines/0/at_s", 1e308, "found 1e+308: input should be less than or equal to 86400"),
+        ("end_when/0", {"type": "time", "at_s": 1e308}, "less than or equal to 86400"),
+        ("perturbations", [{"path": "duration_s", "distribution":
+                            {"type": "uniform", "limit": 1e308}}], "less than or equal to 1000000"),
+        ("duration_s", True, "found true: input should be a valid number"),
+        ("actors/0/initial/cas_kt", "290", 'found "290": input should be a valid number'),
+        ("actors/0/transponder", {"equipped": 1}, "found 1: input should be a valid boolean"),
+        ("actors/0/transponder", {"nacp": 9.0}, "found 9.0: input should be a valid integer"),
+        ("daylight", {"date": 5}, "found 5: expected a date"),
+        ("daylight", {"date": "0001-01-01"}, "expected a date from 1900-01-01 to 2100-12-31"),
+        ("adsb", {"outages_s": [[20, 10]]}, "it ends before it begins"),
+        ("radio/lines/0/at_s", 300, "found 300, when the run has ended; expected less than"),
+        ("radio/lines/0/when", {"type": "line_ended", "line": "clearance"}, "this line itself"),
+        ("radio/lines/0/when", {"type": "line_begun", "line": "clearance"}, "never comes true"),
+        ("radio/lines/0/when", {"type": "time", "at_s": 300}, "or for a time after the run"),
+        ("radio/lines/0/speaker", "Nobody", "no actor or unit 'Nobody'"),
+        ("radio/lines/0/to", "AAL124", "no actor or unit 'AAL124'; did you mean 'AAL123'?"),
+        ("radio/controller", "AAL123", "found 'AAL123', which is an actor"),
+        ("radio/lines/1/commands/0/actor", "AAL124", "no actor 'AAL124'; did you mean 'AAL123'?"),
+        ("radio/lines/1/commands/0/command/altitude_ft", -5000, "greater than or equal to -1500"),
+        ("radio/lines/1/commands/0/command/altitude_ft", 0, "found 0, which is not above the gro"),
+        ("actors/0/commands", [{"action": "emergency_descent", "altitude_ft": -100}], "found -100"),
+        ("title", "\ud800", "half of a surrogate pair"),
+        ("title", "\x00", "a control character"),
+        ("radio/lines/0/text", "x" * 30_000, "found a text of 30,000 characters"),
+        ("sensors", {"mine": {"a": [1e999]}}, "not finite"),
+    ],
+)  # fmt: skip
+def test_what_a_run_could_not_hold_is_refused_with_its_path(
+    path: str, value: Any, what: str
+) -> None:
+    message = complaint(changed(VERTICAL, path, value))
+    assert message.startswith(f"test.json: {path}")
+    assert what in message
+    assert len(message) <= 500
+
+
+def test_two_lines_do_not_wait_for_each_other() -> None:
+    document = changed(VERTICAL, "radio/lines/0/when", {"type": "line_ended", "line": "readback"})
+    document = changed(document, "radio/lines/1/when", {"type": "line_begun", "line": "clearance"})
+    assert "radio/lines/0/when: found a condition that never comes true" in complaint(document)
+
+
+def test_a_line_may_wait_for_one_of_two_things_of_which_one_can_be() -> None:
+    conditions = [{"type": "line_ended", "line": "clearance"}, {"type": "time", "at_s": 5}]
+    either = {"type": "any_of", "conditions": conditions}
+    load_text(json.dumps(changed(VERTICAL, "radio/lines/0/when", either)), "test.json")
+    both = {"type": "all_of", "conditions": conditions}
+    assert "radio/lines/0/when" in complaint(changed(VERTICAL, "radio/lines/0/when", both))
+
+
+def test_a_unit_besides_the_controller_is_declared() -> None:
+    document = changed(VERTICAL, "radio/lines/0/speaker", "Ops one")
+    message = complaint(document)
+    assert 'declared in radio/stations: {"Ops one": {}}' in message
+    load_text(json.dumps(changed(document, "radio/stations", {"Ops one": {}})), "test.json")
+
+
+def test_two_stations_do_not_share_a_name() -> None:
+    receiver = {"name": "mast", "position": HEAD_ON["actors"][0]["initial"]["position"]}
+    message = complaint(changed(HEAD_ON, "adsb", {"receivers": [receiver, receiver]}))
+    assert "adsb/receivers/1/name: found 'mast', which adsb/receivers/0 has already" in message
+
+
+def test_a_field_is_given_once() -> None:
+    text = json.dumps(changed(VERTICAL, "radio/stations", {"AAL123": {}, "DAL456": {}}))
+    with pytest.raises(ScenarioError, match="radio/stations: found field 'AAL123' twice"):
+        load_text(text.replace('"DAL456": {}', '"AAL123": {}'), "test.json")
+
+
+@pytest.mark.parametrize("depth", [20, 50, 200, 100_000])
+def test_conditions_are_nested_in_few_levels(depth: int) -> None:
+    text = json.dumps(changed(HEAD_ON, "end_when", ["HERE"]))
+    opening, closing = '{"type": "all_of", "conditions": [', "]}"
+    inner = opening * depth + '{"type": "time", "at_s": 5}' + closing * depth
+    with pytest.raises(ScenarioError, match="nested too deeply; expected at most 24") as caught:
+        load_text(text.replace('"HERE"', inner), "test.json")
+    assert len(str(caught.value)) <= 500
+
+
+def test_a_file_has_a_greatest_size(tmp_path: Path) -> None:
+    path = tmp_path / "large.json"
+    path.write_text(" " * 5_000_001, encoding="utf-8")
+    with pytest.raises(ScenarioError, match="found over 5,000,000 bytes"):
+        load(path)
+    path.write_text(f"[{'0,' * 300_000}0]", encoding="utf-8")
+    with pytest.raises(ScenarioError, match="found over 200,000 values"):
+        load(path)
+
+
 def test_a_file_that_is_not_utf_8_is_told(tmp_path: Path) -> None:
     path = tmp_path / "latin.json"
     path.write_bytes(b'{"name": "caf\xe9"}')

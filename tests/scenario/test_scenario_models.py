@@ -64,7 +64,7 @@ actors = st.builds(
     st.booleans(),
 )
 simple = st.one_of(
-    st.builds(lambda t: {"type": "time", "at_s": t}, st.floats(0.0, 1e5)),
+    st.builds(lambda t: {"type": "time", "at_s": t}, st.floats(0.0, 86_400.0)),
     st.builds(
         lambda a, b, d: {
             "type": "separation_below", "actors": [a, b], "horizontal_nm": d, "vertical_ft": 10 * d,

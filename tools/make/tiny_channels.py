@@ -38,6 +38,24 @@ def save(
     path.write_bytes(model.SerializeToString())
 
 
+def louder() -> onnx.GraphProto:
+    """Return the body of a loop that changes the speech and goes on."""
+    ports = [
+        helper.make_tensor_value_info("turn", TensorProto.INT64, []),
+        helper.make_tensor_value_info("again", TensorProto.BOOL, []),
+        helper.make_tensor_value_info("before", TensorProto.FLOAT, None),
+    ]
+    made = [
+        helper.make_tensor_value_info("still", TensorProto.BOOL, []),
+        helper.make_tensor_value_info("after", TensorProto.FLOAT, None),
+    ]
+    nodes = [
+        helper.make_node("Identity", ["again"], ["still"]),
+        helper.make_node("Tanh", ["before"], ["after"]),
+    ]
+    return helper.make_graph(nodes, "louder", ports, made)
+
+
 def main() -> None:
     """Write one model that is a channel, and some that are none."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -58,6 +76,11 @@ def main() -> None:
     )
     save(out / "whole_numbers.onnx", [helper.make_node("Identity", ["speech"], ["heard"])],
          kind=TensorProto.INT64)  # fmt: skip
+    save(
+        out / "endless.onnx",
+        [helper.make_node("Loop", ["count", "goes_on", "speech"], ["heard"], body=louder())],
+        {"count": np.array(2**62, np.int64), "goes_on": np.array(True)},
+    )
     save(
         out / "twice_as_long.onnx",
         [helper.make_node("Concat", ["speech", "speech"], ["heard"], axis=1)],

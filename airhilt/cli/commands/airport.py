@@ -142,6 +142,11 @@ def import_(ident: str, out: Path | None, overwrite: bool, **given: Any) -> None
     made = import_airport(ident, **given)
     write_airport(made, target)
     click.echo(target)
+    echo(
+        f'note: a scenario in the same folder uses it by "airport": "{target.name}"; '
+        f"`airhilt airport show {target}` draws it",
+        err=True,
+    )
     if note := made.sources["runways"].note:
         for line in note.split("; "):
             echo(f"note: {line}", err=True)

@@ -18,6 +18,7 @@ Examples:
   airhilt schema --services > services.schema.json
   airhilt schema --assistant reference
   airhilt schema --sweep > sweep.schema.json
+  airhilt schema --experiment > plan.schema.json
   airhilt schema --scheduler slurm
 """
 )
@@ -27,16 +28,24 @@ Examples:
     "--assistant", metavar="NAME", help="The schema of an assistant's configuration instead."
 )
 @click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
+@click.option("--experiment", is_flag=True, help="The schema of plans of experiments instead.")
 @click.option(
     "--scheduler", metavar="NAME", help="The schema of a scheduler's configuration instead."
 )
 def schema(
-    scenario: bool, services: bool, assistant: str | None, sweep: bool, scheduler: str | None
+    scenario: bool,
+    services: bool,
+    assistant: str | None,
+    sweep: bool,
+    experiment: bool,
+    scheduler: str | None,
 ) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    if sum((scenario, services, assistant is not None, sweep, scheduler is not None)) > 1:
+    given = (scenario, services, assistant is not None, sweep, experiment, scheduler is not None)
+    if sum(given) > 1:
         raise click.UsageError(
-            "--scenario, --services, --assistant, --sweep, --scheduler: expected one of them"
+            "--scenario, --services, --assistant, --sweep, --experiment, --scheduler: expected one "
+            "of them"
         )
     document: dict[str, Any]
     if services:
@@ -55,6 +64,10 @@ def schema(
         from airhilt.sweep.specification import Specification
 
         document = Specification.model_json_schema()
+    elif experiment:
+        from airhilt.station.plan import Plan
+
+        document = Plan.model_json_schema()
     elif scenario:
         from airhilt.scenario import Scenario
 

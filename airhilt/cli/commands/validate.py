@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
+from airhilt.cli.notices import tell
 from airhilt.cli.output import echo
+from airhilt.cli.parameters import allow_path_option
 from airhilt.errors import AirhiltError, ScenarioError
+
+SHOWN_PROBLEMS = 20
+"""Number of problems of a file that are shown."""
 
 
 @click.command(
@@ -15,21 +22,22 @@ Examples:
 """
 )
 @click.argument("file")
-def validate(file: str) -> None:
+@allow_path_option
+def validate(file: str, allowed: tuple[Path, ...]) -> None:
     """Check a scenario file, and put all its actors where they begin."""
-    from airhilt.cosim.option_checks import require_known_equipment
-    from airhilt.cosim.setup import TICK_S
-    from airhilt.world.actors import build_actors
-    from airhilt.world.loading import draw, load
-    from airhilt.world.site import ScenarioSite
+    from airhilt.cosim.validation import require_runnable
+    from airhilt.world.checks.texts import doubtful_texts
+    from airhilt.world.loading import load
 
     try:
-        scenario = load(file)
+        scenario = load(file, allowed)
     except ScenarioError as error:
-        raise AirhiltError("\n".join(error.problems)) from None
-    require_known_equipment(scenario.equipment)
-    realised, _ = draw(scenario, 0)
-    build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
+        shown, more = error.problems[:SHOWN_PROBLEMS], len(error.problems) - SHOWN_PROBLEMS
+        tail = [f"... and {more} more"] if more > 0 else []
+        raise AirhiltError("\n".join([*shown, *tail])) from None
+    require_runnable(scenario)
+    for doubt in doubtful_texts(scenario):
+        tell(f"warning: {file}: {doubt}; a difference that is meant is declared in failures")
     echo(f"{file}: valid: {scenario.name}, {len(scenario.actors)} actors")
 
 

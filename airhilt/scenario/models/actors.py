@@ -9,7 +9,8 @@ from pydantic import Field
 from airhilt.commands import AircraftCommand, Command
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
 from airhilt.messages import TransponderMode
-from airhilt.scenario.models.base import Callsign, Model
+from airhilt.quantities import AltitudeFt, Count, FileName, Flag, Name, Number, Share
+from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Model
 from airhilt.scenario.models.conditions import Condition
 
 
@@ -18,8 +19,8 @@ class Airborne(Model):
 
     type: Literal["airborne"]
     position: Position
-    altitude_ft: float = Field(ge=-1500.0, le=60_000.0)
-    cas_kt: float = Field(gt=0.0, le=500.0, description="calibrated airspeed")
+    altitude_ft: AltitudeFt
+    cas_kt: Number = Field(gt=0.0, le=500.0, description="calibrated airspeed")
     track_deg: Bearing | None = Field(
         default=None, description="true track; null: straight to the first point of the route"
     )
@@ -30,7 +31,7 @@ class OnFinal(Model):
 
     type: Literal["final"]
     runway: RunwayIdent
-    distance_nm: float = Field(ge=1.0, le=15.0, description="to the landing threshold")
+    distance_nm: Number = Field(ge=1.0, le=15.0, description="to the landing threshold")
 
 
 class LinedUp(Model):
@@ -46,7 +47,7 @@ class HoldingShort(Model):
     type: Literal["hold_short"]
     runway: RunwayIdent
     taxiway: TaxiwayName
-    before_m: float = Field(default=0.0, ge=0.0, le=2000.0)
+    before_m: Number = Field(default=0.0, ge=0.0, le=2000.0)
 
 
 class Standing(Model):
@@ -70,22 +71,22 @@ class Reactions(Model):
     model of ICAO Annex 10, volume IV.
     """
 
-    reaction_median_s: float = Field(default=5.0, ge=0.0, le=120.0)
-    reaction_sigma: float = Field(default=0.3, ge=0.0, le=2.0)
-    compliance: float = Field(
-        default=1.0, ge=0.0, le=1.0, description="probability of following an advisory at all"
+    reaction_median_s: Number = Field(default=5.0, ge=0.0, le=120.0)
+    reaction_sigma: Number = Field(default=0.3, ge=0.0, le=2.0)
+    compliance: Share = Field(
+        default=1.0, description="probability of following an advisory at all"
     )
 
 
 class Transponder(Model):
     """Transponder of an actor: it answers radars and TCAS, and it transmits ADS-B."""
 
-    equipped: bool = True
+    equipped: Flag = True
     mode: TransponderMode = Field(
         default="S", description="S: with ADS-B; C: Modes A and C alone, which transmit no ADS-B"
     )
-    nacp: int = Field(default=9, ge=0, le=11, description="ADS-B accuracy category for position")
-    nacv: int = Field(default=2, ge=0, le=4, description="ADS-B accuracy category for velocity")
+    nacp: Count = Field(default=9, ge=0, le=11, description="ADS-B accuracy category for position")
+    nacv: Count = Field(default=2, ge=0, le=4, description="ADS-B accuracy category for velocity")
     squawk: str | None = Field(
         default=None,
         pattern=r"^[0-7]{4}$",
@@ -107,15 +108,19 @@ class AircraftSpec(Model):
     type: Literal["aircraft"]
     callsign: Callsign
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
-    aircraft: str = Field(description="name of a file in aircraft/, such as 737")
+    aircraft: FileName = Field(
+        description="name of a file in aircraft/, such as 737, or a file beside the scenario"
+    )
     initial: AircraftStart
     route: tuple[Position, ...] = Field(
         default=(), max_length=100, description="waypoints flown in order; then straight on"
     )
-    commands: tuple[AircraftAction, ...] = Field(default=(), description="carried out at the start")
+    commands: tuple[AircraftAction, ...] = Field(
+        default=(), max_length=MOST_COMMANDS, description="carried out at the start"
+    )
     pilot: Reactions = Reactions()
     transponder: Transponder = Transponder()
-    on_roster: bool = Field(
+    on_roster: Flag = Field(
         default=True, description="false: no controller expects it, and it is on no frequency"
     )
 
@@ -126,10 +131,12 @@ class VehicleSpec(Model):
     type: Literal["vehicle"]
     callsign: Callsign
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$", description="24-bit address in hexadecimal")
-    kind: str = Field(description="such as follow_me", examples=["fire_truck"])
+    kind: Name = Field(description="such as follow_me", examples=["fire_truck"])
     initial: GroundStart
     commands: tuple[Command, ...] = Field(
-        default=(), description="carried out at the start; the kind says which it understands"
+        default=(),
+        max_length=MOST_COMMANDS,
+        description="carried out at the start; the kind says which it understands",
     )
     driver: Reactions = Reactions(reaction_median_s=2.5)
     transponder: Transponder = Transponder(equipped=False)
@@ -147,16 +154,16 @@ class WildlifeSpec(Model):
 
     type: Literal["wildlife"]
     callsign: Callsign = Field(description="its name in this scenario", examples=["DEER1"])
-    kind: str = Field(description="such as deer", examples=["flock"])
+    kind: Name = Field(description="such as deer", examples=["flock"])
     initial: Standing
-    height_ft: float = Field(
+    height_ft: Number = Field(
         default=0.0,
         ge=0.0,
         le=20_000.0,
         description="above the ground, of an animal that is flying at the start",
     )
     plan: tuple[PlannedAction, ...] = Field(default=(), max_length=20)
-    startles_within_m: float = Field(
+    startles_within_m: Number = Field(
         default=0.0,
         ge=0.0,
         le=1000.0,

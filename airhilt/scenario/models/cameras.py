@@ -8,6 +8,7 @@ from pydantic import Field
 
 from airhilt.geodesy.positions import Bearing, Position
 from airhilt.imaging.lenses import FieldOfView, SidePx
+from airhilt.quantities import HeightFt, Number
 from airhilt.scenario.models.base import Callsign, Model
 
 CameraName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,39}$")]
@@ -19,9 +20,9 @@ class FixedMount(Model):
 
     type: Literal["fixed"]
     position: Position
-    height_ft: float
+    height_ft: HeightFt
     azimuth_deg: Bearing
-    elevation_deg: float = Field(default=0.0, ge=-90.0, le=90.0)
+    elevation_deg: Number = Field(default=0.0, ge=-90.0, le=90.0)
 
 
 class ActorMount(Model):
@@ -40,8 +41,8 @@ class Camera(Model):
     horizontal_fov_deg: FieldOfView = 60.0
     width_px: SidePx = 640
     height_px: SidePx = 360
-    rate_hz: float = Field(default=16.0, ge=1.0, le=30.0)
-    phase_s: float = Field(
+    rate_hz: Number = Field(default=16.0, ge=1.0, le=30.0)
+    phase_s: Number = Field(
         default=0.0, ge=0.0, lt=1.0, description="end of its first exposure after the start"
     )
 

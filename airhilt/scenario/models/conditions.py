@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from airhilt.geodesy.positions import RunwayIdent
+from airhilt.quantities import AltitudeFt, Name, Number, SpeedKt, TimeS
 from airhilt.scenario.models.base import Callsign, Identifier, Model
 
 Pair = tuple[Callsign, Callsign]
@@ -16,7 +17,7 @@ class TimeReached(Model):
     """True from a time onwards."""
 
     type: Literal["time"]
-    at_s: float = Field(ge=0.0)
+    at_s: TimeS
 
 
 class PredictedLossOfSeparation(Model):
@@ -28,7 +29,7 @@ class PredictedLossOfSeparation(Model):
 
     type: Literal["predicted_loss_of_separation"]
     actors: Pair
-    within_s: float | None = Field(
+    within_s: Number | None = Field(
         default=None, gt=0.0, le=1200.0, description="null: however far ahead"
     )
 
@@ -38,8 +39,8 @@ class SeparationBelow(Model):
 
     type: Literal["separation_below"]
     actors: Pair
-    horizontal_nm: float = Field(gt=0.0)
-    vertical_ft: float = Field(gt=0.0)
+    horizontal_nm: Number = Field(gt=0.0, le=500.0)
+    vertical_ft: Number = Field(gt=0.0, le=60_000.0)
 
 
 class ClosestApproachPassed(Model):
@@ -47,7 +48,7 @@ class ClosestApproachPassed(Model):
 
     type: Literal["closest_approach_passed"]
     actors: Pair
-    for_s: float = Field(default=20.0, gt=0.0, le=600.0)
+    for_s: Number = Field(default=20.0, gt=0.0, le=600.0)
 
 
 class BoundForAltitude(Model):
@@ -55,8 +56,8 @@ class BoundForAltitude(Model):
 
     type: Literal["bound_for_altitude"]
     actor: Callsign
-    altitude_ft: float
-    within_ft: float = Field(default=50.0, gt=0.0)
+    altitude_ft: AltitudeFt
+    within_ft: Number = Field(default=50.0, gt=0.0, le=60_000.0)
 
 
 class InPhase(Model):
@@ -64,7 +65,7 @@ class InPhase(Model):
 
     type: Literal["in_phase"]
     actor: Callsign
-    phases: tuple[str, ...] = Field(min_length=1)
+    phases: tuple[Name, ...] = Field(min_length=1, max_length=20)
 
 
 class BoundForRunway(Model):
@@ -89,7 +90,7 @@ class ThresholdWithin(Model):
     type: Literal["threshold_within"]
     actor: Callsign
     runway: RunwayIdent
-    within_s: float = Field(gt=0.0, le=1200.0)
+    within_s: Number = Field(gt=0.0, le=1200.0)
 
 
 class SpeedAbove(Model):
@@ -97,7 +98,7 @@ class SpeedAbove(Model):
 
     type: Literal["speed_above"]
     actor: Callsign
-    speed_kt: float = Field(ge=0.0)
+    speed_kt: SpeedKt
 
 
 class HeightBelow(Model):
@@ -105,7 +106,7 @@ class HeightBelow(Model):
 
     type: Literal["height_below"]
     actor: Callsign
-    height_ft: float = Field(gt=0.0)
+    height_ft: Number = Field(gt=0.0, le=60_000.0)
 
 
 class DistanceBelow(Model):
@@ -113,7 +114,7 @@ class DistanceBelow(Model):
 
     type: Literal["distance_below"]
     actors: Pair
-    distance_m: float = Field(gt=0.0)
+    distance_m: Number = Field(gt=0.0, le=1_000_000.0)
 
 
 class Collided(Model):
@@ -141,14 +142,14 @@ class AllOf(Model):
     """True while all conditions are true."""
 
     type: Literal["all_of"]
-    conditions: tuple[Condition, ...] = Field(min_length=1)
+    conditions: tuple[Condition, ...] = Field(min_length=1, max_length=20)
 
 
 class AnyOf(Model):
     """True while at least one condition is true."""
 
     type: Literal["any_of"]
-    conditions: tuple[Condition, ...] = Field(min_length=1)
+    conditions: tuple[Condition, ...] = Field(min_length=1, max_length=20)
 
 
 Condition = Annotated[

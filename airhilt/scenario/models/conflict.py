@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from airhilt.quantities import Number
 from airhilt.scenario.models.base import Model
 from airhilt.scenario.models.conditions import Condition, Pair
 
@@ -39,6 +40,6 @@ class Separation(Model):
     keep their level within tens of feet.
     """
 
-    horizontal_nm: float = Field(default=5.0, gt=0.0, le=100.0)
-    vertical_ft: float = Field(default=1000.0, gt=0.0, le=10_000.0)
-    level_tolerance_ft: float = Field(default=100.0, ge=0.0, le=300.0)
+    horizontal_nm: Number = Field(default=5.0, gt=0.0, le=100.0)
+    vertical_ft: Number = Field(default=1000.0, gt=0.0, le=10_000.0)
+    level_tolerance_ft: Number = Field(default=100.0, ge=0.0, le=300.0)

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from airhilt.scenario.models.base import Callsign, Identifier, Model
+from airhilt.quantities import Count, Number, TimeS
+from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition
 from airhilt.scenario.models.radio import ScriptedCommand
 
@@ -18,7 +19,7 @@ class ReadbackWrong(Model):
     line: Identifier = Field(description="the readback")
     text: str = Field(min_length=1, max_length=500, description="words that are said instead")
     commands: tuple[ScriptedCommand, ...] = Field(
-        description="commands that are carried out instead"
+        max_length=MOST_COMMANDS, description="commands that are carried out instead"
     )
 
 
@@ -38,10 +39,14 @@ class CallsignConfused(Model):
     meant: Callsign
     taken_by: Callsign
     text: str | None = Field(
-        default=None, description="words that are said instead, where they cause the confusion"
+        default=None,
+        min_length=1,
+        max_length=500,
+        description="words that are said instead, where they cause the confusion",
     )
     commands: tuple[ScriptedCommand, ...] | None = Field(
         default=None,
+        max_length=MOST_COMMANDS,
         description="what taken_by does instead; null: the commands that were meant for the other",
     )
 
@@ -51,7 +56,7 @@ class Delayed(Model):
 
     type: Literal["delayed"]
     line: Identifier
-    by_s: float = Field(gt=0.0, le=600.0)
+    by_s: Number = Field(gt=0.0, le=600.0)
 
 
 class Dropped(Model):
@@ -81,8 +86,8 @@ class StuckMicrophone(Model):
 
     type: Literal["stuck_microphone"]
     actor: Callsign
-    at_s: float = Field(ge=0.0)
-    for_s: float = Field(gt=0.0, le=3600.0)
+    at_s: TimeS
+    for_s: Number = Field(gt=0.0, le=3600.0)
 
 
 class EngineFailure(Model):
@@ -90,7 +95,7 @@ class EngineFailure(Model):
 
     type: Literal["engine_failure"]
     actor: Callsign
-    engine: int = Field(ge=0, le=7, description="from the left, beginning with 0")
+    engine: Count = Field(ge=0, le=7, description="from the left, beginning with 0")
     when: Condition
 
 

@@ -6,22 +6,26 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from airhilt.quantities import Number
 from airhilt.scenario.models.base import Model
+
+GREATEST = 1e6
+"""Greatest standard deviation and greatest limit of a draw, in the unit of the number."""
 
 
 class Normal(Model):
     """Normal distribution around zero; draws beyond ``limit`` either side are set to the limit."""
 
     type: Literal["normal"]
-    sigma: float = Field(gt=0.0)
-    limit: float = Field(gt=0.0)
+    sigma: Number = Field(gt=0.0, le=GREATEST)
+    limit: Number = Field(gt=0.0, le=GREATEST)
 
 
 class Uniform(Model):
     """Uniform distribution between ``-limit`` and ``limit``."""
 
     type: Literal["uniform"]
-    limit: float = Field(gt=0.0)
+    limit: Number = Field(gt=0.0, le=GREATEST)
 
 
 class Perturbation(Model):
@@ -31,5 +35,5 @@ class Perturbation(Model):
     ``actors/AAL123/initial/cas_kt``.
     """
 
-    path: str = Field(min_length=1)
+    path: str = Field(min_length=1, max_length=200)
     distribution: Annotated[Normal | Uniform, Field(discriminator="type")]

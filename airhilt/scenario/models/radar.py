@@ -6,6 +6,7 @@ from pydantic import Field
 
 from airhilt.geodesy.positions import Position
 from airhilt.messages import RadarKind
+from airhilt.quantities import Number
 from airhilt.scenario.models.base import Identifier, Model
 
 
@@ -19,6 +20,6 @@ class Radar(Model):
     name: Identifier
     kind: RadarKind = "terminal"
     position: Position
-    antenna_height_ft: float = Field(
+    antenna_height_ft: Number = Field(
         default=75.0, ge=0.0, le=10_000.0, description="above the ground"
     )

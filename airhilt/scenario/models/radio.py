@@ -7,8 +7,9 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from airhilt.commands import Command
+from airhilt.quantities import Count, Flag, Name, Number, Share, SnrDb, TimeS
 from airhilt.scenario import radio_profiles as profiles
-from airhilt.scenario.models.base import Callsign, Identifier, Model
+from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition
 
 
@@ -20,24 +21,20 @@ class ScriptedCommand(Model):
 
     actor: Callsign
     command: Command
-    delay_s: float = Field(default=2.0, ge=0.0, le=600.0)
+    delay_s: Number = Field(default=2.0, ge=0.0, le=600.0)
     when: Condition | None = None
 
 
 class ReceptionSettings(Model):
     """Reception of calls: their noise, and the part of the radio channel in their sound."""
 
-    snr_db: float | None = Field(
+    snr_db: SnrDb | None = Field(
         default=None,
-        ge=-30.0,
-        le=60.0,
         description="SNR of what is received; null: that of the next wider settings, in the order "
         "line, station, radio; null in the radio too: nobody mishears",
     )
-    wet: float | None = Field(
+    wet: Share | None = Field(
         default=None,
-        ge=0.0,
-        le=1.0,
         description="part of the radio channel in the sound; the rest is the voice as it was "
         "spoken; null: that of the next wider settings, and at last that of the profile",
     )
@@ -51,17 +48,17 @@ class RadioLine(ReceptionSettings):
     """One call on a frequency. If the frequency is busy, the call waits until it is free."""
 
     id: Identifier
-    at_s: float = Field(default=0.0, ge=0.0, description="earliest time of the call")
+    at_s: TimeS = Field(default=0.0, description="earliest time of the call")
     when: Condition | None = Field(
         default=None, description="the call also waits for this condition"
     )
-    speaker: str = Field(min_length=1, max_length=40, description="a callsign, or a unit's name")
-    to: str | None = Field(default=None, description="addressed callsign or unit")
-    frequency_khz: int = Field(
+    speaker: Name = Field(description="a callsign, or a unit's name")
+    to: Name | None = Field(default=None, description="addressed callsign or unit")
+    frequency_khz: Count = Field(
         ge=117_975, le=137_000, description="name of a channel with 25 or 8.33 kHz spacing"
     )
     text: str = Field(min_length=1, max_length=500)
-    commands: tuple[ScriptedCommand, ...] = ()
+    commands: tuple[ScriptedCommand, ...] = Field(default=(), max_length=MOST_COMMANDS)
     answers: Identifier | None = Field(
         default=None,
         description="the line that it answers; null: an actor reads back the line before on the "
@@ -75,20 +72,20 @@ Topology = Literal["parallel", "asr_first", "gated_fusion"]
 class Radio(ReceptionSettings):
     """Radio calls in the order of time, and how well people hear each other."""
 
-    controller: str = Field(default="Centre", description="name of the unit that listens")
-    lines: tuple[RadioLine, ...] = ()
-    words_per_minute: float = Field(
+    controller: Name = Field(default="Centre", description="name of the unit that listens")
+    lines: tuple[RadioLine, ...] = Field(default=(), max_length=5000)
+    words_per_minute: Number = Field(
         default=160.0, ge=60.0, le=400.0, description="speaking rate of calls without sound"
     )
-    stations: dict[str, StationRadio] = Field(
+    stations: dict[Name, StationRadio] = Field(
         default={},
-        description="reception of the calls of single speakers, by callsign or by the unit's name",
+        max_length=500,
+        description="units besides the controller, and reception of the calls of single speakers, "
+        "by callsign or by the unit's name",
         examples=[{"AAL123": {"snr_db": 5.0, "wet": 0.7}}],
     )
-    squelch_db: float = Field(
-        default=-10.0, ge=-30.0, le=60.0, description="SNR below which receivers stay silent"
-    )
-    profile: Annotated[str, AfterValidator(profiles.checked)] | None = Field(
+    squelch_db: SnrDb = Field(default=-10.0, description="SNR below which receivers stay silent")
+    profile: Annotated[str, Field(max_length=500), AfterValidator(profiles.checked)] | None = Field(
         default=None,
         description="named settings of the radio channel, or a learned channel, FILE.onnx",
     )
@@ -98,7 +95,7 @@ class Radio(ReceptionSettings):
         "the transcript instead; gated_fusion: as parallel, and the assistant says nothing while "
         "it has not taken in all that was said",
     )
-    overhearing: bool = Field(
+    overhearing: Flag = Field(
         default=True,
         description="crews that get transcripts may take one of a call to others for their own",
     )
@@ -109,7 +106,7 @@ class Radio(ReceptionSettings):
         default="scripted",
         description="generated: crews also read back instructions that no line answers",
     )
-    controller_checks_readbacks: bool = Field(
+    controller_checks_readbacks: Flag = Field(
         default=False,
         description="controllers correct a wrong readback, and repeat what is not answered even "
         "where a failure is why",

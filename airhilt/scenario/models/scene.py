@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from airhilt.geodesy.positions import GeodeticPosition
+from airhilt.quantities import FileName, Number
 from airhilt.scenario.models.base import Model
 
 
@@ -15,7 +16,7 @@ class EnRouteScene(Model):
 
     type: Literal["en_route"]
     centre: GeodeticPosition
-    terrain_elevation_ft: float = Field(default=0.0, ge=-1500.0, le=29_000.0)
+    terrain_elevation_ft: Number = Field(default=0.0, ge=-1500.0, le=29_000.0)
 
 
 class AirportScene(Model):
@@ -26,7 +27,10 @@ class AirportScene(Model):
     """
 
     type: Literal["airport"]
-    airport: str = Field(min_length=1, max_length=10, examples=["KDCA"])
+    airport: FileName = Field(
+        description="its ICAO location indicator, or a file beside the scenario",
+        examples=["KDCA", "kaus.json"],
+    )
 
 
 Scene = Annotated[EnRouteScene | AirportScene, Field(discriminator="type")]

@@ -91,7 +91,7 @@ def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
     """
     local_frame = local_frame_of(site)
     types = {
-        actor.callsign: load_aircraft_type(actor.aircraft)
+        actor.callsign: load_aircraft_type(actor.aircraft, scenario.files)
         for actor in scenario.actors
         if isinstance(actor, AircraftSpec)
     }

@@ -8,7 +8,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from airhilt.child_process import Ended, NoAnswer, environment_with, exit_text
+from airhilt.child_process import (
+    STOPPED_FOR_S,
+    Ended,
+    NoAnswer,
+    Stopped,
+    environment_with,
+    exit_text,
+)
 from airhilt.errors import CameraError, RendererError, RendererLost, ScenarioError
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
@@ -213,6 +220,11 @@ class RendererProcess:
     def _ask(self, question: Mapping[str, Any], patience_s: float) -> Any:
         try:
             answer = self._link.ask(question, patience_s)
+        except Stopped:
+            raise RendererLost(
+                f"the process of renderer {self.renderer} was stopped (SIGSTOP) for "
+                f"{STOPPED_FOR_S:.0f} s; no more pictures are drawn"
+            ) from None
         except NoAnswer:
             raise RendererLost(
                 f"the renderer {self.renderer} has not answered for {patience_s:.0f} s, "

@@ -9,9 +9,12 @@ from __future__ import annotations
 import json
 import mmap
 import os
+import select
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from threading import Thread
 from typing import Any
 
 from airhilt.errors import AirhiltError, RendererError
@@ -27,6 +30,9 @@ from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.shared_pixels import places_of, planes
 from airhilt.world.site import ScenarioSite
+
+GRACE_S = 0.5
+"""Time for which a picture that nobody waits for any more is still drawn, in s."""
 
 
 class RendererServer:
@@ -136,6 +142,15 @@ class RendererServer:
         }
 
 
+def _end_with_asker(questions: int) -> None:
+    """End this process when nobody can ask any more, even in the middle of a picture."""
+    hang_up = select.poll()
+    hang_up.register(questions, 0)  # What is always reported is that the other end is closed.
+    hang_up.poll()
+    time.sleep(GRACE_S)
+    os._exit(1)
+
+
 def main(arguments: Sequence[str]) -> None:
     """Serve on the pipes and the file of these descriptors, or try the renderer of that name."""
     if len(arguments) == 1:
@@ -145,6 +160,7 @@ def main(arguments: Sequence[str]) -> None:
             sys.exit(str(error))
         return
     questions, answers, shared = (int(number) for number in arguments)
+    Thread(target=_end_with_asker, args=(questions,), daemon=True).start()
     server = RendererServer(shared)
     with os.fdopen(questions, "rb") as asked, os.fdopen(answers, "wb", buffering=0) as told:
         for line in asked:

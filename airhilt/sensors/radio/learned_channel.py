@@ -8,14 +8,14 @@ sweep over SNR means the same with both.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
-from airhilt.onnx import open_network
+from airhilt.onnx import FIRST_LOOK_S, first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import (
     LEVEL_RMS,
@@ -34,13 +34,18 @@ TRIAL_SAMPLES = (1_600, 2_311)
 class LearnedChannel:
     """A `Channel` whose modulation is an ONNX model.
 
+    Parameters
+    ----------
+    limit_s
+        Wall time within which each trial of the model must end.
+
     Raises
     ------
     SpeechError
-        The file is not a model of this kind.
+        The file is not a model of this kind, or never ends.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, limit_s: float = FIRST_LOOK_S) -> None:
         self.name = path.stem
         self._path = path
         self._session = open_network(path, f"learned channel {path}", EXPECTED)
@@ -50,7 +55,8 @@ class LearnedChannel:
             raise self._wrong(f"has {len(inputs)} inputs and {len(outputs)} outputs: {found}")
         self._input = inputs[0].name
         for count in TRIAL_SAMPLES:
-            self._apply(np.sin(np.arange(count, dtype=np.float32)) * np.float32(LEVEL_RMS))
+            trial = np.sin(np.arange(count, dtype=np.float32)) * np.float32(LEVEL_RMS)
+            self._made(trial, lambda inputs: first_look(self._session, inputs, limit_s))
         self._vhf = VhfChannel(PROFILES["vhf"])
 
     def transmit(
@@ -79,8 +85,14 @@ class LearnedChannel:
         return signal * np.float32(LEVEL_RMS / np.sqrt(power)) if power else signal
 
     def _apply(self, speech: Audio) -> Audio:
+        return self._made(speech, lambda inputs: self._session.run(None, inputs))
+
+    def _made(self, speech: Audio, run: Callable[[dict[str, Audio]], list[Audio]]) -> Audio:
+        """Return what the model makes of speech when it is run."""
         try:
-            (made,) = self._session.run(None, {self._input: speech[np.newaxis]})
+            (made,) = run({self._input: speech[np.newaxis]})
+        except TimeoutError as error:
+            raise self._wrong(str(error)) from None
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise self._wrong(f"fails on {len(speech)} samples: {first_line(error)}") from None
         if made.shape != (1, len(speech)):

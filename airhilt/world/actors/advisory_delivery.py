@@ -53,6 +53,8 @@ class AdvisoryDelivery:
     is_on_frequency
         True if advisories are spoken on the recipients' frequencies: they get them when they have
         heard them to the end there.
+    is_automaton
+        Says of a callsign that no person acts for it.
     event
         Called with the kind, the subject and the text of a reaction.
     """
@@ -66,12 +68,14 @@ class AdvisoryDelivery:
         is_voiced: bool,
         speak_min_level: Severity = SPEAK_MIN_LEVEL,
         is_on_frequency: bool = False,
+        is_automaton: Callable[[str], bool] = lambda _: True,
     ) -> None:
         self._director = director
         self._event = event
         self._is_voiced = is_voiced or is_on_frequency
         self._speak_min_level = speak_min_level
         self._is_on_frequency = is_on_frequency
+        self._is_automaton = is_automaton
         self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
@@ -123,6 +127,8 @@ class AdvisoryDelivery:
 
     def _deliver(self, advisory: Advisory, *, is_equipment: bool = False) -> None:
         actor = self._by_address[advisory.recipient]
+        if not self._is_automaton(actor.spec.callsign):
+            return
         reaction = actor.hear(advisory)
         if reaction is not None:
             due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)

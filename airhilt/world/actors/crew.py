@@ -31,6 +31,7 @@ from airhilt.messages import (
 )
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
+from airhilt.world.actors.envelope import unflyable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
@@ -94,6 +95,10 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
+        aircraft = self.aircraft
+        why = unflyable(command, aircraft.kind, aircraft.state.altitude_m, self._site.ground_m)
+        if why is not None:
+            raise Unable(f"unable {why}")
         try:
             if not self.runway_operations.carry_out(command):
                 self._fly(command)

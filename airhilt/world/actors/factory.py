@@ -89,7 +89,7 @@ class _Builder:
 
     def _flight(self, actor: AircraftSpec) -> Flight:
         site = self.site
-        kind = load_aircraft_type(actor.aircraft)
+        kind = load_aircraft_type(actor.aircraft, self.scenario.files)
         route = [site.place(position) for position in actor.route]
         condition: InitialCondition | OnGround
         match actor.initial:

@@ -23,6 +23,11 @@ EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
 }
 
 
+def mesh_at(height_agl_m: float) -> str:
+    """Return the name of the mesh that an aircraft shows at a height above the ground, in m."""
+    return "gear" if height_agl_m < GEAR_DOWN_BELOW_M else "clean"
+
+
 @dataclass(frozen=True)
 class Flight:
     """One aircraft of the scenario, with its crew."""
@@ -44,7 +49,7 @@ class Flight:
 
     def mesh(self, t_s: float) -> str:  # noqa: ARG002
         """Return the name of its mesh: with the gear down near the ground, or clean."""
-        return "gear" if self.body.state.height_agl_m < GEAR_DOWN_BELOW_M else "clean"
+        return mesh_at(self.body.state.height_agl_m)
 
     def command(self, command: Command) -> None:
         """Give a command to the crew.

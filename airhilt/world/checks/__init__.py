@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from airhilt.errors import AirhiltError
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.problems import Problem, error_for
 from airhilt.world.checks.actors import surface_wind, unfit_actors
+from airhilt.world.checks.altitudes import altitudes_below_ground
 from airhilt.world.checks.commands import misdirected_commands
 from airhilt.world.checks.duplicates import shared_names
 from airhilt.world.checks.failures import idle_failures
@@ -16,9 +17,10 @@ from airhilt.world.checks.places import missing_airport, unknown_places
 from airhilt.world.checks.radio_lines import impossible_lines
 from airhilt.world.checks.references import dangling_references
 from airhilt.world.checks.taxi_ways import missing_ways
+from airhilt.world.checks.unsaid_lines import unsaid_lines
 from airhilt.world.site import ScenarioSite
 
-__all__ = ["check"]
+__all__ = ["check", "check_file"]
 
 
 def check(scenario: Scenario, origin: str) -> None:
@@ -34,7 +36,28 @@ def check(scenario: Scenario, origin: str) -> None:
     ScenarioError
         Something refers to nothing, or is outside what an aircraft flies.
     """
-    problems = list(_problems(scenario))
+    _require_none(origin, list(_problems(scenario)))
+
+
+def check_file(scenario: Scenario, origin: str) -> None:
+    """Check that the world can hold the scenario of a file, and that all its lines can be said.
+
+    A draw or a caller may shorten a scenario, so that lines are left out; a file may not.
+
+    Parameters
+    ----------
+    origin
+        Name of the scenario in errors.
+
+    Raises
+    ------
+    ScenarioError
+        As `check` raises, or a line is never said.
+    """
+    _require_none(origin, [*_problems(scenario), *unsaid_lines(scenario)])
+
+
+def _require_none(origin: str, problems: Sequence[Problem]) -> None:
     if problems:
         raise error_for(origin, problems)
 
@@ -51,6 +74,7 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
         yield Problem("scene/airport", str(error))
         return
     yield from unfit_actors(scenario, site)
+    yield from altitudes_below_ground(scenario, site)
     yield from unknown_places(scenario, site)
     yield from missing_airport(scenario, site)
     yield from dangling_references(scenario)

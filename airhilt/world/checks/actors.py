@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.scenario.models import Airborne, AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
 from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT
+from airhilt.world.checks.altitudes import not_above_ground
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
@@ -29,7 +31,7 @@ def unfit_actors(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
     for index, actor in enumerate(scenario.actors):
         path = f"actors/{index}"
         if isinstance(actor, AircraftSpec):
-            yield from _aircraft(path, actor, site)
+            yield from _aircraft(path, actor, site, scenario.files)
         else:
             yield from _kind(path, actor)
 
@@ -41,9 +43,11 @@ def _kind(path: str, actor: VehicleSpec | WildlifeSpec) -> Iterator[Problem]:
         yield Problem(f"{path}/kind", str(error))
 
 
-def _aircraft(path: str, actor: AircraftSpec, site: ScenarioSite) -> Iterator[Problem]:
+def _aircraft(
+    path: str, actor: AircraftSpec, site: ScenarioSite, files: Mapping[str, Any]
+) -> Iterator[Problem]:
     try:
-        kind = load_aircraft_type(actor.aircraft)
+        kind = load_aircraft_type(actor.aircraft, files)
     except AirhiltError as error:
         yield Problem(f"{path}/aircraft", str(error))
         return
@@ -51,12 +55,7 @@ def _aircraft(path: str, actor: AircraftSpec, site: ScenarioSite) -> Iterator[Pr
     if not isinstance(initial, Airborne):
         return
     if initial.altitude_ft <= ground_ft:
-        where = "the airport" if site.layout else "scene/terrain_elevation_ft"
-        yield Problem(
-            f"{path}/initial/altitude_ft",
-            f"found {initial.altitude_ft:g}, which is not above the ground; expected more "
-            f"than {where}, {ground_ft:g}",
-        )
+        yield not_above_ground(f"{path}/initial/altitude_ft", initial.altitude_ft, site)
     if initial.track_deg is None and not actor.route:
         yield Problem(
             f"{path}/initial/track_deg", "missing; it is required where there is no route"

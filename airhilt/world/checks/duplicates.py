@@ -1,4 +1,4 @@
-"""Checks of names that must differ: callsigns, addresses, ids of radio lines, cameras, radars."""
+"""Checks of names that must differ: callsigns, addresses, ids of radio lines, cameras, stations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from airhilt.scenario.problems import Problem
 
 
 def shared_names(scenario: Scenario) -> Iterator[Problem]:
-    """Yield names that two actors, radio lines, cameras or radars share."""
+    """Yield names that two actors, radio lines, cameras, stations or radars share."""
     callsigns = [actor.callsign for actor in scenario.actors]
     line_ids = [line.id for line in scenario.radio.lines]
     cameras = [camera.name for camera in scenario.cameras]
@@ -17,6 +17,13 @@ def shared_names(scenario: Scenario) -> Iterator[Problem]:
     yield from duplicates("actors", "icao24", _addresses(scenario))
     yield from duplicates("radio/lines", "id", line_ids, str.lower)
     yield from duplicates("cameras", "name", cameras, str.lower)
+    receivers = [receiver.name for receiver in scenario.adsb.receivers]
+    yield from duplicates("adsb/receivers", "name", receivers)
+    if scenario.radio.controller in callsigns:
+        yield Problem(
+            "radio/controller",
+            f"found {scenario.radio.controller!r}, which is an actor; expected a unit's name",
+        )
     yield from duplicates("radars", "name", [radar.name for radar in scenario.radars])
 
 

@@ -72,7 +72,7 @@ def _engine(path: str, failure: EngineFailure, scenario: Scenario) -> Iterator[P
         yield Problem(f"{path}/actor", f"found a {actor.type}; expected an aircraft")
         return
     try:
-        engines = len(load_aircraft_type(actor.aircraft).mesh.engines_m)
+        engines = len(load_aircraft_type(actor.aircraft, scenario.files).mesh.engines_m)
     except AirhiltError:
         return  # Named elsewhere.
     if failure.engine >= engines:

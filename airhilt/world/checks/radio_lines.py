@@ -1,4 +1,4 @@
-"""Checks of radio lines: their ids, frequencies, answers, and stations."""
+"""Checks of radio lines: their ids, times, frequencies, answers, speakers and stations."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from airhilt import library
 from airhilt.errors import ScenarioError
 from airhilt.messages import ASSISTANT
-from airhilt.scenario.models import Scenario
+from airhilt.scenario.models import Scenario, WildlifeSpec
 from airhilt.scenario.problems import Problem
 from airhilt.scenario.vhf_channels import channel_spacing_khz
 
@@ -19,7 +19,7 @@ GENERATED_ID = re.compile(
 
 
 def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
-    """Yield lines with reserved ids, no VHF channel, or no line to answer, and unknown stations."""
+    """Yield lines that cannot be said as they are, by whom they are said, and unknown stations."""
     line_ids = [line.id for line in scenario.radio.lines]
     frequencies: dict[str, int] = {}
     for index, line in enumerate(scenario.radio.lines):
@@ -45,7 +45,24 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
                 f"{line.frequency_khz} kHz",
             )
         frequencies[line.id] = line.frequency_khz
+    yield from _unknown_speakers(scenario)
     yield from _unknown_stations(scenario)
+
+
+def _unknown_speakers(scenario: Scenario) -> Iterator[Problem]:
+    """Yield speakers and addressees that are neither actors nor declared units."""
+    speaking = [a.callsign for a in scenario.actors if not isinstance(a, WildlifeSpec)]
+    radio = scenario.radio
+    known = dict.fromkeys([*speaking, radio.controller, *radio.stations, ASSISTANT])
+    for index, line in enumerate(radio.lines):
+        for field, name in (("speaker", line.speaker), ("to", line.to)):
+            if name is not None and name not in known:
+                tail = library.nearest(name, list(known))
+                yield Problem(
+                    f"radio/lines/{index}/{field}",
+                    f"no actor or unit {name!r}{tail}; a unit besides the controller is declared "
+                    f'in radio/stations: {{"{name}": {{}}}}',
+                )
 
 
 def _unknown_stations(scenario: Scenario) -> Iterator[Problem]:

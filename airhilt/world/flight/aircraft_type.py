@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, Literal
 
 import pydantic
 from pydantic import Field
@@ -172,7 +174,7 @@ class AircraftType(_Section):
     """One ``aircraft/*.json``."""
 
     name: str
-    jsbsim_model: str
+    jsbsim_model: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")
     """Folder of the model in the JSBSim wheel."""
     icao_designator: str = Field(pattern=r"^[A-Z][A-Z0-9]{1,3}$")
     """ICAO Doc 8643."""
@@ -189,8 +191,13 @@ class AircraftType(_Section):
     mesh: AircraftMesh
 
 
-def load_aircraft_type(name: str) -> AircraftType:
-    """Read the aircraft type of that name.
+def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> AircraftType:
+    """Return the aircraft type of that name.
+
+    Parameters
+    ----------
+    files
+        JSON objects by their names, of types that do not ship with AIRHILT.
 
     Raises
     ------
@@ -198,8 +205,10 @@ def load_aircraft_type(name: str) -> AircraftType:
         There is none, or its file is wrong: the message names the file, the place in it and
         what was expected.
     """
-    path = library.find("aircraft", name)
+    path = name if name in files else library.find("aircraft", name)
     try:
+        if isinstance(path, str):
+            return AircraftType.model_validate(files[path])
         return AircraftType.model_validate_json(path.read_bytes())
     except pydantic.ValidationError as error:
         problems = (

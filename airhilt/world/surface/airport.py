@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from types import MappingProxyType
+from typing import Annotated, Any, Literal, Self
 
 import pydantic
 from pydantic import Field
@@ -230,8 +231,13 @@ class Airport(_Section):
         return (*always, *(block for block, content in optional.items() if content))
 
 
-def load_airport(name: str) -> Airport:
-    """Read the airport of that ICAO location indicator, in upper or lower case.
+def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Airport:
+    """Return the airport of that ICAO location indicator, in upper or lower case.
+
+    Parameters
+    ----------
+    files
+        JSON objects by their names, of airports that do not ship with AIRHILT.
 
     Raises
     ------
@@ -239,6 +245,11 @@ def load_airport(name: str) -> Airport:
         There is none, or its file is wrong: the message names the file, the place in it and
         what was expected.
     """
+    if name in files:
+        try:
+            return Airport.model_validate(files[name])
+        except pydantic.ValidationError as error:
+            raise _wrong(name, error) from error
     return read_airport(library.find("airports", name.lower()))
 
 
@@ -255,11 +266,15 @@ def read_airport(path: Path) -> Airport:
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     except pydantic.ValidationError as error:
-        problems = (
-            f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
-            for problem in error.errors(include_url=False)
-        )
-        raise ScenarioError("\n".join([f"{path} is not an airport:", *problems])) from error
+        raise _wrong(path, error) from error
+
+
+def _wrong(path: Path | str, error: pydantic.ValidationError) -> ScenarioError:
+    problems = (
+        f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
+        for problem in error.errors(include_url=False)
+    )
+    return ScenarioError("\n".join([f"{path} is not an airport:", *problems]))
 
 
 def _refuse_repeated(what: str, names: Iterable[str]) -> None:

@@ -7,6 +7,7 @@ import fcntl
 import math
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ import numpy as np
 import pytest
 
 from airhilt import child_process, load
-from airhilt.errors import CameraError, RendererError
+from airhilt.errors import CameraError, RendererError, RendererLost
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_link, renderer_process
@@ -71,6 +72,33 @@ def test_a_picture_comes_with_its_truth(process: RendererProcess, bodies: list[B
     assert np.isinf(frame.distance_m[0]).all()
 
 
+@pytest.mark.skipif(not hasattr(os, "waitid"), reason="the system does not tell")
+def test_a_process_that_was_stopped_is_given_up_before_its_time_for_pictures(
+    bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(child_process, "STOPPED_FOR_S", 0.5)
+    with RendererProcess(washington(), renderer="embree") as opened:
+        opened.shoot(["field"], bodies, 0)
+        os.kill(opened.process_id, signal.SIGSTOP)
+        with pytest.raises(RendererLost, match=r"renderer embree was stopped \(SIGSTOP\)"):
+            opened.shoot(["field"], bodies, 1)
+
+
+def test_a_process_that_draws_ends_when_its_run_is_killed() -> None:
+    busy = (
+        "import sys, time; from airhilt.sensors.cameras import renderer_server as server; "
+        "server.RendererServer.answer = lambda *_: time.sleep(600); server.main(sys.argv[1:])"
+    )
+    questions, ask = os.pipe()
+    _, answer = os.pipe()
+    given = [str(number) for number in (questions, answer, answer)]
+    drawing = subprocess.Popen([sys.executable, "-c", busy, *given], pass_fds=(questions, answer))
+    os.close(questions)
+    os.write(ask, b"{}\n")
+    os.close(ask)  # As when the process of the run is no more.
+    assert drawing.wait(timeout=60.0) == 1
+
+
 def test_a_pose_that_is_not_finite_is_refused_and_the_next_is_drawn(
     process: RendererProcess, bodies: list[BodyState]
 ) -> None:
@@ -83,7 +111,7 @@ def test_a_pose_that_is_not_finite_is_refused_and_the_next_is_drawn(
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"mount": CAMERA["mount"] | {"height_ft": -3}}, "above the ground"),
+        ({"mount": CAMERA["mount"] | {"height_ft": 0}}, "above the ground"),
         (
             {
                 "mount": {

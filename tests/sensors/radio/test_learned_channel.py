@@ -24,6 +24,11 @@ def echo() -> LearnedChannel:
     return LearnedChannel(CHANNELS / "echo.onnx")
 
 
+def test_a_model_that_never_ends_is_stopped() -> None:
+    with pytest.raises(SpeechError, match=r"endless\.onnx: the model does not end within 0\.5 s"):
+        LearnedChannel(CHANNELS / "endless.onnx", limit_s=0.5)
+
+
 def test_what_is_heard_went_through_the_model() -> None:
     heard = echo().transmit(speech(), None, np.random.default_rng(0))
     assert echo().name == "echo"

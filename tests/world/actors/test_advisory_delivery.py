@@ -115,6 +115,7 @@ def test_what_is_over_is_read_and_its_voice_comes_too_late() -> None:
 def test_the_voice_of_an_older_revision_is_not_acted_upon() -> None:
     told = Told((10.0, advisory()), (10.5, advisory(revision=1)), (11.0, audio()), (12.0, audio(1)))
     assert told.crew.heard == [(1, True)]
+    assert told.reacted_s == [14.0]
 
 
 def test_when_the_voice_is_lost_what_waited_for_it_is_read() -> None:

@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 from airhilt.commands import (
     AltitudeCommand,
+    Command,
     EmergencyDescentCommand,
+    GoAroundCommand,
     SpeedCommand,
     TrackCommand,
 )
@@ -294,3 +296,51 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
         if end is not None:
             end.act()
     assert level_ft(aircraft) == pytest.approx(5_000)
+
+
+@pytest.mark.parametrize(
+    ("command", "why"),
+    [
+        (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt: a c172p flies 65 to 127 kt"),
+        (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt"),
+        (AltitudeCommand(action="altitude", altitude_ft=-1_000), "unable -1000 ft: a c172p flies"),
+        (AltitudeCommand(action="altitude", altitude_ft=499), "flies at 500 to 13000 ft here"),
+        (AltitudeCommand(action="altitude", altitude_ft=13_001), "unable 13001 ft"),
+        (
+            AltitudeCommand(action="altitude", altitude_ft=6_000, vertical_rate_fpm=701),
+            "unable 701 ft/min: a c172p climbs at 700 ft/min at most",
+        ),
+        (
+            AltitudeCommand(action="altitude", altitude_ft=4_000, vertical_rate_fpm=1_001),
+            "descends at 1000 ft/min at most",
+        ),
+        (EmergencyDescentCommand(action="emergency_descent", altitude_ft=0), "unable 0 ft"),
+        (GoAroundCommand(action="go_around", climb_to_ft=30_000), "unable 30000 ft"),
+    ],
+)
+def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
+    aircraft: Aircraft, command: Command, why: str
+) -> None:
+    speed_m_s = aircraft.target_speed_m_s
+    with pytest.raises(Unable, match=why):
+        crew_of(aircraft).command(command)
+    assert level_ft(aircraft) == pytest.approx(5_000)
+    assert aircraft.target_speed_m_s == speed_m_s
+
+
+def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> None:
+    crew = crew_of(aircraft)
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=13_000, vertical_rate_fpm=700))
+    assert level_ft(aircraft) == pytest.approx(13_000)
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=500, vertical_rate_fpm=1_000))
+    assert level_ft(aircraft) == pytest.approx(500)
+    crew.command(SpeedCommand(action="speed", cas_kt=127))
+    assert aircraft.target_speed_m_s == pytest.approx(127 * KNOT)
+
+
+def test_the_ground_below_counts(aircraft: Aircraft) -> None:
+    centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
+    model = ReactionModel("AAL123", Reactions(), 1)
+    crew = Crew(model, aircraft, ScenarioSite(centre, 3_000 * FOOT))
+    with pytest.raises(Unable, match="3500 to 13000 ft here"):
+        crew.command(AltitudeCommand(action="altitude", altitude_ft=3_400))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,6 +28,8 @@ MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """Number of actors that ``Frame.instance`` tells apart."""
 LANDING_LIGHTS_BELOW_M = 3048.0
 """Height, in m, below which landing lights are on: 10,000 ft, FAA AIM 4-3-23."""
+LANDING_LIGHTS_ABOVE_M_S = 15.0
+"""Ground speed, in m/s, above which landing lights are on: an aircraft that taxies has them off."""
 
 
 class BodyState(NamedTuple):
@@ -80,8 +83,13 @@ class Model:
     aircraft: AircraftType | None = None
 
 
-def model_of(actor: ActorSpec) -> Model:
+def model_of(actor: ActorSpec, files: Mapping[str, Any]) -> Model:
     """Return how an actor of a scenario looks.
+
+    Parameters
+    ----------
+    files
+        Types of aircraft that the scenario brings along.
 
     Raises
     ------
@@ -89,15 +97,15 @@ def model_of(actor: ActorSpec) -> Model:
         There is no such kind.
     """
     return (
-        aircraft_model(actor.aircraft)
+        aircraft_model(actor.aircraft, files)
         if isinstance(actor, AircraftSpec)
         else kind_model(actor.kind)
     )
 
 
-def aircraft_model(name: str) -> Model:
+def aircraft_model(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Model:
     """Return how a type of aircraft looks."""
-    kind = load_aircraft_type(name)
+    kind = load_aircraft_type(name, files)
     return Model(
         "airplane",
         name,
@@ -161,11 +169,15 @@ def state_of(
     body = actor.body
     shape = actor.mesh(t_s)
     if isinstance(body, Aircraft):
-        height = body.state.height_agl_m
-        lit = height < LANDING_LIGHTS_BELOW_M and state.ground_speed_m_s > 15.0
+        lit = has_landing_lights_on(body.state.height_agl_m, state.ground_speed_m_s)
         angles = body.state.heading_rad, body.state.pitch_rad, body.state.roll_rad
         return BodyState(callsign, east, north, up, *angles, shape, lit)
     return BodyState(callsign, east, north, up, state.heading_rad, 0.0, 0.0, shape, True)
+
+
+def has_landing_lights_on(height_agl_m: float, ground_speed_m_s: float) -> bool:
+    """Return whether an aircraft has its landing lights on."""
+    return height_agl_m < LANDING_LIGHTS_BELOW_M and ground_speed_m_s > LANDING_LIGHTS_ABOVE_M_S
 
 
 def numbered(actors: Iterable[str]) -> dict[str, int]:

@@ -87,7 +87,9 @@ def open_scene_renderer(
     RendererError
         The renderer cannot be opened.
     """
-    models: dict[str, Model] = {actor.callsign: model_of(actor) for actor in scenario.actors}
+    models: dict[str, Model] = {
+        actor.callsign: model_of(actor, scenario.files) for actor in scenario.actors
+    }
     known = cameras_of(scenario, site)
     wanted = [camera.name for camera in scenario.cameras] if names is None else names
     cameras: list[Camera] = [find_camera(known, name) for name in wanted]

@@ -1,0 +1,148 @@
+"""Texts of radio lines compared with the commands that a scenario says they mean.
+
+The texts are read by the project's own parser, as an assistant or a crew in noise reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from airhilt.commands import (
+    AltitudeCommand,
+    Command,
+    GoAroundCommand,
+    LandCommand,
+    LineUpCommand,
+    SideStepCommand,
+    SpeedCommand,
+    TakeOffCommand,
+    TrackCommand,
+)
+from airhilt.phraseology import Action, Call, Instruction, parse_call
+from airhilt.scenario.models import ReadbackWrong, Scenario, ScriptedCommand, WildlifeSpec
+from airhilt.scenario.problems import Problem
+
+GREATEST_VARIATION_DEG = 30.0
+"""Greatest difference of a true track and the magnetic heading that is said, in degrees."""
+
+WORDS: dict[str, frozenset[Action]] = {
+    "land": frozenset(
+        {"cleared_to_land", "cleared_option", "touch_and_go", "stop_and_go", "low_approach",
+         "cleared_approach", "continue_approach"}
+    ),
+    "side_step": frozenset({"cleared_to_land", "cleared_approach", "continue_approach"}),
+    "line_up": frozenset({"line_up", "cleared_for_takeoff"}),
+    "take_off": frozenset({"cleared_for_takeoff"}),
+    "cancel_takeoff": frozenset({"cancel_takeoff", "hold_position", "stop"}),
+    "go_around": frozenset({"go_around", "missed_approach", "cancel_landing"}),
+    "altitude": frozenset({"altitude", "climb_via", "descend_via", "cross_fix", "go_around",
+                           "cleared_for_takeoff"}),
+    "track": frozenset({"heading", "turn_by", "direct", "circle"}),
+    "turn": frozenset({"heading", "turn_by", "circle"}),
+    "speed": frozenset({"speed", "mach", "resume_speed", "no_speed_restrictions"}),
+    "hold_position": frozenset({"hold_position", "hold_short", "stop", "give_way", "hold_at"}),
+    "continue": frozenset({"cross", "proceed", "taxi", "line_up", "backtrack"}),
+    "taxi": frozenset({"taxi", "proceed", "cross", "backtrack", "vacate", "line_up", "follow"}),
+}  # fmt: skip
+"""Actions in words by which each command is given; the others have no words of their own."""
+
+
+@dataclass(frozen=True)
+class _Text:
+    """A text of the scenario, with what it should mean."""
+
+    path: str
+    words: str
+    station: str | None
+    """Actor that the call is to, or from; None if it is between units."""
+    commands: tuple[ScriptedCommand, ...]
+
+
+def doubtful_texts(scenario: Scenario) -> Iterator[Problem]:
+    """Yield texts that name another actor than their line, or do not say what its commands are.
+
+    A wrong readback is compared with the commands of its failure; what other failures change is
+    meant to differ.
+    """
+    callsigns = [a.callsign for a in scenario.actors if not isinstance(a, WildlifeSpec)]
+    for text in _texts(scenario, callsigns):
+        call = parse_call(text.words, callsigns)
+        told = [scripted.actor for scripted in text.commands]
+        expected = dict.fromkeys([text.station, *told] if text.station else told)
+        for callsign in expected:
+            if call.callsign != callsign:
+                names = f"names {call.callsign or 'no actor'}, not {callsign}"
+                yield Problem(text.path, f"{names}: {text.words!r}")
+        for scripted in text.commands:
+            found = _difference(scripted.command, call)
+            if found is not None:
+                yield Problem(text.path, f"{found}: {text.words!r}")
+
+
+def _texts(scenario: Scenario, callsigns: list[str]) -> Iterator[_Text]:
+    lines = {line.id: line for line in scenario.radio.lines}
+    for index, line in enumerate(scenario.radio.lines):
+        named = next((name for name in (line.to, line.speaker) if name in callsigns), None)
+        yield _Text(f"radio/lines/{index}/text", line.text, named, line.commands)
+    for index, failure in enumerate(scenario.failures):
+        if isinstance(failure, ReadbackWrong):
+            speaker = lines[failure.line].speaker
+            named = speaker if speaker in callsigns else None
+            yield _Text(f"failures/{index}/text", failure.text, named, failure.commands)
+
+
+def _difference(command: Command, call: Call) -> str | None:
+    """Return how a command differs from what is said; None if it does not."""
+    actions = WORDS.get(command.action)
+    if actions is None:
+        return None
+    said = [each for each in call.instructions if each.action in actions]
+    if not said:
+        return f"does not say to {command.action.replace('_', ' ')}, as its command does"
+    for name, value, detail_of in _details(command):
+        details = [detail for each in call.instructions if (detail := detail_of(each)) is not None]
+        if details and not any(_agree(name, value, detail) for detail in details):
+            return f"says {name} {_shown(details[0])}, where its command has {_shown(value)}"
+    return None
+
+
+Detail = Callable[[Instruction], str | float | None]
+
+
+def _details(command: Command) -> Iterator[tuple[str, str | float, Detail]]:
+    """Yield name and value of each detail of a command, and where an instruction has it."""
+    match command:
+        case (
+            LandCommand(runway=runway)
+            | LineUpCommand(runway=runway)
+            | SideStepCommand(runway=runway)
+        ):
+            yield "runway", runway, _runway
+        case TakeOffCommand(runway=runway, climb_to_ft=altitude_ft):
+            yield "runway", runway, _runway
+            yield "altitude_ft", altitude_ft, _altitude
+        case GoAroundCommand(climb_to_ft=altitude_ft) | AltitudeCommand(altitude_ft=altitude_ft):
+            yield "altitude_ft", altitude_ft, _altitude
+        case TrackCommand(track_deg=track_deg):
+            yield "heading_deg", track_deg, lambda each: each.heading_deg
+        case SpeedCommand(cas_kt=cas_kt):
+            yield "speed_kt", cas_kt, lambda each: each.speed_kt
+
+
+def _runway(instruction: Instruction) -> str | None:
+    return instruction.runway
+
+
+def _altitude(instruction: Instruction) -> float | None:
+    return instruction.altitude_ft
+
+
+def _shown(value: str | float) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _agree(name: str, value: str | float, said: str | float) -> bool:
+    if name == "heading_deg" and isinstance(value, float) and isinstance(said, float):
+        return abs((value - said + 180.0) % 360.0 - 180.0) <= GREATEST_VARIATION_DEG
+    return value == said

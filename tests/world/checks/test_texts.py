@@ -1,0 +1,81 @@
+"""Texts of radio lines are compared with the commands that they should mean."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from airhilt import library
+from airhilt.cli.commands.validate import COMMAND
+from airhilt.scenario import Scenario
+from airhilt.world.checks.texts import doubtful_texts
+from airhilt.world.loading import load
+
+TIGHT = load("s01a_tight_timing").model_dump(mode="json")
+VERTICAL = load("s02a_vertical").model_dump(mode="json")
+
+
+def doubts(document: dict[str, Any], line: str, **changes: Any) -> list[str]:
+    """Return the doubts about a scenario with one line changed."""
+    lines = [each | changes if each["id"] == line else each for each in document["radio"]["lines"]]
+    changed = document | {"radio": document["radio"] | {"lines": lines}}
+    return [str(doubt) for doubt in doubtful_texts(Scenario.model_validate(changed))]
+
+
+@pytest.mark.parametrize("name", library.names("scenarios"))
+def test_texts_of_shipped_scenarios_say_what_their_commands_do(name: str) -> None:
+    assert list(doubtful_texts(load(name))) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "doubt"),
+    [
+        ("American ninety nine, runway zero one, cleared to land.", "names no actor, not AAL123"),
+        ("Delta four five six, runway zero one, cleared to land.", "names DAL456, not AAL123"),
+        (
+            "American one two three, runway one niner, cleared to land.",
+            "says runway 19, where its command has 01",
+        ),
+        ("American one two three, good morning.", "does not say to land, as its command does"),
+        ("American one two three, go around.", "does not say to land, as its command does"),
+    ],
+)
+def test_words_that_mean_something_else_are_told(text: str, doubt: str) -> None:
+    (found,) = doubts(TIGHT, TIGHT["radio"]["lines"][0]["id"], text=text)
+    assert found == f"radio/lines/0/text: {doubt}: {text!r}"
+
+
+def test_a_level_that_is_not_the_one_flown_to_is_told() -> None:
+    text = "Climb and maintain flight level three three zero, American one two three."
+    (found,) = doubts(VERTICAL, "readback", text=text)
+    assert "says altitude_ft 33000, where its command has 35000" in found
+
+
+def test_a_wrong_readback_is_compared_with_its_own_commands() -> None:
+    wrong = {
+        "type": "readback_wrong", "line": "readback",
+        "text": "Climb and maintain flight level three seven zero, American one two three.",
+        "commands": [
+            {"actor": "AAL123", "command": {"action": "altitude", "altitude_ft": 37_000}}
+        ],
+    }  # fmt: skip
+    assert doubts(VERTICAL | {"failures": [wrong]}, "none") == []
+    wrong["text"] = "Climb and maintain flight level three niner zero, American one two three."
+    (found,) = doubts(VERTICAL | {"failures": [wrong]}, "none")
+    assert found.startswith("failures/0/text: says altitude_ft 39000")
+
+
+def test_validate_warns_and_says_valid(tmp_path: Path) -> None:
+    path = tmp_path / "other.json"
+    document = json.loads(json.dumps(TIGHT))
+    document["radio"]["lines"][0]["text"] = "American one two three, good morning."
+    path.write_text(json.dumps(document))
+    done = CliRunner().invoke(COMMAND, [str(path)])
+    assert done.exit_code == 0
+    assert "valid: s01a_tight_timing" in done.stdout
+    assert f"airhilt: warning: {path}: radio/lines/0/text: does not say to land" in done.stderr
+    assert "declared in failures" in done.stderr
