@@ -63,6 +63,10 @@ class SignatureError(AirhiltError):
     """A key is none, or a run cannot be signed."""
 
 
+class StationError(AirhiltError):
+    """A station cannot be opened at that address, or is not installed."""
+
+
 def disk_failed(path: str, error: OSError) -> RunFolderError:
     """Return the error for a disk that takes no more in the middle of a run."""
     return RunFolderError(

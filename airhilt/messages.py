@@ -13,7 +13,15 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, field_validator
+from pydantic import (
+    Base64Bytes,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    TypeAdapter,
+    field_validator,
+)
 
 from airhilt.commands import Command
 
@@ -843,6 +851,135 @@ class ActorCommand(Message):
     command: Command
 
 
+class SpokenWords(Message):
+    """``speech/<seat>``: words that the person at a seat says on the radio, in the seat's voice.
+
+    The seat is the name of a unit or a callsign; what is no letter or digit of it is ``_``.
+    """
+
+    limit = Limit(size_bytes=4_000, rate_hz=5)
+    text: str = Field(min_length=1, max_length=600)
+    frequency_khz: int | None = Field(
+        default=None,
+        ge=118_000,
+        le=137_000,
+        description="in the aeronautical mobile band; null: the first one of the seat",
+    )
+
+
+FROM_MICROPHONE = "microphone."
+"""Beginning of the ids of the transmissions that people speak."""
+
+
+class MicrophoneAudio(Message):
+    """``microphone/<seat>``: what the person at a seat says while the transmit button is held.
+
+    First comes ``pressed``, then ``samples`` while the person speaks, then ``released``. The audio
+    is PCM, 16 kHz, mono, 16 bits, little-endian, in base64.
+    """
+
+    limit = Limit(size_bytes=64_000, rate_hz=100)
+    phase: Literal["pressed", "samples", "released"]
+    frequency_khz: int | None = Field(
+        default=None, ge=118_000, le=137_000, description="when pressed; null: as `SpokenWords`"
+    )
+    delay_s: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=60.0,
+        description="from pressing the button until the message was sent, in s of wall time",
+    )
+    pcm: Base64Bytes = Field(
+        default=b"",
+        max_length=32_000,
+        description="at most 1 s; empty in the log of a run with `--no-voice-recording`",
+    )
+
+    @field_validator("pcm")
+    @classmethod
+    def _has_whole_samples(cls, pcm: bytes) -> bytes:
+        if len(pcm) % 2:
+            raise ValueError(f"{len(pcm)} bytes; expected an even number: samples have 16 bits")
+        return pcm
+
+
+class AdvisoryPerceived(Message):
+    """``perceived/<seat>``: an advisory reached the person at a seat, as the page of the seat says.
+
+    ``t_ns`` is when the page said so.
+    """
+
+    limit = Limit(size_bytes=2_000, rate_hz=50)
+    id: str = Field(max_length=200, description="of the advisory")
+    revision: int = Field(ge=0)
+    recipient: str = Field(max_length=200)
+    way: Literal["seen", "heard"]
+    after_s: float = Field(
+        default=0.0,
+        ge=-10.0,
+        le=10.0,
+        description="time from ``t_ns`` until it was drawn, or its first sample was audible, by "
+        "the clock of the browser; negative if that was before",
+    )
+
+
+class PaceCommand(Message):
+    """``pace``: how fast the time of a run with seats is to pass, as a person asks for."""
+
+    limit = Limit(size_bytes=500, rate_hz=5)
+    factor: float = Field(
+        ge=0.0, le=1.0, description="of real time; 0 lets it stand still, less than 0.1 is 0.1"
+    )
+
+    @field_validator("factor")
+    @classmethod
+    def _moves_or_stands(cls, factor: float) -> float:
+        return factor if factor == 0.0 else max(factor, 0.1)
+
+
+class SeatPresence(Message):
+    """``seat/<seat>``: a person has taken a seat, or has left it.
+
+    The run makes it of the liveliness token ``seat/<seat>``, which the page of the seat declares.
+    """
+
+    is_taken: bool
+
+
+class SeatInfo(Message):
+    """``seat/<seat>/info``: what the person at a seat has to know, also answered to a query."""
+
+    seat: str
+    frequencies_khz: tuple[int, ...]
+    has_sound: bool = Field(description="false in a run without speech: nobody can be heard")
+    is_recognised: bool = Field(
+        description="true if a recogniser takes part, so that automata understand a spoken call"
+    )
+    voice_is_recorded: bool
+    longest_call_s: float = Field(description="a call is cut after this time")
+
+
+class SeatNotice(Message):
+    """``notice/<seat>``: something that the person at a seat is told in words."""
+
+    seat: str
+    text: str
+
+
+class TaskCard(Message):
+    """``task/<seat>``: a call of the script that is due, and that the person at a seat is to make.
+
+    A call to the same addressee with the same instructions stands for it.
+    """
+
+    line: str = Field(description="id of the line of the script")
+    seat: str
+    addressed: str | None
+    frequency_khz: int
+    text: str = Field(description="words of the script")
+    is_done: bool = Field(default=False, description="true once its addressee has taken it")
+
+
 # --- truth: for the recorder, metrics and viewers only --------------------------------------
 
 
@@ -884,6 +1021,9 @@ class SpokenTruth(Message):
         default=(), description="ids of the transmissions that it was mixed with"
     )
     snr_db: float | None = None
+    is_from_microphone: bool = Field(
+        default=False, description="true: a person spoke it, so that its words are not known"
+    )
 
 
 class HearingTruth(Message):
@@ -971,6 +1111,7 @@ EventKind = Literal[
     "cameras_lost",
     "unregistered",
     "refused",
+    "pace",
     "finished",
     "stopped",
 ]
@@ -1115,6 +1256,14 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "llm/{worker}": ModelExchange,
     "equipment/{equipment}/{recipient}": EquipmentAlert,
     "command/{actor}": ActorCommand,
+    "speech/{seat}": SpokenWords,
+    "microphone/{seat}": MicrophoneAudio,
+    "perceived/{seat}": AdvisoryPerceived,
+    "pace": PaceCommand,
+    "seat/{seat}": SeatPresence,
+    "seat/{seat}/info": SeatInfo,
+    "notice/{seat}": SeatNotice,
+    "task/{seat}": TaskCard,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
     "truth/hearing/{actor}": HearingTruth,

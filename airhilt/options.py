@@ -219,6 +219,26 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = False
+    seat: Annotated[
+        tuple[str, ...],
+        Flag(
+            "--seat",
+            "Leave this seat to a person: tower, the name of a unit, or a callsign; may be given "
+            "again. It is taken in the browser, and the run goes on in real time.",
+            "NAME",
+            in_sweeps=False,
+        ),
+    ] = ()
+    voice_recording: Annotated[
+        bool,
+        Flag(
+            "--no-voice-recording",
+            "Leave the voices of people at seats out of the run folder. Their words are there, as "
+            "recognised; the run cannot be replayed.",
+            needs=("seat",),
+            in_sweeps=False,
+        ),
+    ] = True
     attach: Annotated[
         tuple[str, ...],
         Flag(
@@ -486,3 +506,18 @@ def options_of(given: dict[str, Any]) -> Options:
 def flag_of(field: FieldInfo) -> Flag | None:
     """Return how the command line spells an option, None if it does not."""
     return next((each for each in field.metadata if isinstance(each, Flag)), None)
+
+
+def arguments_of(options: Options) -> list[str]:
+    """Return the arguments by which the command line gives these options, without the defaults."""
+    arguments: list[str] = []
+    for name, field in Options.model_fields.items():
+        flag, value = flag_of(field), getattr(options, name)
+        if flag is None or value == field.default:
+            continue
+        if isinstance(value, bool):
+            arguments.append(flag.name)
+        else:
+            for one in value if isinstance(value, tuple) else (value,):
+                arguments.append(f"{flag.name}={one}")
+    return arguments

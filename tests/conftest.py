@@ -15,9 +15,11 @@ from pathlib import Path
 import pytest
 
 from airhilt import load, run
+from airhilt.child_process import available_cores
 from airhilt.cli import main
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
+from devtools import BROWSERS, Page, browser_page
 
 WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
@@ -58,6 +60,24 @@ def run_copy(recorded_run: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(recorded_run, tmp_path / "run"))
 
 
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Page]:
+    """A browser; where there is none, its tests are skipped."""
+    executable = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+    if executable is None:
+        pytest.skip("no Chromium on PATH: apt-get install chromium")
+    with browser_page(executable) as page:
+        yield page
+
+
+@pytest.fixture
+def page(browser: Page) -> Iterator[Page]:
+    """A page that must have nothing to complain of."""
+    browser.complaints.clear()
+    yield browser
+    assert browser.complaints == []
+
+
 @pytest.fixture
 def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cli]:
     """Runs the command line in an empty folder, in the process of the tests."""
@@ -77,6 +97,11 @@ def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator
     yield call
     for number, handler in zip(numbers, handlers, strict=True):
         signal.signal(number, handler)
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are processors: many tests wait for processes of their own."""
+    return available_cores() + 1
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -18,14 +18,18 @@ from airhilt.messages import (
     ActorTruth,
     AdsbReport,
     Advisory,
+    AdvisoryPerceived,
     Climb,
     Detection,
     Event,
     MaintainLevel,
+    MicrophoneAudio,
+    PaceCommand,
     PartialTranscript,
     RadarPlot,
     Recommendation,
     Severity,
+    SpokenWords,
     Status,
     Transcript,
     Turn,
@@ -149,6 +153,22 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "rejections": [{"subject": "s-1 to ATC", "answered": "all clear", "reason": "no"}],
     },
     "ActorCommand": {"command": {"action": "turn", "degrees": -30.0}},
+    "SpokenWords": {"text": "American one, cleared to land", "frequency_khz": 118_300},
+    "MicrophoneAudio": {"phase": "pressed", "frequency_khz": 118_300, "delay_s": 0.1, "pcm": ""},
+    "AdvisoryPerceived": {
+        "id": "s-1", "revision": 2, "recipient": "AAL1", "way": "heard", "after_s": 0.02,
+    },
+    "PaceCommand": {"factor": 0.5},
+    "SeatPresence": {"is_taken": True},
+    "SeatInfo": {
+        "seat": "TOWER", "frequencies_khz": [118_300], "has_sound": True, "is_recognised": True,
+        "voice_is_recorded": True, "longest_call_s": 60.0,
+    },
+    "SeatNotice": {"seat": "TOWER", "text": "Your call was cut after 60 s."},
+    "TaskCard": {
+        "line": "landing", "seat": "TOWER", "addressed": "AAL1", "frequency_khz": 118_300,
+        "text": "American one, cleared to land",
+    },
     "ActorTruth": {
         "actor": "AAL1", "category": "aircraft", "icao24": "a1b2c3", "phase": "glide",
         "on_ground": False, "latitude_deg": 1.0, "longitude_deg": 2.0,
@@ -311,7 +331,8 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     }
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
-        *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand,
+        *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, SpokenWords, MicrophoneAudio,
+        AdvisoryPerceived, PaceCommand,
     }  # fmt: skip
 
 

@@ -71,6 +71,8 @@ def reference_workers(
     radio: RadioSetup,
     taken: Collection[Modality],
     engines: Engines,
+    *,
+    people_speak: bool = False,
 ) -> list[Worker]:
     """Return the workers that a run needs and has not got.
 
@@ -81,6 +83,8 @@ def reference_workers(
     ----------
     taken
         Tasks of the attached workers.
+    people_speak
+        True if people may speak, whom automata understand by a recogniser.
 
     Raises
     ------
@@ -90,7 +94,7 @@ def reference_workers(
     workers: list[Worker] = []
     is_assisted = assistant != NO_ASSISTANT
     _, tts, detector, wording, llm, configuration, shares_detections, *_ = engines
-    if is_assisted or radio.topology == "asr_first":
+    if is_assisted or people_speak or radio.topology == "asr_first":
         workers += _recognition(taken, engines)
     deciding: list[Worker] = []
     if assistant not in (NO_ASSISTANT, EXTERNAL) and "decision" not in taken:

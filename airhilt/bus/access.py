@@ -24,13 +24,13 @@ BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in R
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": (),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
-    "operator": ("command/*",),
+    "operator": ("command/*", "speech/*", "microphone/*", "perceived/*", "pace"),
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""
 ANSWERED = ("worker/*/describe", "worker/*/step")
 """Keys on which workers answer the queries of the run."""
-ASKED = ("clock", "briefing")
+ASKED = ("clock", "briefing", "seat/*/info")
 """Keys on which the run answers queries."""
 
 _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
@@ -44,6 +44,7 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
     "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
+    "take a seat": ("ingress", ("liveliness_token",), ("seat/*",)),
     "be asked": ("egress", ("query",), ANSWERED),
     "answer": ("ingress", ("declare_queryable", "reply"), ANSWERED),
     **{
@@ -57,7 +58,7 @@ _EVERYBODY = ("subscribe", "ask", "be answered", "receive", "see who is there")
 _OF_ROLE: Mapping[Role, tuple[str, ...]] = {
     "observer": (),
     "worker": ("attach", "be asked", "answer", "publish as worker"),
-    "operator": ("publish as operator",),
+    "operator": ("publish as operator", "take a seat"),
     "recorder": (),
 }
 NO_TRUTH = "no truth"

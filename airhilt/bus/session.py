@@ -124,6 +124,23 @@ def connect_client(
             time.sleep(RETRY_S)
 
 
+def find_run(session: zenoh.Session, patience_s: float) -> str:
+    """Return the beginning of the keys of the run that answers at the endpoint of a session.
+
+    Raises
+    ------
+    BusError
+        None answers in time.
+    """
+    deadline = time.monotonic() + patience_s
+    while time.monotonic() < deadline:
+        for reply in session.get(f"{ROOT}/*/clock", timeout=1.0):
+            if reply.ok is not None:
+                return str(reply.ok.key_expr).removesuffix("/clock")
+        time.sleep(0.1)
+    raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
+
+
 @dataclass(frozen=True)
 class Refusal:
     """Something on the bus that does not count: its key, relative to the run, and the cause."""
@@ -272,13 +289,21 @@ class Bus:
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with a worker's name and whether it is alive (on a Zenoh thread)."""
+        self._watch("worker/*", changed)
+
+    def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
+        """Call ``changed`` with a seat's name and whether it is taken (on a Zenoh thread)."""
+        self._watch("seat/*", changed)
+
+    def _watch(self, pattern: str, changed: Callable[[str, bool], None]) -> None:
+        """Call ``changed`` with the last part of a liveliness token, and whether it is there."""
 
         def notice(sample: zenoh.Sample) -> None:
             changed(str(sample.key_expr).rsplit("/", 1)[1], sample.kind == zenoh.SampleKind.PUT)
 
         self._kept.append(
             self.session.liveliness().declare_subscriber(
-                f"{self.prefix}/worker/*", notice, history=True
+                f"{self.prefix}/{pattern}", notice, history=True
             )
         )
 

@@ -71,6 +71,9 @@ def cli() -> None:
     airhilt list                              what scenarios there are
     airhilt cosim --scenario s02a_headon      run one
     airhilt report RUN                        make its report, one HTML file
+    airhilt station                           choose, start and watch runs in the browser
+    airhilt view RUN                          show it in the browser, with sound and pictures
+    airhilt experiment PLAN                   lead participants through trials at a seat
     airhilt replay RUN                        run it again and compare
     airhilt verify RUN                        say whether it is as it was written
     airhilt listen RUN                        write what was said, as sound and as text

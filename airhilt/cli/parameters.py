@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import click
@@ -27,6 +28,14 @@ class Finite(click.FloatRange):
 
 
 SECONDS = Finite("time in seconds", min=0.0, max=86_400.0, min_open=True)
+allow_path_option = click.option(
+    "--allow-path",
+    "allowed",
+    type=click.Path(path_type=Path, exists=True, file_okay=False),
+    multiple=True,
+    metavar="DIR",
+    help="A folder besides that of the scenario in which it may name files; again for more.",
+)
 renderer_option = click.option(
     "--renderer",
     default=AUTO,

@@ -38,7 +38,7 @@ def _roster(scenario: Scenario) -> tuple[RosterEntry, ...]:
     for actor in scenario.actors:
         match actor:
             case AircraftSpec(callsign=callsign, on_roster=True, aircraft=name):
-                kind = load_aircraft_type(name)
+                kind = load_aircraft_type(name, scenario.files)
                 entries.append(
                     RosterEntry(
                         callsign=callsign,

@@ -20,14 +20,20 @@ from airhilt.messages import (
     ActorCommand,
     Advisory,
     AdvisoryAudio,
+    AdvisoryPerceived,
     Detections,
     DropCause,
     DroppedMessages,
     Limit,
     Message,
+    MicrophoneAudio,
+    PaceCommand,
     PartialTranscript,
+    SeatPresence,
+    SpokenWords,
     Transcript,
 )
+from airhilt.sensors.radio.conversation import FromSeat
 from airhilt.sim import Director, RealTime, Virtual
 from airhilt.text import readable
 from airhilt.workers.pool import parse_output
@@ -38,9 +44,15 @@ HEARD: Mapping[str, type[Message]] = {
     "asr/*/partial": PartialTranscript,
     "vision/*": Detections,
     "command/*": ActorCommand,
+    "speech/*": SpokenWords,
+    "microphone/*": MicrophoneAudio,
+    "perceived/*": AdvisoryPerceived,
+    "pace": PaceCommand,
     "tts/*": AdvisoryAudio,
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
+AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence)
+"""Messages of people at seats."""
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
 ANSWERS_LIMIT = Limit(size_bytes=0, rate_hz=20)
@@ -69,6 +81,16 @@ class ExternalPrograms:
     ----------
     obey
         Lets an actor carry out a command.
+    take_from_seat
+        Takes what the person at a seat says, typed or spoken.
+    seats
+        Seats that are left to people, as parts of keys.
+    keeps_voices
+        False leaves the voices of people out of the log.
+    occupy
+        Called with a seat, as a part of keys, and true if a person has taken it, false if left.
+    set_pace
+        Lets the time pass at a part of real time.
     workers
         Names of the workers that take grants: their advisories are not those of a program.
     is_strict
@@ -84,6 +106,11 @@ class ExternalPrograms:
         observer: Observer,
         *,
         obey: Callable[[str, Command], None],
+        take_from_seat: Callable[[str, FromSeat], None],
+        seats: Collection[str],
+        keeps_voices: bool,
+        occupy: Callable[[str, bool], None],
+        set_pace: Callable[[float], None],
         workers: Collection[str],
         has_decision: bool,
         is_strict: bool,
@@ -97,6 +124,11 @@ class ExternalPrograms:
         self._modalities = modalities
         self._observer = observer
         self._obey = obey
+        self._take_from_seat = take_from_seat
+        self._seats = frozenset(seats)
+        self._keeps_voices = keeps_voices
+        self._occupy = occupy
+        self._set_pace = set_pace
         self._workers = workers
         self._is_strict = is_strict
         self._intake = Intake(LIMITS | {ANSWERS: ANSWERS_LIMIT}, self._dropping)
@@ -105,8 +137,14 @@ class ExternalPrograms:
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
         bus.hear_refusals(self._hear_refusal)
+        bus.watch_seats(self._note_presence)
         for keys in HEARD:
             bus.hear(keys, self._post, partial(self._intake.admit, keys))
+
+    def _note_presence(self, seat: str, is_taken: bool) -> None:
+        """Take note that a person has taken a seat, or left it (any thread)."""
+        data = SeatPresence(is_taken=is_taken).model_dump_json().encode()
+        self._director.post(lambda: self.take(f"seat/{seat}", data))
 
     def _hear_refusal(self, refusal: Refusal) -> None:
         if self._intake.admit(ANSWERS, 0):
@@ -150,6 +188,7 @@ class ExternalPrograms:
         try:
             message = _parse(key, data, self._director.now_ns)
             self._require_own(message)
+            self._require_seat(key, message)
         except WorkerError as error:
             self._refuse(key, str(error))
             if self._is_strict:
@@ -159,9 +198,21 @@ class ExternalPrograms:
         if isinstance(stamped, Advisory) and not self.has_decision:
             self.has_decision = True
             self._modalities.set("decision", "on")
-        self._router.heard(key, stamped, UNREGISTERED)
+        self._router.heard(key, self._logged(stamped), UNREGISTERED)
         if isinstance(stamped, ActorCommand):
             self._obey(key.split("/")[1], stamped.command)
+        elif isinstance(stamped, FromSeat):
+            self._take_from_seat(key.split("/")[1], stamped)
+        elif isinstance(stamped, SeatPresence):
+            self._occupy(key.split("/")[1], stamped.is_taken)
+        elif isinstance(stamped, PaceCommand):
+            self._set_pace(stamped.factor)
+
+    def _logged(self, message: Message) -> Message:
+        """Return a message as the log is to have it."""
+        if isinstance(message, MicrophoneAudio) and not self._keeps_voices:
+            return message.model_copy(update={"pcm": b""})
+        return message
 
     def _require_own(self, message: Message) -> None:
         """Complain about an advisory that says it is of a worker that takes grants.
@@ -179,6 +230,25 @@ class ExternalPrograms:
                     f"a program published an advisory with the id {message.id!r}; expected an id "
                     f"of its own: this one belongs to worker {name!r}"
                 )
+
+    def _require_seat(self, key: str, message: Message) -> None:
+        """Complain about what happens at a seat that is not left to a person.
+
+        Raises
+        ------
+        WorkerError
+            It is none.
+        """
+        known = ", ".join(sorted(self._seats)) or "none: there is no --seat"
+        if isinstance(message, PaceCommand) and not self._seats:
+            raise WorkerError(
+                "a program published on 'pace', which people at seats may change alone; expected a "
+                "run with --seat"
+            )
+        if isinstance(message, AT_SEATS) and key.split("/")[1] not in self._seats:
+            raise WorkerError(
+                f"a program published on {key!r}, no seat of this run; expected {known}"
+            )
 
     def take_refused(self, key: str, cause: str) -> None:
         """Refuse what only a cause is known of, such as what an earlier run refused."""
@@ -233,12 +303,14 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
             "a program published on 'tts/*' without a grant; expected a voice that takes grants "
             "(docs/workers.md)"
         )
-    if not key.startswith("command/"):
+    family, _, rest = key.partition("/")
+    kind = SeatPresence if family == "seat" else HEARD.get(f"{family}/*" if rest else key)
+    if kind not in (ActorCommand, PaceCommand, *AT_SEATS):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
-        return ActorCommand.model_validate_json(data)
+        return kind.model_validate_json(data)
     except ValidationError as error:
         raise WorkerError(
-            f"a program published on {key!r} something that is no ActorCommand: "
+            f"a program published on {key!r} something that is no {kind.__name__}: "
             f"{first_problem(error)}; see `airhilt schema`"
         ) from None

@@ -40,7 +40,7 @@ def check_options(options: Options, scenario: Scenario) -> None:
         if name == "asr" and options.speech and topology == "asr_first":
             continue  # Crews get the transcript, whoever decides.
         for other in _against(options, name, flag.needs):
-            given = flag.name if value is True else f"{flag.name} {shown(value)}"
+            given = flag.name if isinstance(value, bool) else f"{flag.name} {shown(value)}"
             raise AirhiltError(f"{given} would do nothing {other}")
     if options.tls is not None and options.share_truth:
         raise AirhiltError(
@@ -68,7 +68,7 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name
         if need != "assistant":
-            if getattr(options, need) is None:
+            if getattr(options, need) in (None, ()):
                 yield f"without {spelling}; expected both or none"
             elif not getattr(options, need):
                 yield f"with {spelling}; expected only one of the two"

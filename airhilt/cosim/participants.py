@@ -117,7 +117,9 @@ def connect(
         assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
     _require_used(options, assistant)
     engines = _engines(options, scenario)
-    reference = reference_workers(assistant, scenario.radio, taken, engines)
+    reference = reference_workers(
+        assistant, scenario.radio, taken, engines, people_speak=bool(options.seat)
+    )
     if not recorded.is_replay:
         for sentence in other_machines(assistant, engines):
             notice(sentence)
@@ -191,7 +193,11 @@ def _require_different_names(workers: Sequence[Participant], programs: Sequence[
 
 
 def _engines(options: Options, scenario: Scenario) -> Engines:
-    is_read = "asr" in options.given_modalities or scenario.radio.topology == "asr_first"
+    is_read = (
+        "asr" in options.given_modalities
+        or scenario.radio.topology == "asr_first"
+        or bool(options.seat)
+    )
     return Engines(
         asr=options.asr if options.speech and is_read else None,
         tts=options.tts if options.speech else None,

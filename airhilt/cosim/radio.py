@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 
 from airhilt.cosim.events import EventPublisher
@@ -11,10 +11,11 @@ from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
+from airhilt.messages import SeatInfo
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.backends import FallbackRadio
-from airhilt.sensors.radio.conversation import RadioConversation
+from airhilt.sensors.radio.conversation import FromSeat, RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, StepRecord
 from airhilt.units import SECOND_NS
@@ -33,6 +34,7 @@ class RunRadio:
         modalities: Modalities,
         observer: Observer,
         advisory_channel: AdvisoryChannel | None,
+        seats: Collection[str],
     ) -> None:
         radio = setup.scenario.radio
         self._director = director
@@ -61,12 +63,35 @@ class RunRadio:
             microphone_stuck=self._microphone_stuck,
             microphones_free=self._microphones_free,
             advisory_channel=advisory_channel,
+            seats=seats,
         )
         router.listen(self._conversation.take)
 
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._conversation.start()
+
+    def take_from_seat(self, seat: str, message: FromSeat) -> None:
+        """Take what the person at a seat says, typed or spoken."""
+        self._conversation.take_from_seat(seat, message)
+
+    def occupy(self, seat: str, is_taken: bool) -> None:
+        """Take in that a person has taken a seat or left it."""
+        self._conversation.occupy(seat, is_taken=is_taken)
+
+    def has_person(self, name: str) -> bool:
+        """Return whether a person speaks and acts for a unit or an actor, and nobody else."""
+        return self._conversation.has_person(name)
+
+    def pause(self, is_paused: bool) -> None:
+        """Take in that the time stands still, or passes again."""
+        self._conversation.pause(is_paused)
+
+    def infos(self, *, is_recognised: bool, voice_is_recorded: bool) -> list[SeatInfo]:
+        """Return what the persons at the seats have to know."""
+        return self._conversation.infos(
+            is_recognised=is_recognised, voice_is_recorded=voice_is_recorded
+        )
 
     def unfinished(self) -> Sequence[StepRecord]:
         """Return nothing: the radio has no latency of its own."""

@@ -25,6 +25,7 @@ from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.perturbation import Draw
+from airhilt.scenario.seats import seats_of
 from airhilt.sensors.base import SensorType, load_sensor_types
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
@@ -53,6 +54,8 @@ class Setup:
         Pace of the run until its participants are known.
     notices
         Sentences for the user on what the run does without.
+    seats
+        Units and actors that are left to people.
     ends_ns
         Planned end of each line, by its id.
     """
@@ -72,6 +75,7 @@ class Setup:
     sensor_types: Sequence[SensorType]
     notices: Sequence[str]
     lines: Sequence[EffectiveLine]
+    seats: Sequence[str]
     ends_ns: Mapping[str, int]
 
     def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
@@ -148,6 +152,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         sensor_types=sensor_types,
         notices=problems,
         lines=lines,
+        seats=seats_of(options.seat, scenario),
         ends_ns=planned_ends_ns(lines, planned),
     )
 

@@ -19,6 +19,7 @@ from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
+from airhilt.child_process import cpu_s
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderers
@@ -27,10 +28,12 @@ from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.language_model_notices import LanguageModelNotices
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer, Result, Snapshot
+from airhilt.cosim.pace_control import PaceControl
 from airhilt.cosim.participants import Participants, connect
 from airhilt.cosim.radio import RunRadio
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
+from airhilt.cosim.seat_notices import SeatNotices
 from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
@@ -46,6 +49,7 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
+from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.text import LONGEST_LINE, readable
@@ -122,7 +126,9 @@ def _run(
         participants = connect(
             options, setup.scenario, setup.recorded, bus, observer.notice, workers
         )
-        if participants.programs and options.pace is None and not setup.recorded.programs:
+        has_people = bool(setup.seats) and not setup.recorded.is_replay
+        has_programs = bool(participants.programs) and not setup.recorded.programs
+        if options.pace is None and (has_people or has_programs):
             pace = RealTime()
         vision = stack.enter_context(open_vision(setup, participants, links, observer))
         setup.folder.create(options.overwrite)
@@ -201,24 +207,35 @@ class Simulation:
         self._collector = self._make_collector()
         self._pool = self._connect_workers()
         self._programs = self._connect_programs()
-        self._advisories = AdvisoryDelivery(
-            self._director,
-            setup.actors,
-            self._event,
-            is_voiced=participants.does("tts"),
-            speak_min_level=participants.speak_min_level,
-            is_on_frequency=setup.options.advisory_channel == "frequency",
-        )
-        self._router.listen(AudioRecorder(setup.folder.audio_path).take)
+        self._advisories = self._make_advisory_delivery()
+        self._router.listen(self._make_audio_recorder().take)
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
         self._radio = self._connect_radio()
+        self._pace_control = PaceControl(
+            self._director, self._event, pausing=self._radio.pause, changed=self._publish_clock
+        )
         self._router.listen(self._advisories.take)
-        self._connect_hints()
+        self._connect_notices()
         self._sensors: list[Sensor] = [self._radio, vision]
         self._mount_cameras()
         self._schedule()
         self._serve_bus()
+
+    def _make_audio_recorder(self) -> AudioRecorder:
+        options = self._setup.options
+        return AudioRecorder(self._setup.folder.audio_path, keeps_voices=options.voice_recording)
+
+    def _make_advisory_delivery(self) -> AdvisoryDelivery:
+        return AdvisoryDelivery(
+            self._director,
+            self._setup.actors,
+            self._event,
+            is_voiced=self._participants.does("tts"),
+            speak_min_level=self._participants.speak_min_level,
+            is_on_frequency=self._setup.options.advisory_channel == "frequency",
+            is_automaton=lambda name: not self._radio.has_person(name),
+        )
 
     def _make_collector(self) -> Collector:
         setup, world = self._setup, self._world
@@ -235,6 +252,7 @@ class Simulation:
                 if worker.description.modality == "decision"
             ],
             setup.options.given_modalities,
+            setup.seats,
         )
 
     def _connect_workers(self) -> WorkerPool:
@@ -257,10 +275,23 @@ class Simulation:
             self._modalities,
             self._observer,
             obey=self._world.obey,
+            take_from_seat=lambda seat, said: self._radio.take_from_seat(seat, said),
+            seats=[key_chunk(name) for name in self._setup.seats],
+            keeps_voices=self._setup.options.voice_recording,
+            occupy=lambda seat, is_taken: self._radio.occupy(seat, is_taken),
+            set_pace=lambda factor: self._pace_control.set(factor),
             workers=[worker.description.name for worker in participants.workers],
             has_decision=bool(participants.programs) or participants.does("decision"),
             is_strict=self._setup.options.strict,
         )
+
+    def _connect_notices(self) -> None:
+        """Tell people at seats, and the user, what they would not see otherwise."""
+        notices = SeatNotices(
+            self._setup.seats, self._router.publish, lambda: self._director.now_ns
+        )
+        self._router.observe(notices.take)
+        self._connect_hints()
 
     def _connect_hints(self) -> None:
         """Tell of warnings on which nobody acts, and of a language model; not in a replay.
@@ -285,6 +316,7 @@ class Simulation:
             self._modalities,
             self._observer,
             self._advisory_channel(),
+            self._setup.seats,
         )
         radio.start()
         return radio
@@ -367,7 +399,7 @@ class Simulation:
 
     def run(self, info: RunInfo) -> Result:
         """Run to the end, and finish the run folder whatever happens."""
-        begun_wall, begun_cpu = time.perf_counter(), time.process_time()
+        begun_wall, begun_cpu_s = time.perf_counter(), cpu_s()
         failures: list[BaseException] = []
         folder = self._setup.folder
         with _kept(failures):
@@ -379,12 +411,12 @@ class Simulation:
         if failures and isinstance(failures[0], KeyboardInterrupt):
             self._observer.notice(f"interrupted; {folder.path} is complete up to here")
         wall_s = time.perf_counter() - begun_wall
-        cpu_s = time.process_time() - begun_cpu
+        used_s = cpu_s() - begun_cpu_s
         sensed = self._measurements_in_hand(failures)
         with _kept(failures):
             self._close_logs(_cause(failures), sensed)
         with _kept(failures):
-            summary = self._summary(_cause(failures), wall_s, cpu_s)
+            summary = self._summary(_cause(failures), wall_s, used_s)
             folder.write_summary(summary)
         with _kept(failures):
             folder.write_info(self._final_info(info, _cause(failures)))
@@ -441,7 +473,7 @@ class Simulation:
                 first.add_note(f"Failed as well, when the run was finished: {text}")
         return first
 
-    def _summary(self, cause: str, wall_s: float, cpu_s: float) -> Summary:
+    def _summary(self, cause: str, wall_s: float, used_s: float) -> Summary:
         now_ns = self._director.now_ns
         return self._collector.summary(
             {
@@ -451,7 +483,7 @@ class Simulation:
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "messages_dropped": self._programs.dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
-                "cpu_s": cpu_s,
+                "cpu_s": used_s,
             },
             now_ns,
         )
@@ -488,6 +520,14 @@ class Simulation:
         briefing = briefing_of(self._setup.scenario, self._setup.site)
         self._router.publish("briefing", briefing)
         self._bus.keep("briefing", briefing.model_dump_json().encode())
+        infos = self._radio.infos(
+            is_recognised=self._participants.does("asr"),
+            voice_is_recorded=self._setup.options.voice_recording,
+        )
+        for info in infos:
+            key = f"seat/{key_chunk(info.seat)}/info"
+            self._router.publish(key, info)
+            self._bus.keep(key, info.model_dump_json().encode())
 
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does

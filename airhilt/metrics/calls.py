@@ -7,7 +7,14 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript, Transmission
+from airhilt.messages import (
+    AdvisoryAudio,
+    HearingTruth,
+    Message,
+    SpokenTruth,
+    Transcript,
+    Transmission,
+)
 from airhilt.metrics.summary import RadioStatistics
 from airhilt.metrics.words import Score, recognition, score
 from airhilt.phraseology import parse_call
@@ -16,6 +23,23 @@ TEXT = "text"
 """Engine of transcripts that were not recognised: the words of a call without sound."""
 REPEAT = re.compile(r"\.repeat-[0-9]+$")
 """End of the id of a call that is made again (docs/radio.md)."""
+
+
+def call_message(key: str) -> type[Message] | None:
+    """Return the class of the messages with a key if they are about calls or spoken advisories."""
+    match key.split("/"):
+        case ["radio", _, "tx"]:
+            return Transmission
+        case ["asr", _]:
+            return Transcript
+        case ["truth", "radio", *_]:
+            return SpokenTruth
+        case ["truth", "hearing", *_]:
+            return HearingTruth
+        case ["tts", *_]:
+            return AdvisoryAudio
+        case _:
+            return None
 
 
 @dataclass
@@ -77,7 +101,10 @@ class CallRecords:
         """
         spoken = [(call, said) for call in self if (said := call.said) is not None]
         words = [(call, said) for call, said in spoken if said.text]
-        noise = [call for call, said in spoken if not said.text and not said.blocked_by]
+        carriers = [
+            (call, said) for call, said in spoken if not said.text and not said.is_from_microphone
+        ]
+        noise = [call for call, said in carriers if not said.blocked_by]
         clear = [(call, said) for call, said in words if not said.blocked_by]
         heard = [call for call, _ in clear if call.received is not None and call.received.samples]
         noise_heard = [transcript for call in noise for transcript in call.recognised]
@@ -90,8 +117,11 @@ class CallRecords:
         return RadioStatistics(
             **recognition([one for _, one in scores], _only(levels)).model_dump(),
             transmissions=len(spoken),
-            blocked=len(words) - len(clear),
-            stuck_microphone=len(spoken) - len(words),
+            blocked=sum(
+                bool(said.blocked_by) and (bool(said.text) or said.is_from_microphone)
+                for _, said in spoken
+            ),
+            stuck_microphone=len(carriers),
             transcripts_missing=(
                 sum(not call.recognised for call in heard) if is_recognised and heard else None
             ),

@@ -32,6 +32,7 @@ from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
+from airhilt.metrics.people import PeopleRecords
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
@@ -73,6 +74,8 @@ class Collector:
         Names of the workers that decide.
     given
         Modalities that they are given.
+    seats
+        Units and callsigns that are left to people.
 
     Attributes
     ----------
@@ -96,6 +99,7 @@ class Collector:
         is_on_frequency: bool = False,
         deciders: Collection[str] = (),
         given: Collection[str] = MODALITIES,
+        seats: Collection[str] = (),
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
@@ -111,6 +115,7 @@ class Collector:
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
+        self._people = PeopleRecords(seats)
         new_records = partial(
             AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
         )
@@ -148,6 +153,7 @@ class Collector:
         self._evidence.take(message)
         self._detections.take(message)
         self._language_model.take(message)
+        self._people.take(key, message)
 
     def step(self, record: StepRecord) -> None:
         """Receive a finished step of a worker."""
@@ -200,6 +206,7 @@ class Collector:
             clarifications=self._advisories.clarifications(),
             advisories=self._advisories.summaries(incursions),
             equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
+            people=self._people.summaries(),
             radio=self._calls.statistics(
                 roster_of(self._scenario),
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),

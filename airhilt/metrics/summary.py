@@ -108,6 +108,43 @@ class EquipmentSummary(BaseModel):
     alerts: list[AdvisorySummary]
 
 
+class PersonReaction(BaseModel):
+    """What a person did upon one revision of an advisory; null where it does not apply."""
+
+    model_config = ConfigDict(frozen=True)
+    advisory: str
+    revision: int
+    severity: Severity
+    advised: str | None = Field(description="action that it recommends")
+    t_advisory_s: float
+    t_seen_s: float | None = Field(description="the page of the seat drew it")
+    t_heard_s: float | None = Field(description="its first sample was audible")
+    voice_to_loudspeaker_s: float | None = Field(description="from t_tts to t_heard_s")
+    first_action: str | None = Field(
+        description="first action after it: spoken call, typed call, or the name of a command"
+    )
+    reaction_time_s: float | None = Field(
+        description="from t_heard_s, or t_seen_s if it was not heard, to that action"
+    )
+    followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
+
+
+class PersonSummary(BaseModel):
+    """What the person at one seat said and did."""
+
+    model_config = ConfigDict(frozen=True)
+    seat: str
+    spoken_calls: int
+    typed_calls: int
+    commands: int
+    asked_to_say_again: int = Field(description="answers to the person that ask to say again")
+    press_to_transmit_s: float | None = Field(
+        description="median time from pressing the button until the station had it"
+    )
+    reaction_time_s: float | None = Field(description="median over the advisories")
+    reactions: list[PersonReaction]
+
+
 class RecognitionStatistics(BaseModel):
     """Recognition of the calls that had words and were not blocked."""
 
@@ -347,6 +384,9 @@ class Summary(BaseModel):
     equipment: list[EquipmentSummary] = Field(
         default=[], description="equipment of the world, which is no part of the assistant"
     )
+    people: list[PersonSummary] = Field(
+        default=[], description="people at seats; empty if there are none"
+    )
     radio: RadioStatistics
     vision: VisionStatistics
     language_model: LanguageModelStatistics | None = Field(
@@ -368,7 +408,10 @@ class Summary(BaseModel):
     them."""
     ended_actors: dict[str, str]
     real_time_factor: float
-    cpu_s: float
+    cpu_s: float = Field(
+        description="CPU time of the run in its own process and its children, such as the "
+        "renderer, in s"
+    )
 
     @field_validator("modalities")
     @classmethod

@@ -15,6 +15,7 @@ from airhilt.audio.wav import encode_wav, read_wav
 from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.messages import (
+    FROM_MICROPHONE,
     AdvisoryAudio,
     EnhancedTransmission,
     Message,
@@ -42,10 +43,16 @@ class AudioRecorder:
 
     The chunks of a transmission are written only if no `Transmission` has their samples, because
     its sender or the sound of the radio was lost while it lasted.
+
+    Parameters
+    ----------
+    keeps_voices
+        False leaves out what people have spoken.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, keeps_voices: bool = True) -> None:
         self._folder = folder
+        self._keeps_voices = keeps_voices
         self._chunks: dict[str, bytearray] = {}
         """PCM of the transmissions that are on the air, by id."""
 
@@ -68,6 +75,8 @@ class AudioRecorder:
                 self._write(message, bytes(payload))
 
     def _write(self, message: MessageWithSound, pcm: bytes) -> None:
+        if not self._keeps_voices and message.id.startswith(FROM_MICROPHONE):
+            return
         path = audio_file(self._folder, message)
         try:
             self._folder.mkdir(exist_ok=True)

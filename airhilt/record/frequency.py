@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from airhilt.audio.wav import write_wav
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
-from airhilt.record.audio import recorded_pcm
+from airhilt.record.audio import MessageWithSound, recorded_pcm
 from airhilt.record.folder import RunFolder
 from airhilt.record.run import Notice, Run, open_run, untold
 from airhilt.text import LONGEST_LINE, readable
@@ -114,7 +114,7 @@ def write_frequency(
         The run has no sound.
     """
     run = open_run(run_folder, notice)
-    recording = _read(run, frequency_khz)
+    recording = read_frequency(run, frequency_khz)
     wav = out or run.folder.path / f"frequency-{recording.frequency_khz}.wav"
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
@@ -127,7 +127,19 @@ def write_frequency(
     return recording, wav, text
 
 
-def _read(run: Run, frequency_khz: int | None) -> FrequencyRecording:
+def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecording:
+    """Return the sound of a frequency with the timing of the run, and what was said on it.
+
+    Parameters
+    ----------
+    frequency_khz
+        The frequency; None takes the only one of the run.
+
+    Raises
+    ------
+    RunFolderError, SpeechError
+        As `write_frequency`.
+    """
     folder = run.folder
     transmissions: list[Transmission] = []
     spoken: dict[str, SpokenTruth] = {}
@@ -153,7 +165,8 @@ def _read(run: Run, frequency_khz: int | None) -> FrequencyRecording:
         key=lambda tx: (tx.t_tx_ns, tx.id),
     )
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
-    return FrequencyRecording(run.info.run, chosen, calls, _splice(folder, tuned), run.damage)
+    audio = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
+    return FrequencyRecording(run.info.run, chosen, calls, audio, run.damage)
 
 
 def _choose(
@@ -201,21 +214,33 @@ def _call(
     )
 
 
-def _splice(folder: RunFolder, tuned: Sequence[Transmission]) -> Audio:
-    """Return the sound of all transmissions, each at its time.
+def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]) -> Audio:
+    """Return the sound of messages from the start of the run, each at its time.
 
     Two transmissions that blocked each other were both received mixed: the second is taken from
     where the first ends. A call that begins during the squelch tail of the one before cuts it off.
+
+    Parameters
+    ----------
+    heard
+        Begin and end of each message in ns, and the message; begins rise.
+
+    Raises
+    ------
+    RunFolderError
+        A sound file is missing, or not what was received.
+    SpeechError
+        None of them has sound.
     """
     pieces: list[tuple[int, Audio]] = []
     free_at = 0
-    for tx in tuned:
-        if tx.samples == 0:
+    for begin_ns, end_ns, message in heard:
+        if message.samples == 0:
             continue
-        begin = max(_sample(tx.t_tx_ns), free_at)
-        received = from_pcm(recorded_pcm(folder.audio_path, tx))
-        pieces.append((begin, received[begin - _sample(tx.t_tx_ns) :]))
-        free_at = max(_sample(tx.t_end_ns), free_at)
+        begin = max(_sample(begin_ns), free_at)
+        received = from_pcm(recorded_pcm(folder.audio_path, message))
+        pieces.append((begin, received[begin - _sample(begin_ns) :]))
+        free_at = max(_sample(end_ns), free_at)
     if not pieces:
         raise SpeechError(
             f"{folder.path}: a run without sound on this frequency; expected one that was made "

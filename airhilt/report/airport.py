@@ -5,7 +5,8 @@ Importing this module brings in Shapely and NetworkX: do so where an airport is 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,8 @@ class ReportAirport:
     ----------
     name
         Name of the airport's file, such as ``kdca``.
+    files
+        Airports that the scenario of the run brought along.
 
     Raises
     ------
@@ -35,8 +38,8 @@ class ReportAirport:
         There is none of that name, or its file is wrong.
     """
 
-    def __init__(self, name: str) -> None:
-        layout = Layout(load_airport(name))
+    def __init__(self, name: str, files: Mapping[str, Any] = MappingProxyType({})) -> None:
+        layout = Layout(load_airport(name, files))
         self._frame = layout.local_frame
         self._plan = ground_plan(layout)
 

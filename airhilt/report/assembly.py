@@ -167,7 +167,7 @@ def _readable(data: Any) -> Any:
     """Return data whose texts have no character without a shape."""
     match data:
         case str():
-            return readable(data, longest=None)
+            return "\n".join(readable(line, longest=None) for line in data.split("\n"))
         case dict():
             return {_readable(key): _readable(value) for key, value in data.items()}
         case list() | tuple():

@@ -101,6 +101,7 @@ class RunData:
     def as_json(self) -> Json:
         """Return what all sections share."""
         info, realised = self.info, self.info.realised
+        files = realised.get("files", {})
         actors = {actor["callsign"]: actor for actor in realised.get("actors", ())}
         at_airport = self.airport is not None
         texts = ("name", "title", "description", "family")
@@ -120,7 +121,7 @@ class RunData:
             "summary": None if self.summary is None else self.summary.model_dump(mode="json"),
             "end_s": round(self.end_ns / SECOND_NS, 3),
             "tracks": [
-                track.as_json(actor, at_airport) | _kind(actors.get(actor, {}))
+                track.as_json(actor, at_airport) | _kind(actors.get(actor, {}), files)
                 for actor, track in self.tracks.items()
             ],
             "separations": _separations(self.tracks, self.pair),
@@ -285,7 +286,7 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
     from airhilt.report.airport import ReportAirport
 
     try:
-        return ReportAirport(name)
+        return ReportAirport(name, info.realised.get("files", {}))
     except AirhiltError as error:
         notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None
@@ -305,11 +306,11 @@ def _tracks(log: _Log, locate: Locate) -> dict[str, Track]:
     }
 
 
-def _kind(actor: Json) -> Json:
+def _kind(actor: Json, files: Json) -> Json:
     """Return the type of an actor, and its size as far as the type is still known here."""
     name = str(actor.get("aircraft") or actor.get("kind") or "")
     try:
-        size = _dimensions(name, "aircraft" in actor) if name else None
+        size = _dimensions(name, "aircraft" in actor, files) if name else None
     except AirhiltError:
         size = None
     return {
@@ -320,9 +321,9 @@ def _kind(actor: Json) -> Json:
     }
 
 
-def _dimensions(name: str, is_aircraft: bool) -> Size:
+def _dimensions(name: str, is_aircraft: bool, files: Json) -> Size:
     if is_aircraft:
-        return load_aircraft_type(name).dimensions
+        return load_aircraft_type(name, files).dimensions
     return load_kind(name).dimensions
 
 

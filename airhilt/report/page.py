@@ -17,6 +17,7 @@ SHARED = (
     "page",
     "words",
     "run",
+    "series",
     "tracks",
     "events",
     "charts",

@@ -27,7 +27,23 @@ from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
 
 RESERVED = frozenset(
-    {"truth", "status", "clock", "briefing", "command", "worker", "radio", "camera"}
+    {
+        "speech",
+        "microphone",
+        "perceived",
+        "seat",
+        "pace",
+        "notice",
+        "task",
+        "truth",
+        "status",
+        "clock",
+        "briefing",
+        "command",
+        "worker",
+        "radio",
+        "camera",
+    }
 ) | frozenset(WORKER_OUTPUTS)
 """First chunks of keys that belong to the run and to workers; no sensor type has such a name."""
 

@@ -7,7 +7,7 @@ discrete-event loop, and `Server`, one worker in virtual time.
 from airhilt.sim.director import Director, Priority, Scheduler
 from airhilt.sim.interruption import interruptible
 from airhilt.sim.latency import LatencySpec, parse_latency
-from airhilt.sim.pace import Pace, RealTime, Virtual, parse_pace
+from airhilt.sim.pace import Pace, Paused, RealTime, Virtual, parse_pace
 from airhilt.sim.server import Server, StepRecord
 from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
 
@@ -18,6 +18,7 @@ __all__ = [
     "LatencySpec",
     "Output",
     "Pace",
+    "Paused",
     "Pending",
     "Policy",
     "Priority",

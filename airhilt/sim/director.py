@@ -122,7 +122,8 @@ class Director:
         """Run events until `stop` is called or none is left.
 
         What was posted runs between two instants, never among the events of one, so that it can
-        be repeated from its time alone.
+        be repeated from its time alone. Where two instants leave no room for it, the second comes
+        first, at once: a pause would never come to it.
 
         Raises
         ------
@@ -139,7 +140,7 @@ class Director:
                 elapsed_ns = self.pace.elapsed_ns(self.now_ns)
                 self.now_ns = min(max(elapsed_ns, self.now_ns + 1), t_ns - 1)
                 posted.popleft()()
-            elif self.pace.wait_until(t_ns, self._wake):
+            elif posted or self.pace.wait_until(t_ns, self._wake):
                 self.now_ns, _, _, action = pop(heap)
                 action()
             else:

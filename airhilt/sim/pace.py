@@ -8,6 +8,9 @@ from typing import Protocol
 
 from airhilt.errors import AirhiltError
 
+PAUSE_S = 0.2
+"""Longest time in s after which a run that is paused notices that it is interrupted."""
+
 
 class Pace(Protocol):
     """Holds the Director back until an event is due."""
@@ -75,6 +78,24 @@ class RealTime:
         """Return simulation time by the wall clock."""
         wall = time.perf_counter() - self._origin_wall
         return max(now_ns, self._origin_ns + round(wall * self.factor * 1e9))
+
+
+class Paused:
+    """Simulation time stands still until the pace is changed."""
+
+    name = "paused"
+
+    def start(self, t_ns: int) -> None:
+        """Do nothing: there is no time to measure."""
+
+    def wait_until(self, t_ns: int, wake: Event) -> bool:  # noqa: ARG002
+        """Sleep until ``wake`` is set, or for a moment, after which an interruption is noticed."""
+        wake.wait(PAUSE_S)
+        return False
+
+    def elapsed_ns(self, now_ns: int) -> int:
+        """Return ``now_ns``."""
+        return now_ns
 
 
 def parse_pace(text: str) -> Pace:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.multipart import pack, unpack
-from airhilt.bus.session import ROOT, connect_client
+from airhilt.bus.session import ROOT, connect_client, find_run
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply
 from airhilt.sim.worker import Input
@@ -24,20 +23,10 @@ def answer_grants(
     """Attach a worker to a run, and return when the run is over; see `airhilt.workers.serve`."""
     session = connect_client(connect, patience_s, tls)
     try:
-        prefix = f"{ROOT}/{run}" if run else _find_run(session, patience_s)
+        prefix = f"{ROOT}/{run}" if run else find_run(session, patience_s)
         _serve(session, worker, prefix)
     finally:
         session.close()  # type: ignore[no-untyped-call]
-
-
-def _find_run(session: zenoh.Session, patience_s: float) -> str:
-    deadline = time.monotonic() + patience_s
-    while time.monotonic() < deadline:
-        for reply in session.get(f"{ROOT}/*/clock", timeout=1.0):
-            if reply.ok is not None:
-                return str(reply.ok.key_expr).removesuffix("/clock")
-        time.sleep(0.1)
-    raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
 
 
 def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:

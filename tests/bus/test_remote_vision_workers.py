@@ -16,6 +16,7 @@ from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from paths import EXAMPLES
 from processes import process
+from shortened import shortened
 
 HASHING_DETECTOR = """
 import hashlib, sys
@@ -46,8 +47,8 @@ def glance() -> Scenario:
         }
         for callsign in ("AAL123", "DAL456")
     ]
-    document |= {"name": "glance", "duration_s": 1.0}
-    return load_text(json.dumps(document), "glance")
+    document |= {"name": "glance"}
+    return load_text(json.dumps(shortened(document, 1.0)), "glance")
 
 
 Kind = TypeVar("Kind", bound=Message)

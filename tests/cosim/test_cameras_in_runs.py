@@ -213,14 +213,12 @@ def test_no_picture_is_drawn_that_nobody_looks_at(
     assert states_of_vision(log) == [("off", "")]
 
 
-def test_a_camera_below_the_ground_is_refused_before_the_run(
-    short: Scenario, tmp_path: Path
-) -> None:
+def test_a_camera_on_the_ground_is_refused_before_the_run(short: Scenario, tmp_path: Path) -> None:
     document = json.loads(short.model_dump_json())
     document["cameras"][0]["mount"] = {
         "type": "fixed",
         "position": {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 1.0},
-        "height_ft": -20.0,
+        "height_ft": 0.0,
         "azimuth_deg": 0.0,
     }
     with pytest.raises(AirhiltError, match="nose-AAL123"):

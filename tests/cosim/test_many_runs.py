@@ -13,6 +13,7 @@ from airhilt.files import sha256
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from resources import held, linux_only, resident_mb
+from shortened import shortened
 
 WARM_UP = 20
 """Number of runs after which a process has all that it keeps: modules, caches, memory pools."""
@@ -23,7 +24,7 @@ MEMORY_MB = 50.0
 @pytest.fixture
 def brief(encounter: Scenario) -> Scenario:
     """Two seconds of the encounter."""
-    document = encounter.model_dump(mode="json") | {"duration_s": 2.0}
+    document = shortened(encounter.model_dump(mode="json"), 2.0)
     return load_text(json.dumps(document), "brief")
 
 

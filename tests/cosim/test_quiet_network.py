@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from airhilt import load
+from shortened import shortened
 
 LOOPBACK_UP = """
 import fcntl, os, socket, struct, sys
@@ -24,6 +25,7 @@ os.execvp(sys.argv[1], sys.argv[1:])
 SPEAKS_TO = re.compile(
     r'(?:connect|sendto|sendmsg)\(.*(?:inet_addr\(|inet_pton\(AF_INET6, )"([^"]+)"'
 )
+
 LOOPBACK = re.compile(r"127\.\d+\.\d+\.\d+|::1|::ffff:127\.\d+\.\d+\.\d+")
 
 
@@ -81,7 +83,7 @@ def test_a_run_connects_to_nobody_and_leaves_nothing_for_others_to_send(
 ) -> None:
     if problem := _namespace_problem():
         pytest.skip(problem)
-    scenario = load("s01a_bad_readback").model_dump(mode="json") | {"duration_s": 2.0}
+    scenario = shortened(load("s01a_bad_readback").model_dump(mode="json"), 2.0)
     home = tmp_path / "home"
     home.mkdir()
     addresses = talked_to(scenario, tmp_path, home, *flags)

@@ -85,6 +85,7 @@ def environment(tmp_path: Path, short_scenarios: Path) -> dict[str, str]:
     for name, call in {
         "airhilt": f'exec "{sys.executable}" {short} "$@"',
         "python": f'exec "{sys.executable}" "$@"',
+        "interrupted": f'exec "{sys.executable}" "{SUPPORT / "interrupted.py"}" "$@"',
         "seq": "echo 1 2",
     }.items():
         path = programs / name
@@ -113,7 +114,8 @@ def run(script: str, environment: dict[str, str]) -> str:
 def as_run(command: str, endpoint: str) -> str:
     """Return a command as it is run here: its own run folders and port, and few pictures.
 
-    An evaluation tries one run.
+    An evaluation tries one run. The page of a run folder is served until Ctrl+C, and interrupted;
+    a run with a page goes faster than the clock on the wall.
     """
     command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
     command = re.sub(r"--images \d+", "--images 2", command)
@@ -124,6 +126,12 @@ def as_run(command: str, endpoint: str) -> str:
         command += " --dry-run"
     command = re.sub(r"runs/(\w+)-0-\.\.\.", r'"$(ls -dt runs/\1-0-* | head -1)"', command)
     command = re.sub(r"\bRUN\b", '"$(ls -dt runs/*/ | head -1)"', command)
+    if re.search(r"airhilt view|airhilt station|--view|--seat", command):
+        command += " --no-browser --port 0"
+    if command.startswith(("airhilt view", "airhilt station")):
+        command = f"interrupted {command}"
+    elif re.search(r"--view|--seat", command):
+        command += " --pace 4x"
     return f"{command} &" if "--attach" in command else command
 
 

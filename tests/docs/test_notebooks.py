@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import nbformat
@@ -10,6 +11,7 @@ from nbclient import NotebookClient
 
 from airhilt.scenario import Scenario
 from paths import ROOT
+from shortened import shortened
 
 MOST_LINES = 15
 """Lines of code, blank ones not counted."""
@@ -19,8 +21,8 @@ def test_the_notebook_runs_a_sweep_and_plots_it(
     encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    short = encounter.model_copy(update={"name": "short", "duration_s": 4.0})
-    (tmp_path / "short.json").write_text(short.model_dump_json())
+    short = shortened(encounter.model_dump(mode="json"), 4.0) | {"name": "short"}
+    (tmp_path / "short.json").write_text(json.dumps(short))
     notebook = nbformat.read(ROOT / "examples" / "sweep.ipynb", as_version=4)  # type: ignore[no-untyped-call]
     for cell in notebook.cells:
         cell.source = cell.source.replace('"s02a_vertical"', '"short.json"')

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from airhilt import library
 from airhilt.cli import main
+from shortened import shortened
 
 LONGEST_S, LONGEST_WITH_CAMERAS_S = 12.0, 1.0
 
@@ -27,10 +28,8 @@ def shorten(folder: Path) -> None:
             ("seen", LONGEST_WITH_CAMERAS_S, document.get("cameras", [])),
             ("unseen", LONGEST_S, []),
         ):
-            short = document | {
-                "duration_s": min(document["duration_s"], longest_s),
-                "cameras": cameras,
-            }
+            short = shortened(document, min(document["duration_s"], longest_s))
+            short["cameras"] = cameras
             path = folder / kind / f"{name}.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(json.dumps(short), encoding="utf-8")

@@ -20,7 +20,7 @@ ARGUMENTS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--hide-scrollbars", "--remote-debugging-pipe",
 )  # fmt: skip
-PATIENCE_S = 30.0
+PATIENCE_S = 120.0
 
 
 class Page:
@@ -54,8 +54,10 @@ class Page:
                 result: dict[str, Any] = answer["result"]
                 return result
 
-    def open(self, path: Path, width: int = 1280, height: int = 900, dark: bool = False) -> None:
-        """Open a file in a window of this size and wait until it is drawn."""
+    def open(
+        self, place: Path | str, width: int = 1280, height: int = 900, dark: bool = False
+    ) -> None:
+        """Open a file or a URL in a window of this size and wait until it is drawn."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width, height=height, deviceScaleFactor=1, mobile=False,
@@ -63,7 +65,8 @@ class Page:
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
         self._events.clear()
-        self.call("Page.navigate", url=path.resolve().as_uri())
+        url = place if isinstance(place, str) else place.resolve().as_uri()
+        self.call("Page.navigate", url=url)
         while "Page.loadEventFired" not in self._events:
             self._receive()
 
@@ -75,10 +78,33 @@ class Page:
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
 
+    def wait_for(self, expression: str) -> None:
+        """Wait until an expression in the page is true."""
+        due = time.monotonic() + PATIENCE_S
+        while not self.evaluate(f"Boolean({expression})"):
+            assert time.monotonic() < due, f"never true: {expression}"
+            time.sleep(0.05)
+
     def press(self, key: str, code: int) -> None:
         """Press a key and let it go."""
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
+            self.key(kind, key, code)
+
+    def key(self, kind: str, key: str, code: int) -> None:
+        """Press a key (``keyDown``) or let it go (``keyUp``)."""
+        self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
+
+    def click(self, name: str) -> None:
+        """Click on the element with an id, as a person does."""
+        place = self.evaluate(
+            f"(({{x, y, width, height}}) => [x + width / 2, y + height / 2])"
+            f"(document.getElementById({name!r}).getBoundingClientRect())"
+        )
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call(
+                "Input.dispatchMouseEvent",
+                type=kind, x=place[0], y=place[1], button="left", clickCount=1,
+            )  # fmt: skip
 
     def _receive(self) -> dict[str, Any]:
         due = time.monotonic() + PATIENCE_S
@@ -105,15 +131,15 @@ class Page:
 
 
 @contextmanager
-def browser_page(executable: str) -> Iterator[Page]:
-    """Start a browser, yield its page, and end the browser."""
+def browser_page(executable: str, *more: str) -> Iterator[Page]:
+    """Start a browser, with more arguments, yield its page, and end the browser."""
     to_browser, commands = os.pipe()
     answers, from_browser = os.pipe()
     # The browser reads from descriptor 3 and writes to 4; a shell puts the pipes there.
     shell = f'exec "$0" "$@" 3<&{to_browser} 4>&{from_browser}'
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         process = subprocess.Popen(
-            ["bash", "-c", shell, executable, *ARGUMENTS, f"--user-data-dir={profile}"],
+            ["bash", "-c", shell, executable, *ARGUMENTS, *more, f"--user-data-dir={profile}"],
             pass_fds=(to_browser, from_browser),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

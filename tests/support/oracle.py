@@ -63,7 +63,9 @@ class BlankSceneRenderer:
 
     def __init__(self, scenario: Scenario) -> None:
         site = ScenarioSite.of(scenario)
-        self._models = {actor.callsign: model_of(actor) for actor in scenario.actors}
+        self._models = {
+            actor.callsign: model_of(actor, scenario.files) for actor in scenario.actors
+        }
         self._cameras = cameras_of(scenario, site)
         self._extinction_per_m = 3.912 / scenario.weather.visibility_m
         self._outlines = {

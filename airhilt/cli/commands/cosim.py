@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
+from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
+from airhilt.cli.parameters import allow_path_option
+from airhilt.cli.station_flags import port_option, station_address
+
+if TYPE_CHECKING:
+    from airhilt.options import Options
+    from airhilt.scenario import Scenario
 
 
 class RunCommand(click.Command):
@@ -26,6 +37,8 @@ Examples:
   airhilt cosim --scenario s02a_headon
   airhilt cosim --scenario my.json --seed 7 --latency lognormal --out runs/mine
   airhilt cosim --scenario s02a_headon --assistant none --json
+  airhilt cosim --scenario s01b_nominal --seat tower
+  airhilt cosim --scenario s02a_headon --view --pace realtime --share-truth
   airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach decision
 """,
 )
@@ -35,14 +48,28 @@ Examples:
     metavar="NAME_OR_FILE",
     help="A scenario of `airhilt list`, or a JSON file.",
 )
+@allow_path_option
 @click.option(
     "--json",
     "as_json",
     is_flag=True,
     help="Print summary.json on standard output, everything else on standard error.",
 )
+@click.option("--view", is_flag=True, help="Show the run in the browser as it goes on.")
+@port_option
+@click.option("--no-browser", is_flag=True, help="Let --view open no browser.")
 @click.pass_context
-def cosim(context: click.Context, /, scenario: str, as_json: bool, **_: object) -> None:
+def cosim(
+    context: click.Context,
+    /,
+    scenario: str,
+    allowed: tuple[Path, ...],
+    as_json: bool,
+    view: bool,
+    port: int,
+    no_browser: bool,
+    **_: object,
+) -> None:
     """Run a scenario and leave a run folder."""
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cli.run_flags import options_given
@@ -50,13 +77,40 @@ def cosim(context: click.Context, /, scenario: str, as_json: bool, **_: object) 
     from airhilt.world.loading import load
 
     options = options_given(context)
-    with ProgressLine(scenario) as progress:
-        result = run(load(scenario), options, progress)
-    if as_json:
-        echo_json(result.summary.model_dump_json(indent=2))
-        click.echo(f"run folder: {result.folder}", err=True)
-    else:
-        print_summary(result.summary, result.folder)
+    loaded = load(scenario, allowed)
+    with ExitStack() as stack:
+        if view or options.seat:
+            options = _with_page(loaded, options, stack, port, not no_browser)
+        tell("getting ready; a run that is killed before its folder is there leaves nothing")
+        with ProgressLine(scenario) as progress:
+            result = run(loaded, options, progress)
+        if as_json:
+            echo_json(result.summary.model_dump_json(indent=2))
+            click.echo(f"run folder: {result.folder}", err=True)
+        else:
+            print_summary(result.summary, result.folder)
+
+
+def _with_page(
+    scenario: Scenario, options: Options, stack: ExitStack, port: int, browser: bool
+) -> Options:
+    """Serve the page of a run until the stack is closed, and return options with its endpoint.
+
+    The person in an aircraft sees its instruments.
+    """
+    from airhilt.bus.session import free_endpoint
+    from airhilt.cli.live_page import live_page
+    from airhilt.scenario.seats import seats_of
+    from airhilt.station.address import DEFAULT_HOST
+
+    station_address(DEFAULT_HOST, port, None, None, None)
+    if options.endpoint is None and options.tls is None:
+        options = options.model_copy(update={"endpoint": free_endpoint()})
+    seats = seats_of(options.seat, scenario)
+    if any(actor.callsign in seats for actor in scenario.actors):
+        options = options.model_copy(update={"cockpit": True})
+    stack.enter_context(live_page(options.endpoint, options.tls, seats, port, browser))
+    return options
 
 
 COMMAND = cosim

@@ -28,6 +28,7 @@ Examples:
   airhilt report RUN --out headon.html
   airhilt report SWEEP
   airhilt report SWEEP --csv runs.csv
+  airhilt report RUN --csv reactions.csv
 """
 )
 @click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
@@ -41,20 +42,26 @@ Examples:
     "--csv",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write the table of a sweep as CSV instead.",
+    help="Write the table of a sweep, or the reactions of the people of a run, as CSV instead.",
 )
 def report(folder: Path, out: Path | None, csv: Path | None) -> None:
     """Make the report of a run or of a sweep: one HTML file that opens offline.
 
     The figures of a sweep are in its folder too, under figures, as SVG and as PDF.
     """
+    from airhilt.record import RunFolder
     from airhilt.record.sweep_folder import SweepFolder
+    from airhilt.report.people_csv import write_people_csv
 
     sweep = SweepFolder(folder)
     if csv is not None:
         if out is not None:
             raise click.UsageError("--out, --csv: expected one of them")
-        _write_csv(SweepFolder.open(folder), csv)
+        run = RunFolder(folder)
+        if run.info_path.is_file():
+            write_people_csv(run, csv)
+        else:
+            _write_csv(SweepFolder.open(folder), csv)
         click.echo(csv)
     elif sweep.is_there:
         from airhilt.report.sweeps import write_sweep_report

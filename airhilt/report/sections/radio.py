@@ -5,15 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
-from airhilt.messages import (
-    AdvisoryAudio,
-    HearingTruth,
-    Message,
-    SpokenTruth,
-    Transcript,
-    Transmission,
-)
-from airhilt.metrics.calls import CallRecord, CallRecords
+from airhilt.messages import AdvisoryAudio, SpokenTruth, Transcript
+from airhilt.metrics.calls import CallRecord, CallRecords, call_message
 from airhilt.metrics.words import align
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content, Section
@@ -40,7 +33,7 @@ class Radio(Content):
 
     def take(self, logged: Logged) -> None:
         """Receive a message about a call, or the audio of an advisory."""
-        model = _model(logged.key)
+        model = call_message(logged.key)
         if model is AdvisoryAudio:
             self._advisories.append(AdvisoryAudio.model_validate_json(logged.data))
         elif model is not None:
@@ -63,23 +56,6 @@ class Radio(Content):
             )
         run.notes.extend(sounds.notes())
         return radio
-
-
-def _model(key: str) -> type[Message] | None:
-    """Return the class of the messages with a key, None if they are not shown."""
-    match key.split("/"):
-        case ["radio", _, "tx"]:
-            return Transmission
-        case ["asr", _]:
-            return Transcript
-        case ["truth", "radio", *_]:
-            return SpokenTruth
-        case ["truth", "hearing", *_]:
-            return HearingTruth
-        case ["tts", *_]:
-            return AdvisoryAudio
-        case _:
-            return None
 
 
 def _call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:

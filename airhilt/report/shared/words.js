@@ -8,7 +8,8 @@ function fixed(value, digits) {
   const text = value.toFixed(digits);
   return minus(Number(text) === 0 ? text.replace("-", "") : text);
 }
-const whole = (value) => minus((Math.round(value) + 0).toLocaleString("en-US")); // + 0: no negative zero
+const WHOLE = new Intl.NumberFormat("en-US");
+const whole = (value) => minus(WHOLE.format(Math.round(value) + 0)); // + 0: no negative zero
 const seconds = (value, digits = 1) => `${fixed(value, digits)} s`;
 const feet = (value) => `${whole(value)} ft`;
 const miles = (value) => `${fixed(value, 2)} NM`;

@@ -7,12 +7,20 @@ carries it, `Listeners` understand it, `Compliance` lets actors do what they und
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 
 from airhilt.commands import Command
 from airhilt.deferred import Payload
-from airhilt.messages import Advisory, Message
+from airhilt.messages import (
+    FROM_MICROPHONE,
+    Advisory,
+    Message,
+    MicrophoneAudio,
+    SeatInfo,
+    SpokenWords,
+    Transcript,
+)
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
 from airhilt.scenario.roster import callsigns_of, roster_of
@@ -23,19 +31,25 @@ from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.frequency_arbiter import GAP_S
-from airhilt.sensors.radio.hearing import HearingModel
+from airhilt.sensors.radio.hearing import HearingModel, key_chunk
 from airhilt.sensors.radio.listeners import Listeners
-from airhilt.sensors.radio.on_air import Utterance
+from airhilt.sensors.radio.microphones import LONGEST_CALL_S, Microphones
+from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.radio_call import RadioCall, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
+from airhilt.sensors.radio.seats import Seats
+from airhilt.sensors.radio.spoken_calls import SpokenCalls
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.stuck_microphones import StuckMicrophones
 from airhilt.sensors.radio.transmissions import EndedTransmission, Transmissions
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Understanding
+
+FromSeat = SpokenWords | MicrophoneAudio
+"""What the person at a seat says."""
 
 
 class RadioConversation:
@@ -61,6 +75,8 @@ class RadioConversation:
         Channel of the advisories to crews and drivers; None if they are heard in the cockpit.
     hearing
         Draws what people hear; None takes the model of `hearing` with the seed of the run.
+    seats
+        Units and actors whose calls a person makes: nobody else speaks or acts for them.
     """
 
     def __init__(
@@ -82,11 +98,13 @@ class RadioConversation:
         microphones_free: Callable[[], None],
         advisory_channel: AdvisoryChannel | None = None,
         hearing: HearingModel | None = None,
+        seats: Collection[str] = (),
     ) -> None:
         radio = scenario.radio
         self._director = director
-        self._failures = scenario.failures
+        self._scenario = scenario
         self._stations = stations
+        self._backend = backend
         self._publish = publish
         self._line_begun = line_begun
         self._ended_lines = ended_lines
@@ -96,31 +114,40 @@ class RadioConversation:
         self._said: dict[str, RadioCall] = {}
         """Calls that were made, by the ids of their transmissions."""
         self._times_pressed = 0
+        self._is_paused = False
+        self._seats = Seats(seats, stations, self._calls, publish, lambda: director.now_ns)
+        self._microphones = Microphones(director, self.press, self._seats.notify)
         self._script = RadioScript(director, lines, once, failed, self._due)
-        self._transmissions = self._make_transmissions(scenario, backend)
-        self._stuck_microphones = StuckMicrophones(
-            director,
-            stations,
-            transmit_carrier=self._transmissions.transmit_carrier,
-            stuck=microphone_stuck,
-            all_free=microphones_free,
-        )
+        self._transmissions = self._make_transmissions(scenario)
+        self._stuck_microphones = self._make_stuck_microphones(microphone_stuck, microphones_free)
         self._listeners = self._make_listeners(radio, hearing or HearingModel(seed))
-        self._compliance = Compliance(director, once, do)
+        self._compliance = Compliance(director, once, self._unless_seat(do))
         self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
         self._confirmations = self._make_confirmations(radio)
         self._advisories = self._make_advisory_calls(scenario, advisory_channel)
+        self._spoken = SpokenCalls(self._seats, self._recognised)
 
-    def _make_transmissions(self, scenario: Scenario, backend: RadioBackend) -> Transmissions:
+    def _make_transmissions(self, scenario: Scenario) -> Transmissions:
         return Transmissions(
             self._director,
             scenario.radio,
             self._stations,
-            backend,
+            self._backend,
             self._publish,
             began=self._began,
             ended=self._ended,
             roster=roster_of(scenario),
+        )
+
+    def _make_stuck_microphones(
+        self, stuck: Callable[[str, str], None], all_free: Callable[[], None]
+    ) -> StuckMicrophones:
+        return StuckMicrophones(
+            self._director,
+            self._stations,
+            transmit_carrier=self._transmissions.transmit_carrier,
+            stuck=stuck,
+            all_free=all_free,
         )
 
     def _make_listeners(self, radio: Radio, hearing: HearingModel) -> Listeners:
@@ -164,7 +191,7 @@ class RadioConversation:
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._script.start()
-        self._stuck_microphones.schedule(self._failures)
+        self._stuck_microphones.schedule(self._scenario.failures)
 
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Give a transcript to the crews that wait for it, and advisories to who is to confirm.
@@ -173,6 +200,8 @@ class RadioConversation:
         """
         if self._advisories is not None:
             self._advisories.take(message, data)
+        if isinstance(message, Transcript):
+            self._spoken.take(message)
         if isinstance(message, Advisory):
             self._confirmations.take(message)
         else:
@@ -181,8 +210,70 @@ class RadioConversation:
     def press(self, speaker: str, frequency_khz: int) -> OpenMicrophone:
         """Let a person speak: transmit what is fed to the microphone until it is released."""
         self._times_pressed += 1
-        name = f"microphone.{speaker}.{self._times_pressed}"
-        return self._transmissions.press(Utterance(name, frequency_khz, speaker, None, ""))
+        name = f"{FROM_MICROPHONE}{key_chunk(speaker)}.{self._times_pressed}"
+        utterance = Utterance(name, frequency_khz, speaker, None, "", is_from_microphone=True)
+        return self._transmissions.press(utterance)
+
+    def take_from_seat(self, seat: str, message: FromSeat) -> None:
+        """Take what the person at a seat says, typed or spoken.
+
+        Parameters
+        ----------
+        seat
+            Name of the seat as a part of keys.
+        """
+        if isinstance(message, SpokenWords):
+            self._say(self._seats.call(seat, message))
+            return
+        speaker = self._seats.speaker(seat)
+        if message.phase == "pressed" and self._is_paused:
+            self._seats.notify(speaker, "The run is paused. Nobody hears you.")
+        elif message.phase == "pressed" and not self._backend.has_sound:
+            self._seats.notify(speaker, "This run has no sound. Type what you want to say.")
+        elif message.phase == "pressed" and not self._stations.is_there(speaker):
+            self._seats.notify(speaker, f"{speaker} is not there any more.")
+        else:
+            frequency_khz = self._seats.frequency_khz(speaker, message.frequency_khz)
+            self._microphones.take(speaker, frequency_khz, message)
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Take in that a person has taken a seat or left it; its script goes on without one.
+
+        Parameters
+        ----------
+        seat
+            Name of the seat as a part of keys.
+        """
+        speaker = self._seats.speaker(seat)
+        if not is_taken:
+            self._microphones.release(speaker)
+        for call in self._seats.occupy(speaker, is_taken=is_taken):
+            self._say(call)
+
+    def has_person(self, name: str) -> bool:
+        """Return whether a person speaks and acts for a unit or an actor, and nobody else."""
+        return self._seats.has_person(name)
+
+    def pause(self, is_paused: bool) -> None:
+        """Take in that the time stands still, or passes again; nobody is on the air in a pause."""
+        self._is_paused = is_paused
+        if is_paused:
+            for seat in self._seats.names:
+                self._microphones.release(seat)
+
+    def infos(self, *, is_recognised: bool, voice_is_recorded: bool) -> list[SeatInfo]:
+        """Return what the persons at the seats have to know."""
+        return [
+            SeatInfo(
+                seat=seat,
+                frequencies_khz=self._stations.frequencies_of(seat),
+                has_sound=self._backend.has_sound,
+                is_recognised=is_recognised,
+                voice_is_recorded=voice_is_recorded,
+                longest_call_s=LONGEST_CALL_S,
+            )
+            for seat in sorted(self._seats.names)
+        ]
 
     def close(self) -> None:
         """Publish what is on the air as far as it has come; nobody acts upon it."""
@@ -200,7 +291,19 @@ class RadioConversation:
                 due = partial(self._after_gap, partial(self._due, line))
                 needed.once_taken_by(call.speaker, due)
                 return
-        self._say(call)
+        if self._seats.has_person(call.speaker):
+            self._seats.tell(call)
+        else:
+            self._say(call)
+
+    def _unless_seat(self, do: Callable[[str, Command], None]) -> Callable[[str, Command], None]:
+        """Return what lets an actor carry out a command, unless a person does that."""
+
+        def carry_out(actor: str, command: Command) -> None:
+            if not self._seats.has_person(actor):
+                do(actor, command)
+
+        return carry_out
 
     def _after_gap(self, action: Callable[[], None]) -> None:
         due_ns = self._director.now_ns + seconds_to_ns(GAP_S)
@@ -208,6 +311,8 @@ class RadioConversation:
 
     def _say(self, call: RadioCall) -> None:
         if not self._stations.is_there(call.speaker):
+            return
+        if self._seats.has_person(call.speaker) and not call.is_of_person:
             return
         again = call.times_said
         call.times_said += 1
@@ -245,11 +350,21 @@ class RadioConversation:
             self._publish(f"asr/{said.frequency_khz}", ended.transcript)
         if self._advisories is not None:
             self._advisories.ended(ended.on_air)
+        if said.is_from_microphone:
+            self._spoken.ended(ended)
         if call is None:
             return
         if call.is_first_time:
             self._compliance.carry_out(call, call.speaker)
         self._listeners.let_hear(call, ended.on_air)
+
+    def _recognised(self, call: RadioCall, said: Utterance, on_air: OnAir, is_clear: bool) -> None:
+        """Let a call that a person spoke be understood, as it was recognised."""
+        call.times_said += 1
+        self._said[said.id] = call
+        self._line_begun(call.id)
+        self._ended_lines.add(call.id)
+        self._listeners.let_understand(call, said, on_air, is_clear=is_clear)
 
     def _understood(
         self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding

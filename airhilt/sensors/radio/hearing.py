@@ -94,6 +94,11 @@ def _misheard(text: str, draw: float) -> str | None:
     return text[: word.start()] + CONFUSED_WITH[word[0].lower()] + text[word.end() :]
 
 
+def key_chunk(name: str) -> str:
+    """Return the name of a unit or an actor as a part of keys."""
+    return re.sub("[^A-Za-z0-9]+", "_", name)
+
+
 def hearing_key(listener: str) -> str:
     """Return the key of what a listener has heard."""
-    return f"truth/hearing/{re.sub('[^A-Za-z0-9]+', '_', listener)}"
+    return f"truth/hearing/{key_chunk(listener)}"

@@ -172,6 +172,18 @@ class Listeners:
             self._publish_truth(said, listener, understanding, text, source="transcript")
             self._overheard(call, said, listener, understanding)
 
+    # --- spoken by a person -----------------------------------------------------------------
+
+    def let_understand(
+        self, call: RadioCall, said: Utterance, on_air: OnAir, *, is_clear: bool
+    ) -> None:
+        """Let the recipients of a call that a person spoke take it as it was recognised."""
+        for listener in call.recipients():
+            is_heard = listener not in call.deaf and self._reaches(on_air, listener)
+            understanding = (AS_SAID if is_clear else UNCLEAR) if is_heard else NOTHING
+            text = said.text if is_heard else ""
+            self._understand(call, said, listener, understanding, text, source="transcript")
+
     # --- what it means ----------------------------------------------------------------------
 
     def _interpret(

@@ -27,6 +27,8 @@ class Utterance:
     """False: it is said even if the frequency is busy."""
     speech: Audio | None = field(default=None, compare=False)
     """Its sound, if another voice than the speaker's own has said it already."""
+    is_from_microphone: bool = False
+    """True if a person speaks it, so that its words are not known."""
 
 
 @dataclass(slots=True, eq=False)

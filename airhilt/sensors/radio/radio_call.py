@@ -21,6 +21,8 @@ class RadioCall:
     text: str
     commands: tuple[ScriptedCommand, ...] = ()
     in_reply_to: RadioCall | None = None
+    is_of_person: bool = False
+    """True if a person says it, in words of its own."""
     is_repeated: bool = True
     """True if it is made again if it goes unanswered."""
     scripted: EffectiveLine | None = None

@@ -93,7 +93,7 @@ class ReadbackPolicy:
     ) -> None:
         """Go on with what follows from a call once a recipient has taken it."""
         call.take(listener)
-        if self._radio.readbacks == "generated":
+        if self._radio.readbacks == "generated" or call.is_of_person:
             self._read_back(call, said, listener, understanding)
         if listener != call.addressed:
             return
@@ -156,7 +156,7 @@ class ReadbackPolicy:
         """Let an addressee who is not sure of a call ask for it again."""
         if call.asks_for is not None:
             self._repeat(call.asks_for, REPEAT_AFTER_S)
-        if not self._may_repeat(call):
+        if not (call.is_of_person or self._may_repeat(call)):
             return
         question = RadioCall(
             f"{call.id}.say-again-{call.times_said}",
@@ -166,7 +166,7 @@ class ReadbackPolicy:
             self._answers.say_again(self._callsign(listener), self._callsign(call.speaker)),
             in_reply_to=call,
             is_repeated=False,
-            asks_for=call,
+            asks_for=None if call.is_of_person else call,
         )
         self._answer(question)
 
@@ -182,6 +182,9 @@ class ReadbackPolicy:
         self._repeat(call, REPEAT_AFTER_S)
 
     def _may_repeat(self, call: RadioCall) -> bool:
+        """Return whether a call may be made again; a person does that without being made to."""
+        if call.is_of_person:
+            return False
         is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
         return is_wanted and call.asks_for is None and call.times_said <= MOST_REPEATS
 

@@ -127,5 +127,6 @@ class Transmissions:
             in_reply_to=said.in_reply_to,
             blocked_by=tuple(other.utterance.id for other in mixed_with),
             snr_db=self._receptions.of(said).snr_db,
+            is_from_microphone=said.is_from_microphone,
         )
         self._publish(f"truth/radio/{said.id}", truth)

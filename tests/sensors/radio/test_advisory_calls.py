@@ -24,6 +24,13 @@ def advisory(
     )  # fmt: skip
 
 
+def audio(revision: int = 0) -> AdvisoryAudio:
+    return AdvisoryAudio(
+        id="a", revision=revision, recipient="AAL123", text="spoken", t_dec_ns=0, engine="x",
+        samples=2, sha256="",
+    )  # fmt: skip
+
+
 class Frequency:
     """Advisory calls on one frequency, each of which takes a second once it is let on the air."""
 
@@ -101,12 +108,16 @@ def test_a_voice_is_transmitted_as_it_was_spoken() -> None:
     frequency = Frequency(is_voiced=True)
     frequency.calls.take(advisory("a"), b"")
     assert frequency.said == []
-    audio = AdvisoryAudio(
-        id="a", revision=0, recipient="AAL123", text="spoken", t_dec_ns=0, engine="x", samples=2,
-        sha256="",
-    )  # fmt: skip
-    frequency.calls.take(audio, b"\x00\x40\x00\x40")
+    frequency.calls.take(audio(), b"\x00\x40\x00\x40")
     (said,) = frequency.said
     assert said.text == "spoken"
     assert said.speech is not None
     assert len(said.speech) == 2
+
+
+def test_the_voice_of_an_older_revision_is_not_transmitted() -> None:
+    frequency = Frequency(is_voiced=True)
+    frequency.calls.take(advisory("a"), b"")
+    frequency.calls.take(advisory("a", revision=1), b"")
+    frequency.calls.take(audio(), b"\x00\x40\x00\x40")
+    assert frequency.said == []

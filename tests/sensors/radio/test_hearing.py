@@ -8,6 +8,7 @@ import pytest
 
 from airhilt.sensors.radio.hearing import (
     CONFUSED_WITH,
+    MISHEARD_SHARE,
     UNDERSTOOD_HALF_DB,
     HearingModel,
     probability_noticed,
@@ -67,6 +68,12 @@ def test_what_is_misheard_differs_in_one_word_that_sounds_alike() -> None:
         ]
         assert len(pairs) == 1
         assert CONFUSED_WITH[pairs[0][0]] == pairs[0][1]
+
+
+def test_one_in_ten_of_the_calls_that_are_not_understood_is_taken_for_something_else() -> None:
+    counts = outcomes(-2.0)
+    noticed = counts["misheard"] + counts["unsure"]
+    assert counts["misheard"] / noticed == pytest.approx(MISHEARD_SHARE, abs=0.03)
 
 
 def test_each_call_and_listener_is_drawn_by_itself_and_again_the_same() -> None:

@@ -96,7 +96,10 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
         return "; ".join([f"{user}{statement}{when}", *actions])
     recommended = alert.recommendations.get(recipient)
     action = "" if recommended is None else f" {_action(recommended)},"
-    return f"{recipient}{action} {statement.removeprefix(f'{recipient} ')}{when}"
+    told = statement.removeprefix(f"{recipient} ")
+    if told.startswith("is "):
+        told = told.replace("is ", "you are ", 1)
+    return f"{recipient}{action} {told}{when}"
 
 
 def _action(recommendation: Recommendation) -> str:

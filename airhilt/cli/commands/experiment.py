@@ -1,0 +1,77 @@
+"""The command that conducts an experiment with people."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from airhilt.cli.notices import tell
+from airhilt.cli.station_flags import port_option, station_address
+
+if TYPE_CHECKING:
+    from airhilt.station.experiment import Progress
+    from airhilt.station.plan import Trial
+
+
+@click.command(
+    epilog="""\b
+Examples:
+  airhilt experiment plan.json
+  airhilt experiment plan.json --participant P01
+  airhilt schema --experiment > plan.schema.json
+"""
+)
+@click.argument("plan_file", metavar="PLAN", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--participant", metavar="ID", help="Open the page that leads this one through.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Folder of the experiment; what it has already is not run again.  [default: the name of "
+    "PLAN under experiments/]",
+)
+@port_option
+@click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser.")
+def experiment(
+    plan_file: Path, participant: str | None, out: Path | None, port: int, no_browser: bool
+) -> None:
+    """Lead participants through trials at a seat, in an order that is counterbalanced.
+
+    Without --participant, the order of each is printed with what is done, and the table is written
+    (experiment.csv and experiment.parquet).
+    """
+    from airhilt.configuration import read_configuration
+    from airhilt.station.plan import plan_of
+
+    plan = plan_of(read_configuration(plan_file), str(plan_file))
+    plan.check()
+    folder = (out or Path("experiments") / plan_file.stem).resolve()
+
+    from airhilt.station.experiment import Conductor, Progress, write_tables
+
+    if participant is not None:
+        address = station_address("127.0.0.1", port, None, None, None)
+
+        from airhilt.station.experiment_app import experiment_app
+        from airhilt.station.server import serve
+
+        app = experiment_app(Conductor(Progress(plan, folder, participant)))
+        serve(app, address, opened=_opened, notice=tell, browser=not no_browser)
+    for name in plan.participants if participant is None else (participant,):
+        progress = Progress(plan, folder, name)
+        click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))
+    rows = write_tables(plan, folder)
+    click.echo(f"{rows} finished trials: {folder / 'experiment.csv'}, experiment.parquet")
+
+
+def _shown(progress: Progress, trial: Trial) -> str:
+    return f"{trial.name} (done)" if progress.is_done(trial) else trial.name
+
+
+def _opened(url: str) -> None:
+    click.echo(f"{url}   (end with Ctrl+C)")
+
+
+COMMAND = experiment

@@ -1,0 +1,137 @@
+"""The command that shows a run in the browser."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from airhilt.cli.notices import tell
+from airhilt.cli.station_flags import station_address, station_options
+
+if TYPE_CHECKING:
+    from airhilt.station.address import Address
+
+WAITING = "waiting for the run at"
+"""Beginning of the line that says that the run may begin: nothing of it will be missed."""
+MOST_CHANGES_OF_SEAT = 2_000
+"""Number of task cards and instruments of a seat that are kept."""
+MOST_SOUNDS = 100
+"""Number of pieces of sound that wait for browsers: 50 s of one frequency."""
+LINGER_S = 10.0
+"""Time for which the page of a run that is over waits for a browser."""
+
+
+@click.command(
+    epilog="""\b
+Examples:
+  airhilt view runs/s02a_headon-0-20260101T120000
+  airhilt view RUN --port 9000 --no-browser
+  airhilt view RUN OTHER
+  airhilt view --connect tcp/127.0.0.1:7447
+"""
+)
+@click.argument("run_folder", metavar="[RUN]", required=False, type=click.Path(path_type=Path))
+@click.argument("other", metavar="[OTHER]", required=False, type=click.Path(path_type=Path))
+@click.option("--connect", metavar="ENDPOINT", help="Show a run that goes on at this endpoint.")
+@click.option(
+    "--tls",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder with observer.json of `airhilt keys init`, for a run that goes on.",
+)
+@click.option(
+    "--seat",
+    "seats",
+    multiple=True,
+    metavar="NAME",
+    help="A seat of the run that a browser may take; may be given again. The truth is not shown "
+    "then.",
+)
+@station_options
+def view(
+    run_folder: Path | None,
+    other: Path | None,
+    connect: str | None,
+    tls: Path | None,
+    seats: tuple[str, ...],
+    no_browser: bool,
+    **given: Any,
+) -> None:
+    """Show a run in the browser: traffic, radio, advisories and cameras on one clock.
+
+    A run folder is shown until the command is interrupted, and is not changed. Two are shown side
+    by side, on one clock. A run that goes on
+    is shown as it happens, until it is over and no browser shows it any more.
+    """
+    is_live = connect is not None or tls is not None
+    if (run_folder is None) != is_live:
+        raise click.UsageError("expected a run folder, or --connect ENDPOINT")
+    if seats and not is_live:
+        raise click.UsageError("--seat would do nothing for a run folder")
+    address = station_address(**given)
+    if run_folder is not None:
+        _show_recorded([run_folder, *([] if other is None else [other])], address, not no_browser)
+    else:
+        _show_live(connect, tls, seats, address, not no_browser)
+
+
+def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:
+    from airhilt.record import open_run
+    from airhilt.station.app import debrief_app, two_debriefs_app
+    from airhilt.station.debrief import Debrief
+    from airhilt.station.server import serve
+
+    with ExitStack() as stack:
+        debriefs = []
+        for folder in run_folders:
+            debriefs.append(Debrief(open_run(folder, tell)))
+            stack.callback(debriefs[-1].close)
+        app = debrief_app(debriefs[0]) if len(debriefs) == 1 else two_debriefs_app(debriefs)
+        serve(app, address, opened=_opened, notice=tell, browser=browser)
+
+
+def _show_live(
+    connect: str | None,
+    tls: Path | None,
+    seats: tuple[str, ...],
+    address: Address,
+    browser: bool,
+) -> None:
+    from airhilt.station.app import live_app
+    from airhilt.station.browsers import Browsers
+    from airhilt.station.changes import Changes
+    from airhilt.station.live import LiveRun
+    from airhilt.station.server import serve
+    from airhilt.station.subscription import Subscription
+
+    changes = Changes()
+    of_seats = {seat: Changes(MOST_CHANGES_OF_SEAT) for seat in seats}
+    sounds = Changes(MOST_SOUNDS)
+    run = LiveRun(changes, of_seats, tell)
+    click.echo(f"{WAITING} {connect or tls}")
+    subscription = Subscription(
+        connect, run.take, run.lost, tls=tls, seats=seats, sounds=sounds if seats else None
+    )
+    browsers = Browsers(changes, subscription, of_seats, sounds)
+    try:
+        serve(
+            live_app(subscription, browsers),
+            address,
+            opened=_opened,
+            notice=tell,
+            browser=browser,
+            is_over=lambda: run.is_over and browsers.has_been_empty(LINGER_S),
+        )
+    finally:
+        subscription.close()
+
+
+def _opened(url: str) -> None:
+    click.echo(f"{url}   (end with Ctrl+C)")
+
+
+COMMAND = view

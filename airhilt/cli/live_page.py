@@ -1,0 +1,64 @@
+"""The page of a run that goes on, served by a process of its own: the run goes on without it."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+import click
+
+from airhilt.cli.notices import tell
+
+
+@contextmanager
+def live_page(
+    endpoint: str | None, tls: Path | None, seats: Iterable[str], port: int, browser: bool
+) -> Iterator[None]:
+    """Serve the page of the run at an endpoint while it goes on, and until no browser shows it.
+
+    Parameters
+    ----------
+    endpoint
+        Endpoint of the run; None: the one of its keys.
+    tls
+        Folder with the keys of the run; None: it asks for none.
+    seats
+        Seats that browsers may take.
+    port
+        Port of the page.
+    browser
+        True opens the page.
+    """
+    command = [sys.executable, "-m", "airhilt", "view", "--port", str(port)]
+    command += [] if endpoint is None else ["--connect", endpoint]
+    command += [] if tls is None else ["--tls", str(tls)]
+    for seat in seats:
+        command += ["--seat", seat]
+    command += [] if browser else ["--no-browser"]
+    # A session of its own: Ctrl+C is for the run, which ends, and then the page does.
+    page = subprocess.Popen(  # noqa: S603 - our own command
+        command, stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
+    assert page.stdout is not None
+    page.stdout.readline()  # It waits for the run now, and will miss nothing of it.
+    threading.Thread(target=_forward, args=(page.stdout,), daemon=True).start()
+    try:
+        yield
+        if page.poll() is None:
+            tell("the page stays until it is closed in the browser, or Ctrl+C")
+            page.wait()
+    finally:
+        if page.poll() is None:
+            page.send_signal(signal.SIGINT)
+            page.wait()
+
+
+def _forward(lines: TextIO) -> None:
+    for line in lines:
+        click.echo(line, err=True, nl=False)

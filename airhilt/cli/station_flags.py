@@ -1,0 +1,70 @@
+"""The options of the commands that open a page in the browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from airhilt.errors import StationError
+from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
+
+F = TypeVar("F", bound=Callable[..., Any])
+FILE = click.Path(path_type=Path, dir_okay=False)
+NEEDED = ("fastapi", "uvicorn", "websockets")
+"""Packages of the extra ``station``."""
+
+port_option = click.option(
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=DEFAULT_PORT,
+    show_default=True,
+    help="Port of the page.",
+)
+"""Option that says where the page of a run is."""
+
+
+def station_options(command: F) -> F:
+    """Add the options that say where the page is, and who may open it."""
+    for option in reversed(
+        (
+            port_option,
+            click.option("--host", default=DEFAULT_HOST, show_default=True, help="Address to "
+                         "listen at. Any but loopback needs TLS and a token."),
+            click.option("--certificate", type=FILE, metavar="FILE", help="TLS certificate, PEM."),
+            click.option("--key", type=FILE, metavar="FILE", help="Key of the certificate, PEM."),
+            click.option("--token-file", type=FILE, metavar="FILE", help="File with the token that "
+                         "a browser must have; it is in the URL that is printed."),
+            click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser."),
+        )
+    ):  # fmt: skip
+        command = option(command)
+    return command
+
+
+def station_address(
+    host: str, port: int, certificate: Path | None, key: Path | None, token_file: Path | None
+) -> Address:
+    """Return the address that these options give.
+
+    Raises
+    ------
+    StationError
+        The extra is not installed, a file cannot be read, or the address is not safe.
+    """
+    missing = [name for name in NEEDED if find_spec(name) is None]
+    if missing:
+        raise StationError(
+            f"the page needs {', '.join(missing)}, not installed: pip install 'airhilt[station]'"
+        )
+    for path in (certificate, key):
+        if path is not None and not path.is_file():
+            raise StationError(f"{path}: no such file; expected a PEM file")
+    try:
+        token = "" if token_file is None else token_file.read_text("utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        raise StationError(f"{token_file}: cannot be read: {error}") from None
+    return Address(host, port, certificate, key, token)

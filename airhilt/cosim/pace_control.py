@@ -1,0 +1,44 @@
+"""Pause and slow motion, which people at seats ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from airhilt.cosim.events import EventPublisher
+from airhilt.sim import Director, Paused, RealTime, Virtual
+
+
+class PaceControl:
+    """Changes how fast the time of a run passes, and logs it.
+
+    A run in virtual time, such as a replay, logs the change and goes on as fast as before.
+
+    Parameters
+    ----------
+    pausing
+        Called with true when the time stands still from now on, with false when it passes.
+    changed
+        Called when the pace is another one.
+    """
+
+    def __init__(
+        self,
+        director: Director,
+        event: EventPublisher,
+        *,
+        pausing: Callable[[bool], None],
+        changed: Callable[[], None],
+    ) -> None:
+        self._director = director
+        self._event = event
+        self._pausing = pausing
+        self._changed = changed
+
+    def set(self, factor: float) -> None:
+        """Let the time pass at a part of real time; 0 lets it stand still."""
+        pace = Paused() if factor == 0.0 else RealTime(factor)
+        self._event("pace", "run", pace.name)
+        self._pausing(factor == 0.0)
+        if not isinstance(self._director.pace, Virtual):
+            self._director.change_pace(pace)
+        self._changed()

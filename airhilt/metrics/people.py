@@ -1,0 +1,158 @@
+"""What people at seats said and did, and how soon they acted upon advisories."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from statistics import median
+from typing import NamedTuple
+
+from airhilt.messages import (
+    ActorCommand,
+    Advisory,
+    AdvisoryAudio,
+    AdvisoryPerceived,
+    Message,
+    MicrophoneAudio,
+    SpokenTruth,
+    SpokenWords,
+)
+from airhilt.metrics.summary import PersonReaction, PersonSummary
+from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.units import SECOND_NS
+
+FOLLOWED_WITHIN_S = 30.0
+"""Time from perceiving an advisory in which the advised action counts as following it, in s: an
+assumption. TCAS asks crews for 5 s (ICAO Doc 8168, volume III), controllers take longer."""
+SAME_ACTION = {"maintain": "altitude", "turn": "track"}
+"""Action by which a person does what another one advises, where the two have other names."""
+Advised = tuple[str, int, str]
+"""Id, revision and recipient of an advisory."""
+
+
+class _Action(NamedTuple):
+    t_ns: int
+    what: str
+
+
+@dataclass
+class _Person:
+    """What is known of the person at one seat."""
+
+    actions: list[_Action] = field(default_factory=list)
+    delays_s: list[float] = field(default_factory=list)
+    seen_ns: dict[Advised, int] = field(default_factory=dict)
+    heard_ns: dict[Advised, int] = field(default_factory=dict)
+    asked_again: int = 0
+
+    def first_action(self, since_ns: int) -> _Action | None:
+        return next((one for one in self.actions if one.t_ns >= since_ns), None)
+
+    def count(self, what: str) -> int:
+        return sum(one.what == what for one in self.actions)
+
+
+class PeopleRecords:
+    """Follows the people at the seats of a run.
+
+    Parameters
+    ----------
+    seats
+        Units and callsigns that are left to people.
+    """
+
+    def __init__(self, seats: Collection[str]) -> None:
+        self._names = {key_chunk(seat): seat for seat in seats}
+        self._people = {seat: _Person() for seat in seats}
+        self._advisories: dict[Advised, Advisory] = {}
+        self._voices_ns: dict[Advised, int] = {}
+
+    def take(self, key: str, message: Message) -> None:
+        """Receive a published message."""
+        match message:
+            case Advisory():
+                name = message.id, message.revision, message.recipient
+                self._advisories[name] = message
+            case AdvisoryAudio():
+                name = message.id, message.revision, message.recipient
+                self._voices_ns[name] = message.t_ns
+            case SpokenTruth(addressed=seat, id=call) if seat in self._people:
+                self._people[seat].asked_again += ".say-again-" in call
+            case ActorCommand() | SpokenWords() | MicrophoneAudio() | AdvisoryPerceived():
+                seat = self._names.get(key.split("/")[1])
+                if seat is not None:
+                    self._take_of(self._people[seat], message)
+
+    @staticmethod
+    def _take_of(person: _Person, message: Message) -> None:
+        match message:
+            case ActorCommand(command=command, t_ns=t_ns):
+                person.actions.append(_Action(t_ns, command.action))
+            case SpokenWords(t_ns=t_ns):
+                person.actions.append(_Action(t_ns, "typed call"))
+            case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
+                person.actions.append(_Action(t_ns, "spoken call"))
+                person.delays_s.append(delay_s)
+            case AdvisoryPerceived(t_ns=t_ns):
+                times = person.heard_ns if message.way == "heard" else person.seen_ns
+                name = message.id, message.revision, message.recipient
+                times.setdefault(name, t_ns + round(message.after_s * SECOND_NS))
+
+    def summaries(self) -> list[PersonSummary]:
+        """Return what each person did, by seat."""
+        return [self._summary(seat, person) for seat, person in self._people.items()]
+
+    def _summary(self, seat: str, person: _Person) -> PersonSummary:
+        spoken, typed = person.count("spoken call"), person.count("typed call")
+        perceived = sorted({*person.seen_ns, *person.heard_ns} & self._advisories.keys())
+        reactions = [self._reaction(name, person) for name in perceived]
+        times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
+        return PersonSummary(
+            seat=seat,
+            spoken_calls=spoken,
+            typed_calls=typed,
+            commands=len(person.actions) - spoken - typed,
+            asked_to_say_again=person.asked_again,
+            press_to_transmit_s=median(person.delays_s) if person.delays_s else None,
+            reaction_time_s=median(times_s) if times_s else None,
+            reactions=reactions,
+        )
+
+    def _reaction(self, name: Advised, person: _Person) -> PersonReaction:
+        advisory = self._advisories[name]
+        seen_ns, heard_ns = person.seen_ns.get(name), person.heard_ns.get(name)
+        voice_ns = self._voices_ns.get(name)
+        since_ns = seen_ns if heard_ns is None else heard_ns
+        assert since_ns is not None  # It was perceived.
+        first = person.first_action(since_ns)
+        return PersonReaction(
+            advisory=advisory.id,
+            revision=advisory.revision,
+            severity=advisory.severity,
+            advised=None if advisory.recommendation is None else advisory.recommendation.action,
+            t_advisory_s=advisory.t_ns / SECOND_NS,
+            t_seen_s=_seconds(seen_ns),
+            t_heard_s=_seconds(heard_ns),
+            voice_to_loudspeaker_s=(
+                None if heard_ns is None or voice_ns is None else (heard_ns - voice_ns) / SECOND_NS
+            ),
+            first_action=None if first is None else first.what,
+            reaction_time_s=None if first is None else (first.t_ns - since_ns) / SECOND_NS,
+            followed=_is_followed(advisory, since_ns, person.actions),
+        )
+
+
+def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> bool | None:
+    """Return whether a person did in time what was advised; None if nothing was."""
+    if advisory.recommendation is None:
+        return None
+    advised = advisory.recommendation.action
+    wanted = {advised, SAME_ACTION.get(advised, advised)}
+    if advised == "confirm":
+        wanted = {"spoken call", "typed call"}
+    until_ns = since_ns + round(FOLLOWED_WITHIN_S * SECOND_NS)
+    return any(one.what in wanted and since_ns <= one.t_ns <= until_ns for one in actions)
+
+
+def _seconds(t_ns: int | None) -> float | None:
+    return None if t_ns is None else t_ns / SECOND_NS

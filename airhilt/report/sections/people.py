@@ -1,0 +1,36 @@
+"""The people at seats: what they said and did, and how soon they acted upon advisories."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from airhilt.report.sections import Content, Section
+from airhilt.text import readable
+
+if TYPE_CHECKING:
+    from airhilt.report.data import RunData
+
+Json = dict[str, Any]
+
+
+class People(Content):
+    """The people of the summary."""
+
+    def as_json(self, run: RunData) -> list[Json]:
+        """Return one object for each seat."""
+        people = () if run.summary is None else run.summary.people
+        return [_readable(person.model_dump(mode="json")) for person in people]
+
+
+def _readable(value: Any) -> Any:
+    match value:
+        case str():
+            return readable(value)
+        case dict():
+            return {name: _readable(inner) for name, inner in value.items()}
+        case list():
+            return [_readable(inner) for inner in value]
+    return value
+
+
+SECTION = Section("people", order=35, module=__file__, content=People)

@@ -1,0 +1,209 @@
+"""The seats of people: what the script has for them to say, and the calls that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+
+from airhilt.messages import SeatNotice, SpokenWords, TaskCard
+from airhilt.phraseology.call import Call
+from airhilt.scenario.models import ScriptedCommand
+from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
+from airhilt.world.actors.listening import Listener, commands_of
+
+
+class Seats:
+    """Makes calls of what people say.
+
+    A call of the script that is due at a seat is told to the person there. What the person says to
+    the same addressee with the same instructions takes its place, so that the rest of the script
+    goes on from it. It is due until its addressee has taken it. Everything else is a call of its
+    own.
+
+    Parameters
+    ----------
+    calls
+        Calls of the script, by id.
+
+    Attributes
+    ----------
+    names
+        Units and actors whose calls a person makes.
+    """
+
+    def __init__(
+        self,
+        names: Collection[str],
+        stations: Stations,
+        calls: Mapping[str, RadioCall],
+        publish: Publish,
+        now_ns: Callable[[], int],
+    ) -> None:
+        self.names = frozenset(names)
+        self._by_chunk = {key_chunk(name): name for name in names}
+        self._stations = stations
+        self._calls = calls
+        self._publish = publish
+        self._now_ns = now_ns
+        self._left: set[str] = set()
+        """Seats whose person has left them."""
+        self._due: list[RadioCall] = []
+        """Calls of the script that wait for their person."""
+        self._count = 0
+
+    def has_person(self, name: str) -> bool:
+        """Return whether a person speaks and acts for a unit or an actor, and nobody else.
+
+        A seat that nobody has taken yet waits for its person. One whose person has left is a part
+        of the script again.
+        """
+        return name in self.names and name not in self._left
+
+    def occupy(self, speaker: str, *, is_taken: bool) -> list[RadioCall]:
+        """Note that a person has taken a seat or left it; return the calls that the script makes.
+
+        These are the calls that wait for a person who has left.
+        """
+        if is_taken:
+            self._left.discard(speaker)
+            return []
+        self._left.add(speaker)
+        self.notify(speaker, f"Nobody is at the seat: the script of {speaker} goes on by itself.")
+        waiting = [call for call in self._due if call.speaker == speaker and not call.times_said]
+        for call in waiting:
+            self._finish(call)
+        return waiting
+
+    def tell(self, call: RadioCall) -> None:
+        """Tell a person that a call of the script is due."""
+        self._due.append(call)
+        if call.addressed is not None:
+            call.once_taken_by(call.addressed, partial(self._finish, call))
+        self._publish_card(call)
+
+    def _finish(self, call: RadioCall) -> None:
+        """Take away the card of a call."""
+        if call in self._due:
+            self._due.remove(call)
+            self._publish_card(call, is_done=True)
+
+    def _publish_card(self, call: RadioCall, *, is_done: bool = False) -> None:
+        card = TaskCard(
+            t_ns=self._now_ns(),
+            line=call.id,
+            seat=call.speaker,
+            addressed=call.addressed,
+            frequency_khz=call.frequency_khz,
+            text=call.said,
+            is_done=is_done,
+        )
+        self._publish(f"task/{key_chunk(call.speaker)}", card)
+
+    def notify(self, speaker: str, text: str) -> None:
+        """Tell the person at a seat something in words."""
+        notice = SeatNotice(t_ns=self._now_ns(), seat=speaker, text=text)
+        self._publish(f"notice/{key_chunk(speaker)}", notice)
+
+    def speaker(self, seat: str) -> str:
+        """Return the unit or callsign of a seat, which is named as a part of keys."""
+        return self._by_chunk[seat]
+
+    def frequency_khz(self, speaker: str, given_khz: int | None) -> int:
+        """Return the frequency on which a person speaks: the given one, or the seat's first."""
+        frequency_khz = given_khz or self._stations.frequency_of(speaker)
+        assert frequency_khz is not None  # There are no seats without lines.
+        return frequency_khz
+
+    def call(self, seat: str, words: SpokenWords) -> RadioCall:
+        """Return the call that the person at a seat makes with some words.
+
+        Parameters
+        ----------
+        seat
+            Name of the seat as a part of keys.
+        """
+        speaker = self.speaker(seat)
+        frequency_khz = self.frequency_khz(speaker, words.frequency_khz)
+        return self.make(speaker, frequency_khz, words.text)
+
+    def meant(
+        self, frequency_khz: int, text: str, confidences: tuple[float, ...] | None = None
+    ) -> Call:
+        """Return the meaning of some words on a frequency, with the callsigns that are on it."""
+        heard_by = Listener(self._stations.actors_on(frequency_khz))
+        return heard_by.parse(text, heard_by.callsigns, confidences)
+
+    def make(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
+        """Return the call that a person makes with some words."""
+        meant = self.meant(frequency_khz, text)
+        call = self._stands_for(speaker, meant, frequency_khz)
+        if call is None:
+            call = self._own(speaker, frequency_khz)
+            call.addressed = self._addressed(speaker, meant, frequency_khz)
+        elif call.addressed is None:
+            self._finish(call)
+        call.is_of_person = True
+        call.text = text
+        call.commands = self._commands(speaker, call.addressed, meant)
+        return call
+
+    def addresses(self, speaker: str, meant: Call) -> bool:
+        """Return whether it is known whom some words are for: a crew always calls its unit."""
+        return self._stations.is_actor(speaker) or meant.callsign is not None
+
+    def unclear(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
+        """Return a call of whose words nobody is sure, to whoever expects one.
+
+        The unit of a crew expects it, the addressee of an open task card, or the only actor on the
+        frequency. Without any of them, nobody answers.
+        """
+        call = self._own(speaker, frequency_khz)
+        call.text = text
+        call.addressed = self._addressed(speaker, Call(), frequency_khz)
+        others = [name for name in self._stations.actors_on(frequency_khz) if name != speaker]
+        expecting = [one.addressed for one in self._due if one.speaker == speaker]
+        if call.addressed is None and not self._stations.is_actor(speaker):
+            call.addressed = next(iter(expecting), others[0] if len(others) == 1 else None)
+        return call
+
+    def _own(self, speaker: str, frequency_khz: int) -> RadioCall:
+        """Return a call that is not in the script."""
+        self._count += 1
+        name = f"seat.{key_chunk(speaker)}.{self._count}"
+        call = RadioCall(name, frequency_khz, speaker, None, "", is_repeated=False)
+        call.is_of_person = True
+        return call
+
+    def _stands_for(self, speaker: str, meant: Call, frequency_khz: int) -> RadioCall | None:
+        """Return the call of the script that some words stand for, None if they are others."""
+        for call in self._due:
+            planned = self.meant(frequency_khz, call.said)
+            same = [one.action for one in planned.instructions] == [
+                one.action for one in meant.instructions
+            ]
+            of_crew = self._stations.is_actor(speaker)
+            if call.speaker == speaker and same and (of_crew or planned.callsign == meant.callsign):
+                return call
+        return None
+
+    def _addressed(self, speaker: str, meant: Call, frequency_khz: int) -> str | None:
+        """Return whom a call is for: the unit of a crew's frequency, or who a unit names."""
+        if not self._stations.is_actor(speaker):
+            return meant.callsign
+        on_frequency = self._stations.on(frequency_khz)
+        return next((name for name in on_frequency if not self._stations.is_actor(name)), None)
+
+    def _commands(
+        self, speaker: str, addressed: str | None, meant: Call
+    ) -> tuple[ScriptedCommand, ...]:
+        """Return what the addressee of a unit does because of the words."""
+        if addressed is None or self._stations.is_actor(speaker):
+            return ()
+        runway = self._stations.bound_runway(addressed)
+        return tuple(
+            ScriptedCommand(actor=addressed, command=command)
+            for command in commands_of(meant.instructions, runway)
+        )

@@ -1,0 +1,57 @@
+"""The calls that people speak: their words are known once a recogniser has found them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from airhilt.messages import Transcript
+from airhilt.phraseology import TAU_ASR
+from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.seats import Seats
+from airhilt.sensors.radio.transmissions import EndedTransmission
+
+Recognised = Callable[[RadioCall, Utterance, OnAir, bool], None]
+"""Called with a call, its words, its transmission, and true if its words are certain."""
+
+
+class SpokenCalls:
+    """Waits for the words of the calls that people speak.
+
+    Automata know of such a call what the recogniser under test gives. Below `TAU_ASR`, without
+    words, or without a callsign in the call of a unit, they are not sure of it.
+
+    Parameters
+    ----------
+    recognised
+        Called once the words of a call are known.
+    """
+
+    def __init__(self, seats: Seats, recognised: Recognised) -> None:
+        self._seats = seats
+        self._recognised = recognised
+        self._waiting: dict[str, OnAir] = {}
+        """Transmissions whose words are not known yet, by id."""
+
+    def ended(self, ended: EndedTransmission) -> None:
+        """Wait for the words of a transmission; nobody understands one that was blocked."""
+        if not ended.is_blocked:
+            self._waiting[ended.on_air.utterance.id] = ended.on_air
+
+    def take(self, transcript: Transcript) -> None:
+        """Receive the words of a transmission, the first time that they come."""
+        on_air = self._waiting.pop(transcript.id, None)
+        if on_air is None:
+            return
+        said = on_air.utterance
+        speaker, frequency_khz = said.speaker, said.frequency_khz
+        confidences = tuple(word.confidence for word in transcript.words) or None
+        meant = self._seats.meant(frequency_khz, transcript.text, confidences)
+        is_clear = meant.confidence >= TAU_ASR and self._seats.addresses(speaker, meant)
+        if is_clear:
+            call = self._seats.make(speaker, frequency_khz, transcript.text)
+        else:
+            call = self._seats.unclear(speaker, frequency_khz, transcript.text)
+        words = replace(said, text=transcript.text, addressed=call.addressed)
+        self._recognised(call, words, on_air, is_clear)

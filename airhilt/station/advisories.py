@@ -1,0 +1,104 @@
+"""The advisories of the assistant as the page shows them, with the evidence that they rest on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from airhilt.messages import Advisory, EquipmentAlert, Evidence
+from airhilt.record import Logged, RunFolder
+from airhilt.report.sections import Content
+from airhilt.text import readable
+from airhilt.units import SECOND_NS
+
+if TYPE_CHECKING:
+    from airhilt.report.data import RunData
+
+Json = dict[str, Any]
+KEYS = ("advisory/", "equipment/")
+"""Beginnings of the keys of advisories."""
+
+
+class AdvisoryRows:
+    """Rows of advisories, one for all recipients of a revision."""
+
+    def __init__(self) -> None:
+        self._rows: dict[tuple[str, str, int], Json] = {}
+
+    def add(self, logged: Logged) -> Json:
+        """Receive an advisory or an alert of equipment, and return its row as it is now.
+
+        Raises
+        ------
+        ValidationError
+            It is none.
+        """
+        source = ""
+        if logged.key.startswith("equipment/"):
+            alert = EquipmentAlert.model_validate_json(logged.data)
+            source, advisory = alert.equipment, alert.advisory
+        else:
+            advisory = Advisory.model_validate_json(logged.data)
+        key = source, advisory.id, advisory.revision
+        row = self._rows.setdefault(key, _row(source, advisory, logged.t_ns))
+        row["texts"].append(
+            {
+                "recipient": readable(advisory.recipient),
+                "message": readable(advisory.message),
+                "recommendation": None
+                if advisory.recommendation is None
+                else advisory.recommendation.model_dump(mode="json"),
+            }
+        )
+        return row
+
+    def as_json(self) -> list[Json]:
+        """Return the rows in the order of their times."""
+        return list(self._rows.values())
+
+
+class Advisories(Content):
+    """The advisories of a recorded run."""
+
+    def __init__(self, folder: RunFolder) -> None:
+        super().__init__(folder)
+        self._rows = AdvisoryRows()
+
+    def take(self, logged: Logged) -> None:
+        """Receive an advisory, or an alert of equipment."""
+        self._rows.add(logged)
+
+    def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
+        """Return the rows in the order of their times."""
+        return self._rows.as_json()
+
+
+def _row(source: str, advisory: Advisory, t_ns: int) -> Json:
+    return {
+        "t": round(t_ns / SECOND_NS, 3),
+        "equipment": readable(source),
+        "id": readable(advisory.id),
+        "revision": advisory.revision,
+        "severity": advisory.severity,
+        "active": advisory.active,
+        "kind": advisory.kind,
+        "traffic": [readable(name) for name in advisory.traffic],
+        "texts": [],
+        "evidence": evidence_as_json(advisory.evidence),
+    }
+
+
+def evidence_as_json(evidence: Evidence) -> Json:
+    """Return evidence with all texts readable."""
+    shown: Json = _readable(evidence.model_dump(mode="json"))
+    return shown
+
+
+def _readable(value: Any) -> Any:
+    match value:
+        case str():
+            return readable(value)
+        case dict():
+            return {readable(key): _readable(inner) for key, inner in value.items()}
+        case list():
+            return [_readable(inner) for inner in value]
+    return value

@@ -1,0 +1,141 @@
+"""The application of a station: what each address of the server answers.
+
+Importing this module brings in FastAPI, which the extra ``station`` installs.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+from fastapi import FastAPI, Query, Request, Response, WebSocket
+from fastapi.responses import FileResponse, JSONResponse
+
+from airhilt.audio.pcm import from_pcm
+from airhilt.audio.wav import encode_wav
+from airhilt.errors import AirhiltError
+from airhilt.station.browsers import Browsers
+from airhilt.station.debrief import Debrief
+from airhilt.station.page_files import media_type, page_files
+from airhilt.station.pictures import jpeg
+from airhilt.station.subscription import Subscription
+from airhilt.text import LONGEST_LINE, readable
+
+
+def debrief_app(debrief: Debrief) -> FastAPI:
+    """Return the application that shows a recorded run."""
+    app = page_app()
+    document = _json(debrief.document)
+
+    @app.get("/api/run")
+    def run() -> Response:
+        return Response(document, media_type="application/json")
+
+    @app.get("/api/cameras/{name}")
+    def camera(name: str) -> Response:
+        return Response(_json(debrief.camera(name)), media_type="application/json")
+
+    @app.get("/api/cameras/{name}/{seq}.jpg")
+    def picture(name: str, seq: int) -> Response:
+        return Response(debrief.picture(name, seq), media_type="image/jpeg")
+
+    @app.get("/api/sounds/{name}.wav")
+    def sound(name: str) -> FileResponse:
+        return FileResponse(debrief.sounds.wav(name), media_type="audio/wav")
+
+    return app
+
+
+def two_debriefs_app(debriefs: Sequence[Debrief]) -> FastAPI:
+    """Return the application that shows two recorded runs side by side, on one clock."""
+    app = page_app("together.html")
+    for number, debrief in enumerate(debriefs):
+        app.mount(f"/{number}", debrief_app(debrief))
+    return app
+
+
+def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
+    """Return the application that shows a run while it goes on."""
+    app = page_app()
+
+    @app.get("/api/run")
+    def run() -> Response:
+        own = {"run": subscription.run, "seats": browsers.seats}
+        return Response(_json(LIVE | own), media_type="application/json")
+
+    @app.get("/api/cameras/{name}/{seq}.jpg")
+    def picture(name: str, seq: int) -> Response:
+        found = subscription.picture(name, seq)
+        if found is None:  # It has gone already; nobody made a mistake.
+            return Response(status_code=204)
+        return Response(jpeg(found), media_type="image/jpeg")
+
+    @app.get("/api/calls/{name}.wav")
+    def sound(name: str) -> Response:
+        pcm = subscription.sound(name)
+        if pcm is None:
+            return Response(status_code=204)
+        return Response(encode_wav(from_pcm(pcm)), media_type="audio/wav")
+
+    @app.websocket("/api/live")
+    async def live(
+        socket: WebSocket,
+        begin: Annotated[int, Query(alias="from", ge=0)] = 0,
+        browser: Annotated[str, Query(max_length=64)] = "",
+    ) -> None:
+        await browsers.serve(socket, begin, browser)
+
+    return app
+
+
+def page_app(first: str = "index.html") -> FastAPI:
+    """Return an application that has the files of the pages alone.
+
+    Parameters
+    ----------
+    first
+        File with which it begins.
+    """
+    app = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
+    files = page_files()
+
+    @app.get("/")
+    def index() -> Response:
+        return Response(files[first], media_type=media_type(first))
+
+    @app.get("/page/{name}")
+    def file(name: str) -> Response:
+        if name not in files:
+            return Response(f"no file {readable(name)}\n", status_code=404, media_type="text/plain")
+        return Response(files[name], media_type=media_type(name))
+
+    @app.exception_handler(AirhiltError)
+    def failed(_: Request, error: AirhiltError) -> JSONResponse:
+        return JSONResponse({"error": readable(str(error), LONGEST_LINE)}, status_code=404)
+
+    return app
+
+
+LIVE = {
+    "live": True,
+    "scenario": {"name": "", "title": "", "description": ""},
+    "phase": "waiting",
+    "notes": [],
+    "end_s": 0.0,
+    "pair": None,
+    "airport": None,
+    "summary": None,
+    "tracks": [],
+    "events": [],
+    "calls": [],
+    "spoken": [],
+    "advisories": [],
+    "cameras": [],
+    "sounds": [],
+}
+"""Document with which the page of a run that goes on begins."""
+
+
+def _json(document: Any) -> bytes:
+    return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()

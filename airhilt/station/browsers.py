@@ -1,0 +1,285 @@
+"""The browsers that look at a run: each gets its changes, and says what it watches and does."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from base64 import b64encode
+from collections import deque
+from collections.abc import Mapping
+from contextlib import suppress
+from types import MappingProxyType
+from typing import Any
+
+from fastapi import WebSocket, WebSocketDisconnect
+from pydantic import ValidationError
+
+from airhilt.errors import first_problem
+from airhilt.messages import MicrophoneAudio
+from airhilt.station.changes import Changes
+from airhilt.station.held_button import HeldButton, what_is_wrong_with
+from airhilt.station.wishes import Pressed, RunLink, Wish
+from airhilt.text import readable
+
+PERIOD_S = 0.05
+"""Time between two messages to a browser, in s."""
+MOST_BROWSERS = 20
+"""Largest number of browsers at a time."""
+HOLD_S = 5.0
+"""Time for which the seat of a browser that is gone is kept for it, in s."""
+POLICY_VIOLATION, TRY_LATER = 1008, 1013
+"""Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
+LONGEST_REASON = 100
+"""Greatest length of a reason for closing, in characters; the protocol has 123 bytes."""
+
+
+class _Browser:
+    """One browser: what it watches, its seat, and what it has yet to be told."""
+
+    def __init__(self, socket: WebSocket, identity: str) -> None:
+        self.socket = socket
+        self.identity = identity
+        """Name that it keeps when its connection is lost; empty: it has none."""
+        self.watched: str | None = None
+        self.seat: str | None = None
+        self.seen_of_seat = 0
+        """Number of the first change of the seat that it has not seen."""
+        self.heard = 0
+        """Number of the first piece of sound that it has not got."""
+        self.button: HeldButton | None = None
+        """Its transmit button, while it is held."""
+        self.unsent: deque[str] = deque()
+
+    def tell(self, kind: str, what: Any) -> None:
+        self.unsent.append(json.dumps({kind: what}))
+
+
+class Browsers:
+    """Serves the browsers, gives them seats, and knows how many there are.
+
+    Parameters
+    ----------
+    changes
+        Changes of the run.
+    run
+        Gets what browsers do.
+    seats
+        Seats that browsers may take, one browser each, and the changes that only the person there
+        sees.
+    sounds
+        What is heard on the frequencies, piece by piece; None: nothing is heard.
+    """
+
+    def __init__(
+        self,
+        changes: Changes,
+        run: RunLink,
+        seats: Mapping[str, Changes] = MappingProxyType({}),
+        sounds: Changes | None = None,
+    ) -> None:
+        self.seats = tuple(seats)
+        self._changes = changes
+        self._of_seats = seats
+        self._sounds = sounds or Changes()
+        self._held: dict[str, str] = {}
+        """Seats whose browser is gone and may come back, and its identity."""
+        self._expiring: set[asyncio.Task[None]] = set()
+        self._run = run
+        self._browsers: list[_Browser] = []
+        self._empty_since_s: float | None = time.monotonic()
+
+    def has_been_empty(self, seconds: float) -> bool:
+        """Return true if there has been no browser for some time."""
+        since_s = self._empty_since_s
+        return since_s is not None and time.monotonic() - since_s >= seconds
+
+    async def serve(self, socket: WebSocket, begin: int = 0, identity: str = "") -> None:
+        """Send the changes to a browser, and do what it wishes, until it leaves.
+
+        Parameters
+        ----------
+        begin
+            Number of the first change that the browser has not seen.
+        identity
+            Name that it keeps: with it, it has its seat again after a short loss of connection.
+        """
+        await socket.accept()
+        if len(self._browsers) >= MOST_BROWSERS:
+            await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
+            return
+        browser = _Browser(socket, identity)
+        browser.heard = self._sounds.next_number
+        self._browsers.append(browser)
+        self._empty_since_s = None
+        for seat, whose in list(self._held.items()):
+            if identity and whose == identity:
+                del self._held[seat]
+                browser.seat = seat
+        self._tell_seats()
+        sending = asyncio.create_task(self._send(socket, browser, begin))
+        try:
+            await self._listen(socket, browser)
+        except WebSocketDisconnect:
+            pass
+        finally:
+            sending.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
+                await sending
+            await self._release(browser)
+            self._browsers.remove(browser)
+            self._hold(browser)
+            self._tell_seats()
+            await self._watch()
+            if not self._browsers:
+                self._empty_since_s = time.monotonic()
+
+    async def _listen(self, socket: WebSocket, browser: _Browser) -> None:
+        """Do what a browser wishes until it leaves, or sends what is no wish."""
+        while (received := await socket.receive())["type"] != "websocket.disconnect":
+            pcm: bytes | None = received.get("bytes")
+            wrong = None if pcm is None else what_is_wrong_with(pcm)
+            try:
+                if pcm is None:
+                    await self._do(browser, Wish.model_validate_json(received.get("text") or ""))
+                elif wrong is None:
+                    await self._hear(browser, pcm)
+            except ValidationError as error:
+                wrong = first_problem(error)
+            if wrong is not None:
+                await socket.close(POLICY_VIOLATION, readable(wrong, LONGEST_REASON))
+                return
+
+    async def _do(self, browser: _Browser, wish: Wish) -> None:
+        if "watch" in wish.model_fields_set:
+            browser.watched = wish.watch
+            await self._watch()
+        elif wish.echo is not None:
+            await browser.socket.send_text(json.dumps({"echo": wish.echo}))  # At once: it is timed.
+        elif wish.take is not None:
+            await self._leave(browser)
+            await self._take(browser, wish.take)
+        elif wish.leave is not None:
+            await self._leave(browser)
+            self._tell_seats()
+        elif browser.seat is None:
+            browser.tell("refused", "You have no seat. Take one first.")
+        else:
+            await self._do_at_seat(browser, browser.seat, wish)
+
+    async def _do_at_seat(self, browser: _Browser, seat: str, wish: Wish) -> None:
+        if wish.say is not None:
+            await asyncio.to_thread(self._run.say, seat, wish.say)
+        elif wish.fly is not None:
+            await asyncio.to_thread(self._run.fly, seat, wish.fly)
+        elif wish.perceived is not None:
+            await asyncio.to_thread(self._run.perceive, seat, wish.perceived)
+        elif wish.press is not None:
+            await self._press(browser, seat, wish.press)
+        elif wish.release is not None:
+            await self._release(browser)
+        elif wish.pace is not None:
+            await asyncio.to_thread(self._run.set_pace, wish.pace)
+
+    # --- the microphone ---------------------------------------------------------------------
+
+    async def _press(self, browser: _Browser, seat: str, pressed: Pressed) -> None:
+        browser.button = HeldButton()
+        audio = MicrophoneAudio(
+            phase="pressed", frequency_khz=pressed.frequency_khz, delay_s=pressed.delay_s
+        )
+        await asyncio.to_thread(self._run.speak, seat, audio)
+
+    async def _hear(self, browser: _Browser, pcm: bytes) -> None:
+        """Pass on the sound of a microphone; what comes after its release is left out."""
+        if browser.button is None or browser.seat is None:
+            return
+        if not browser.button.admits(pcm):
+            await self._release(browser)
+            browser.tell("refused", "Your call was cut: more sound came than anybody can speak.")
+            return
+        encoded = {"phase": "samples", "pcm": b64encode(pcm)}
+        audio = MicrophoneAudio.model_validate(encoded)
+        await asyncio.to_thread(self._run.speak, browser.seat, audio)
+
+    async def _release(self, browser: _Browser) -> None:
+        if browser.button is not None and browser.seat is not None:
+            browser.button = None
+            released = MicrophoneAudio(phase="released")
+            await asyncio.to_thread(self._run.speak, browser.seat, released)
+
+    # --- seats ------------------------------------------------------------------------------
+
+    async def _take(self, browser: _Browser, seat: str) -> None:
+        if seat not in self.seats:
+            browser.tell("refused", f"{readable(seat)} is no seat of this run.")
+        elif any(other.seat == seat for other in self._browsers if other is not browser):
+            browser.tell("refused", f"Somebody has the seat {readable(seat)} already.")
+        elif self._held.get(seat, browser.identity) != browser.identity:
+            browser.tell("refused", f"{readable(seat)} is kept for {HOLD_S:g} s for who had it.")
+        else:
+            self._held.pop(seat, None)
+            browser.seat, browser.seen_of_seat = seat, 0
+            self._tell_seats()
+            await asyncio.to_thread(self._run.occupy, seat, is_taken=True)
+
+    async def _leave(self, browser: _Browser) -> None:
+        """Give the seat of a browser back, if it has one."""
+        await self._release(browser)
+        seat, browser.seat = browser.seat, None
+        if seat is not None:
+            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+
+    def _hold(self, browser: _Browser) -> None:
+        """Keep the seat of a browser that is gone, in case that it comes back."""
+        if browser.seat is not None:
+            self._held[browser.seat] = browser.identity
+            expiring = asyncio.create_task(self._expire(browser.seat, browser.identity))
+            self._expiring.add(expiring)
+            expiring.add_done_callback(self._expiring.discard)
+
+    async def _expire(self, seat: str, identity: str) -> None:
+        """Give a seat back whose browser has not come back."""
+        await asyncio.sleep(HOLD_S)
+        if self._held.get(seat) == identity:
+            del self._held[seat]
+            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+
+    def _tell_seats(self) -> None:
+        """Tell each browser which seats are free, taken, or its own."""
+        taken = {*(one.seat for one in self._browsers), *self._held}
+        for browser in self._browsers:
+            browser.tell(
+                "seats",
+                {
+                    seat: "yours"
+                    if seat == browser.seat
+                    else ("taken" if seat in taken else "free")
+                    for seat in self.seats
+                },
+            )
+
+    async def _watch(self) -> None:
+        watched = {one.watched for one in self._browsers if one.watched is not None}
+        await asyncio.to_thread(self._run.watch, watched)
+
+    async def _send(self, socket: WebSocket, browser: _Browser, number: int) -> None:
+        while True:
+            while browser.unsent:
+                await socket.send_text(browser.unsent.popleft())
+            if browser.seat is not None:
+                own = self._of_seats[browser.seat].since(browser.seen_of_seat)
+                if own is not None:
+                    browser.seen_of_seat = own.next_number
+                    await socket.send_text(f'{{"own":{own.changes}}}')
+            sounds = self._sounds.since(browser.heard)
+            if sounds is not None:
+                browser.heard = sounds.next_number
+                await socket.send_text(f'{{"sounds":{sounds.changes}}}')
+            batch = self._changes.since(number)
+            if batch is None:
+                await asyncio.sleep(PERIOD_S)
+                continue
+            number = batch.next_number
+            await socket.send_text(f'{{"next":{number},"changes":{batch.changes}}}')
+            await asyncio.sleep(0)

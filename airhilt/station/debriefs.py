@@ -1,0 +1,111 @@
+"""Debriefs that a station has opened: each is a process of its own, which ends with the station."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import threading
+from collections import OrderedDict
+from pathlib import Path
+from typing import Any
+
+from airhilt.errors import StationError
+from airhilt.text import LONGEST_LINE, readable
+
+MOST_OPEN = 4
+"""Largest number of debriefs; the one that was opened first is closed for the next."""
+MOST_RUNS = 200
+"""Largest number of run folders that are listed: the newest."""
+
+
+class Debriefs:
+    """Lists the run folders in a folder, and opens debriefs of them."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
+        self._read: dict[tuple[Path, int], dict[str, Any]] = {}
+        self._lock = threading.Lock()
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return what a page shows of the runs, the newest first."""
+        found = []
+        for path in self._folder.glob("*/run.json"):
+            try:
+                found.append((path.stat().st_mtime_ns, path))
+            except OSError:
+                continue
+        newest = sorted(found, reverse=True)[:MOST_RUNS]
+        return [row for changed_ns, path in newest if (row := self._row(path, changed_ns))]
+
+    def _row(self, path: Path, changed_ns: int) -> dict[str, Any] | None:
+        key = path, changed_ns
+        if key not in self._read:
+            try:
+                info = json.loads(path.read_bytes())
+                self._read[key] = {
+                    "name": path.parent.name,
+                    "scenario": readable(str(info["scenario"]["name"])),
+                    "seed": int(info["options"]["seed"]),
+                    "assistant": readable(str(info["assistant"])),
+                    "phase": readable(str(info["phase"])),
+                    "started_at": readable(str(info["started_at"])),
+                    "seats": [readable(str(seat)) for seat in info["options"].get("seat", ())],
+                }
+            except (OSError, ValueError, LookupError, TypeError):
+                return None
+        return self._read[key]
+
+    def open(self, names: tuple[str, ...]) -> str:
+        """Return the address of the debrief of one run, or of two side by side.
+
+        Raises
+        ------
+        StationError
+            There is no such run here, or it cannot be shown.
+        """
+        known = {row["name"] for row in self.rows()}
+        for name in names:
+            if name not in known:
+                raise StationError(f"run {readable(name)!r}: not in {self._folder}")
+        with self._lock:
+            if names in self._open and self._open[names][0].poll() is None:
+                return self._open[names][1]
+            process, url = self._started(names)
+            self._open[names] = process, url
+            while len(self._open) > MOST_OPEN:
+                _end(self._open.popitem(last=False)[1][0])
+        return url
+
+    def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
+        folders = [str(self._folder / name) for name in names]
+        process = subprocess.Popen(  # noqa: S603 - our own command
+            [sys.executable, "-m", "airhilt", "view", "--port=0", "--no-browser", "--", *folders],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        assert process.stdout is not None
+        said = ""
+        for line in process.stdout:
+            if line.startswith("http://"):
+                threading.Thread(target=process.stdout.read, daemon=True).start()
+                return process, line.split()[0]
+            said = line.removeprefix("airhilt: ").strip() or said
+        process.wait()
+        raise StationError(f"the debrief ended: {readable(said, LONGEST_LINE)}")
+
+    def close(self) -> None:
+        """End all debriefs."""
+        with self._lock:
+            for process, _ in self._open.values():
+                _end(process)
+            self._open.clear()
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    process.terminate()
+    process.wait()

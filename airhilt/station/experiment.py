@@ -1,0 +1,230 @@
+"""An experiment with one participant at the page: trials, breaks, questionnaires, and the table.
+
+Each participant has a folder, with a run folder and the answers of each trial. What is finished is
+not run again; what was stopped is begun again in another folder, and stays.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+
+from airhilt.errors import StationError
+from airhilt.files import replace_file
+from airhilt.metrics.columns import metric_columns, metrics_of
+from airhilt.options import options_of
+from airhilt.scenario import loading
+from airhilt.station.plan import Plan, Trial
+from airhilt.station.questionnaires import NasaTlx
+from airhilt.station.started_runs import StartedRun, StartedRuns
+from airhilt.text import readable
+
+MOST_ATTEMPTS = 100
+"""Largest number of times that a trial is begun."""
+TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64()}
+
+
+class Progress:
+    """What a participant has done so far, as the folder says.
+
+    Parameters
+    ----------
+    folder
+        Folder of the experiment.
+    """
+
+    def __init__(self, plan: Plan, folder: Path, participant: str) -> None:
+        self.plan = plan
+        self.participant = participant
+        self.folder = folder / participant
+        self.trials = plan.order(participant)
+
+    def attempts(self, trial: Trial) -> Iterator[str]:
+        """Yield the names of the run folders of a trial that may be there, in their order."""
+        position = self.trials.index(trial) + 1
+        for number in range(1, MOST_ATTEMPTS):
+            yield f"{position:02d}-{trial.name}" + (f"-{number}" if number > 1 else "")
+
+    def finished_run(self, trial: Trial) -> str | None:
+        """Return the name of the run folder of a trial whose run has ended by itself."""
+        for name in self.attempts(trial):
+            folder = self.folder / name
+            if not folder.exists():
+                return None
+            try:
+                if json.loads((folder / "run.json").read_bytes())["phase"] == "finished":
+                    return name
+            except (OSError, ValueError, LookupError):
+                continue
+        return None
+
+    def new_run(self, trial: Trial) -> str:
+        """Return the name of a run folder that is not there yet.
+
+        Raises
+        ------
+        StationError
+            The trial was begun too often.
+        """
+        for name in self.attempts(trial):
+            if not (self.folder / name).exists():
+                return name
+        raise StationError(f"trial {trial.name}: begun {MOST_ATTEMPTS} times; look at its folders")
+
+    def answers(self, name: str) -> NasaTlx | None:
+        """Return what was answered after a run, None if nothing was yet."""
+        try:
+            return NasaTlx.model_validate_json(self._answers_path(name).read_bytes())
+        except (OSError, ValueError):
+            return None
+
+    def answer(self, name: str, answers: NasaTlx) -> None:
+        """Keep what was answered after a run."""
+        replace_file(self._answers_path(name), answers.model_dump_json(indent=2).encode())
+
+    def is_done(self, trial: Trial) -> bool:
+        """Return true if a trial has been run, and its questions answered."""
+        name = self.finished_run(trial)
+        return name is not None and (not self.plan.nasa_tlx or self.answers(name) is not None)
+
+    def _answers_path(self, name: str) -> Path:
+        return self.folder / f"{name}.nasa_tlx.json"
+
+
+class Conductor:
+    """Leads one participant through the trials."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._started = StartedRuns(progress.folder)
+        self._rested_since_s: float | None = None
+        self._lock = threading.Lock()
+
+    def state(self) -> dict[str, Any]:
+        """Return what the page shows: which trial it is, and what is to be done."""
+        with self._lock:
+            return self._state()
+
+    def begin(self) -> None:
+        """Start the run of the next trial.
+
+        Raises
+        ------
+        AirhiltError
+            It is not time for it, or it cannot be run.
+        """
+        with self._lock:
+            state, trial = self._state(), self._next()
+            if trial is None or state["step"] != "ready" or state["rest_s"] > 0:
+                raise StationError("it is not time for a trial")
+            plan = self._progress.plan
+            given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
+            name = self._progress.new_run(trial)
+            self._started.start(loading.find(trial.scenario), options_of(given), name)
+
+    def answer(self, answers: NasaTlx) -> None:
+        """Take the answers after a trial.
+
+        Raises
+        ------
+        StationError
+            Nothing was asked.
+        """
+        with self._lock:
+            trial = self._next()
+            name = None if trial is None else self._progress.finished_run(trial)
+            if name is None or self._progress.answers(name) is not None:
+                raise StationError("no question is open")
+            self._progress.answer(name, answers)
+            self._rested_since_s = time.monotonic()
+
+    def _state(self) -> dict[str, Any]:
+        trials, trial = self._progress.trials, self._next()
+        shown = {
+            "participant": self._progress.participant,
+            "seat": readable(self._progress.plan.seat),
+            "trials": len(trials),
+            "rest_s": 0.0,
+            "url": "",
+            "said": "",
+        }
+        if trial is None:
+            return shown | {"step": "done", "trial": len(trials)}
+        position = trials.index(trial)
+        shown["trial"] = position + 1
+        if self._progress.finished_run(trial) is not None:
+            return shown | {"step": "questions"}
+        run = self._last_run()
+        row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
+        if row is not None and row["state"] != "ended":
+            return shown | {"step": row["state"], "url": row["url"]}
+        if row is not None and row["name"] in self._progress.attempts(trial):
+            shown["said"] = f"The last run of this trial did not finish: {row['said']}"
+        return shown | {"step": "ready", "rest_s": self._rest_s(position)}
+
+    def _next(self) -> Trial | None:
+        return next((one for one in self._progress.trials if not self._progress.is_done(one)), None)
+
+    def _last_run(self) -> StartedRun | None:
+        return next(iter(self._started.runs()), None)
+
+    def _rest_s(self, position: int) -> float:
+        """Return how much of a break is left before a trial, in s."""
+        plan = self._progress.plan
+        if self._rested_since_s is None or not plan.break_after or position % plan.break_after:
+            return 0.0
+        return max(plan.break_minutes * 60.0 - (time.monotonic() - self._rested_since_s), 0.0)
+
+
+def write_tables(plan: Plan, folder: Path) -> int:
+    """Write ``experiment.csv`` and ``experiment.parquet``, a row a finished trial.
+
+    Returns
+    -------
+    The number of rows.
+    """
+    rows = [row for name in plan.participants for row in _rows(Progress(plan, folder, name))]
+    ratings = [*NasaTlx.model_fields, "raw_tlx"]
+    fields = [pa.field(name, pa.string()) for name in ("participant", "trial", "scenario")]
+    fields += [pa.field("position", pa.int64()), pa.field("run", pa.string())]
+    fields += [pa.field(f"condition.{name}", pa.string()) for name in plan.conditions]
+    fields += [pa.field(f"nasa_tlx.{name}", pa.float64()) for name in ratings]
+    fields += [pa.field(column.name, TYPES[column.type]) for column in metric_columns()]
+    table = pa.Table.from_pylist(rows, schema=pa.schema(fields))
+    folder.mkdir(parents=True, exist_ok=True)
+    pa.parquet.write_table(table, folder / "experiment.parquet")
+    pa.csv.write_csv(table, folder / "experiment.csv")
+    return len(rows)
+
+
+def _rows(progress: Progress) -> Iterator[dict[str, Any]]:
+    for position, trial in enumerate(progress.trials, 1):
+        name = progress.finished_run(trial)
+        if name is None:
+            continue
+        summary = json.loads((progress.folder / name / "summary.json").read_bytes())
+        answers = progress.answers(name)
+        rated: dict[str, Any] = {} if answers is None else answers.model_dump()
+        rated |= {} if answers is None else {"raw_tlx": answers.raw_tlx}
+        yield {
+            **metrics_of(summary),
+            "participant": progress.participant,
+            "trial": trial.name,
+            "scenario": trial.scenario,
+            "position": position,
+            "run": f"{progress.participant}/{name}",
+            **{f"condition.{key}": _text(value) for key, value in trial.conditions.items()},
+            **{f"nasa_tlx.{key}": float(value) for key, value in rated.items()},
+        }
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)

@@ -1,0 +1,136 @@
+"""Keeps strangers out: checks Host, Origin and token of each request, and restricts the page."""
+
+from __future__ import annotations
+
+import hmac
+from collections.abc import Callable
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from airhilt.station.address import Address
+from airhilt.text import readable
+
+COOKIE = "airhilt_token"
+POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self'",
+        "img-src 'self'",
+        "media-src 'self'",
+        "connect-src 'self'",
+        "frame-src 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'self'",
+    )
+)
+"""Content Security Policy: nothing from elsewhere, and no script or style in the markup."""
+HEADERS = {
+    "Content-Security-Policy": POLICY,
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "Cache-Control": "no-store",
+}
+MOST_NOTICES = 20
+"""Largest number of refusals that are told."""
+
+
+class Guard:
+    """Refuses requests of strangers before the application sees them.
+
+    Parameters
+    ----------
+    app
+        The application.
+    address
+        Where it listens, and the token that it asks for.
+    notice
+        Is told of refusals, the first `MOST_NOTICES`.
+    """
+
+    def __init__(self, app: ASGIApp, address: Address, notice: Callable[[str], None]) -> None:
+        self._app = app
+        self._address = address
+        self._notice = notice
+        self._refused = 0
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request, or let the application do it."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+
+        async def send_restricted(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                MutableHeaders(scope=message).update(HEADERS)
+            await send(message)
+
+        answer = self._answer(scope)
+        if answer is None:
+            await self._app(scope, receive, send_restricted)
+        elif scope["type"] == "http":
+            await answer(scope, receive, send_restricted)
+        else:
+            await send({"type": "websocket.close", "code": 1008, "reason": "refused"})
+
+    def _answer(self, scope: Scope) -> Response | None:
+        """Return what is answered in the application's place, None if the request may pass."""
+        headers = Headers(scope=scope)
+        host, origin = headers.get("host", ""), headers.get("origin")
+        name = _hostname(host)
+        if not self._address.knows(name):
+            return self._refuse(
+                f"host {name!r}: not a name of this station; open the address that it printed"
+            )
+        if origin is not None and origin != f"{self._address.scheme}://{host}":
+            return self._refuse(f"origin {origin!r}: a page of another site may not ask here")
+        token = self._address.token
+        if not token or _is_same(_cookie(headers), token):
+            return None
+        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
+        if not _is_same(query.get("token", [""])[0], token):
+            return self._refuse("no token, or a wrong one; open the address that was printed")
+        if scope["type"] == "websocket":
+            return None
+        answer = RedirectResponse("/", status_code=303)
+        answer.set_cookie(
+            COOKIE,
+            token,
+            secure=self._address.scheme == "https",
+            httponly=True,
+            samesite="strict",
+        )
+        return answer
+
+    def _refuse(self, reason: str) -> Response:
+        self._refused += 1
+        if self._refused <= MOST_NOTICES:
+            self._notice(f"refused a request: {readable(reason)}")
+        return PlainTextResponse(f"airhilt: refused: {readable(reason)}\n", status_code=403)
+
+
+def _hostname(host: str) -> str:
+    """Return the name in a ``Host`` header, empty if it is none."""
+    try:
+        return (urlsplit(f"//{host}").hostname or "").lower()
+    except ValueError:
+        return ""
+
+
+def _cookie(headers: Headers) -> str:
+    try:
+        found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return "" if found is None else found.value
+
+
+def _is_same(given: str, token: str) -> bool:
+    return hmac.compare_digest(given.encode(), token.encode())

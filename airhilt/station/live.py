@@ -1,0 +1,315 @@
+"""A run that goes on, as its page shows it: changes made of the messages on the bus."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from pydantic import ValidationError
+
+from airhilt.errors import AirhiltError
+from airhilt.messages import (
+    ActorTruth,
+    AdsbReport,
+    AdvisoryAudio,
+    Briefing,
+    CameraView,
+    Clock,
+    CockpitInstruments,
+    Detections,
+    SeatInfo,
+    SeatNotice,
+    SurfaceTrack,
+    TaskCard,
+)
+from airhilt.metrics.calls import CallRecords, call_message
+from airhilt.record import Logged
+from airhilt.report.airport import ReportAirport
+from airhilt.report.events import Events
+from airhilt.report.tracks import Locate, Projection
+from airhilt.station.advisories import AdvisoryRows
+from airhilt.station.calls import call_as_json, spoken_as_json
+from airhilt.station.cameras import found_as_json, view_as_json
+from airhilt.station.changes import Changes
+from airhilt.station.subscription import sound_name
+from airhilt.text import readable
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
+
+Json = dict[str, Any]
+Maker = Callable[[Logged], None]
+
+
+class LiveRun:
+    """Makes changes of the messages of a run; called on one thread.
+
+    The changes are ``[kind, ...]``: ``clock``, ``briefing``, ``state``, ``name`` (an actor has
+    another one from now on), ``call``, ``spoken``, ``advisory``, ``event``, ``camera`` and
+    ``picture``. Positions come from the truth where it is shared, else from ADS-B
+    and surface surveillance.
+
+    Parameters
+    ----------
+    changes
+        Gets the changes.
+    seats
+        Gets the changes that only the person at a seat sees: ``task``, ``cockpit``, ``info`` and
+        ``notice``.
+    notice
+        Is told of the first message of a kind that cannot be read.
+
+    Attributes
+    ----------
+    is_over
+        True once the run has ended.
+    """
+
+    def __init__(
+        self,
+        changes: Changes,
+        seats: Mapping[str, Changes] = MappingProxyType({}),
+        notice: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        self.is_over = False
+        self._notice = notice
+        self._unread: set[str] = set()
+        """Kinds of messages of which some could not be read."""
+        self._seats = seats
+        self._changes = changes
+        self._calls = CallRecords()
+        self._advisories = AdvisoryRows()
+        self._locate: Locate | None = None
+        self._types: dict[str, str] = {}
+        self._has_truth = False
+        self._callsigns: dict[str, str] = {}
+        """Callsigns by icao24, as far as ADS-B has told."""
+        self._cameras: set[str] = set()
+        self._makers: dict[str, Maker] = {
+            "clock": self._clock,
+            "briefing": self._briefing,
+            "adsb": self._adsb,
+            "surface": self._surface,
+            "advisory": self._advisory,
+            "equipment": self._advisory,
+            "tts": self._spoken,
+            "vision": self._vision,
+            "task": self._task,
+            "seat": self._seat_info,
+            "notice": self._notice_of_seat,
+            "cockpit": self._cockpit,
+        }
+
+    def take(self, logged: Logged) -> None:
+        """Receive a message; one that is not as this version writes it is left out, and told."""
+        family = logged.key.partition("/")[0]
+        try:
+            if logged.key.startswith("truth/state/"):
+                self._truth(logged)
+            elif (model := call_message(logged.key)) not in (None, AdvisoryAudio):
+                self._call(model.model_validate_json(logged.data))
+            elif family in self._makers:
+                self._makers[family](logged)
+            self._event(logged)
+        except (ValidationError, ValueError, LookupError, TypeError) as error:
+            if family not in self._unread:
+                self._unread.add(family)
+                why = readable(f"{type(error).__name__}: {error}".partition("\n")[0])
+                self._notice(f"{readable(logged.key)}: left out, for it cannot be read: {why}")
+
+    def lost(self) -> None:
+        """Tell that the run is not there any more."""
+        if not self.is_over:
+            self.is_over = True
+            self._changes.add("clock", None, "gone", "")
+
+    def _clock(self, logged: Logged) -> None:
+        clock = Clock.model_validate_json(logged.data)
+        self.is_over = clock.phase in ("finished", "stopped")
+        self._changes.add("clock", _seconds(clock.t_ns), clock.phase, readable(clock.pace))
+
+    def _briefing(self, logged: Logged) -> None:
+        briefing = Briefing.model_validate_json(logged.data)
+        self._types = {one.callsign: one.type for one in briefing.roster}
+        airport = None
+        if briefing.airport is not None:
+            try:
+                found = ReportAirport(briefing.airport.icao.lower())
+            except AirhiltError:
+                pass  # It is not one of this machine's: the traffic is drawn without it.
+            else:
+                airport, self._locate = found.as_json(), found.locate
+        categories = {readable(one.callsign): one.category for one in briefing.roster}
+        self._changes.add("briefing", readable(briefing.controller), airport, categories)
+
+    # --- positions --------------------------------------------------------------------------
+
+    def _truth(self, logged: Logged) -> None:
+        truth = ActorTruth.model_validate_json(logged.data)
+        self._has_truth = True
+        self._state(
+            truth.actor,
+            truth.category,
+            truth.t_ns,
+            (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
+            (truth.velocity_east_m_s, truth.velocity_north_m_s),
+            truth.heading_deg,
+            truth.on_ground,
+            truth.phase,
+        )
+
+    def _adsb(self, logged: Logged) -> None:
+        report = AdsbReport.model_validate_json(logged.data)
+        if report.callsign is not None and report.icao24 not in self._callsigns:
+            self._callsigns[report.icao24] = report.callsign
+            self._changes.add("name", report.icao24, readable(report.callsign))
+        category = (report.emitter_category or "A0")[0]
+        self._observed(
+            self._callsigns.get(report.icao24, report.icao24),
+            "vehicle" if category == "C" else "aircraft",
+            report,
+            report.t_adsb_in_ns,
+            report.on_ground,
+        )
+
+    def _surface(self, logged: Logged) -> None:
+        track = SurfaceTrack.model_validate_json(logged.data)
+        known = track.icao24 in self._callsigns or track.callsign in self._types
+        name = track.callsign or self._callsigns.get(track.icao24 or "") or f"track {track.track}"
+        category = "aircraft" if known else "vehicle"
+        self._observed(name, category, track, track.t_track_ns, track.on_ground is not False)
+
+    def _observed(
+        self, name: str, category: str, seen: AdsbReport | SurfaceTrack, t_ns: int, on_ground: bool
+    ) -> None:
+        """Add a state as a sensor has it, unless the truth is known."""
+        if self._has_truth:
+            return
+        track_rad = (seen.track_deg or 0.0) * DEGREE
+        speed_m_s = seen.ground_speed_kt * KNOT
+        self._state(
+            name,
+            category,
+            t_ns,
+            (seen.latitude_deg, seen.longitude_deg, (seen.altitude_ft or 0.0) * FOOT),
+            (speed_m_s * math.sin(track_rad), speed_m_s * math.cos(track_rad)),
+            seen.track_deg or 0.0,
+            on_ground,
+            "",
+        )
+
+    def _state(
+        self,
+        name: str,
+        category: str,
+        t_ns: int,
+        place: tuple[float, float, float],
+        velocity_m_s: tuple[float, float],
+        heading_deg: float,
+        on_ground: bool,
+        phase: str,
+    ) -> None:
+        latitude_rad, longitude_rad = place[0] * DEGREE, place[1] * DEGREE
+        if self._locate is None:
+            self._locate = Projection(latitude_rad, longitude_rad).locate
+        east_nm, north_nm = self._locate((latitude_rad, longitude_rad), place[2])
+        self._changes.add(
+            "state",
+            readable(name),
+            category,
+            readable(self._types.get(name, "")),
+            _seconds(t_ns),
+            round(east_nm * NAUTICAL_MILE, 1),
+            round(north_nm * NAUTICAL_MILE, 1),
+            round(place[2] / FOOT),
+            [round(part, 1) for part in velocity_m_s],
+            round(heading_deg, 1),
+            on_ground,
+            readable(phase),
+        )
+
+    # --- radio, advisories, events ----------------------------------------------------------
+
+    def _call(self, message: Any) -> None:
+        self._calls.take(message)
+        record = self._calls.get(message.id)
+        row = None if record is None else call_as_json(record)
+        if row is not None:
+            received = None if record is None else record.received
+            has_sound = received is not None and received.samples > 0
+            self._changes.add("call", row | {"has_sound": has_sound})
+
+    def _spoken(self, logged: Logged) -> None:
+        audio = AdvisoryAudio.model_validate_json(logged.data)
+        sound = sound_name(audio.model_dump()) if audio.samples else None
+        self._changes.add("spoken", spoken_as_json(audio) | {"sound": sound})
+
+    def _advisory(self, logged: Logged) -> None:
+        self._changes.add("advisory", self._advisories.add(logged))
+
+    def _event(self, logged: Logged) -> None:
+        events = Events()
+        events.take(logged)
+        for row in events.rows:
+            self._changes.add("event", row)
+
+    def _task(self, logged: Logged) -> None:
+        card = TaskCard.model_validate_json(logged.data)
+        self._seats[card.seat].add(
+            "task",
+            {
+                "line": readable(card.line),
+                "seat": readable(card.seat),
+                "t": _seconds(card.t_ns),
+                "addressed": None if card.addressed is None else readable(card.addressed),
+                "text": readable(card.text),
+                "done": card.is_done,
+            },
+        )
+
+    def _seat_info(self, logged: Logged) -> None:
+        info = SeatInfo.model_validate_json(logged.data)
+        self._seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
+
+    def _notice_of_seat(self, logged: Logged) -> None:
+        notice = SeatNotice.model_validate_json(logged.data)
+        self._seats[notice.seat].add("notice", _seconds(notice.t_ns), readable(notice.text))
+
+    def _cockpit(self, logged: Logged) -> None:
+        shown = CockpitInstruments.model_validate_json(logged.data)
+        self._seats[shown.callsign].add(
+            "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}
+        )
+
+    # --- cameras ----------------------------------------------------------------------------
+
+    def _vision(self, logged: Logged) -> None:
+        seen = Detections.model_validate_json(logged.data)
+        self._camera(seen.camera, seen.view)
+        if not seen.missed and self._locate is not None:
+            self._changes.add(
+                "picture",
+                seen.camera,
+                seen.seq,
+                _seconds(seen.t_frame_ns),
+                view_as_json(seen.view, self._locate),
+                found_as_json(seen),
+            )
+
+    def _camera(self, name: str, view: CameraView) -> None:
+        if name not in self._cameras:
+            self._cameras.add(name)
+            self._changes.add(
+                "camera",
+                {
+                    "name": readable(name),
+                    "carrier": view.carrier,
+                    "width_px": view.width_px,
+                    "height_px": view.height_px,
+                    "horizontal_fov_deg": view.horizontal_fov_deg,
+                },
+            )
+
+
+def _seconds(t_ns: int) -> float:
+    return round(t_ns / SECOND_NS, 3)

@@ -1,0 +1,84 @@
+// The advisories of the assistant, each with what it rests on.
+
+import { byId, html, svg, timeButton } from "./dom.js";
+import { keepInView } from "./rows.js";
+import { capital, instruction, known, percent, seconds, words } from "./words.js";
+
+const SHAPES = {
+  INFO: "M8 2a6 6 0 1 0 .01 0M8 7v4M8 4.6v.6", ADVISORY: "M8 1.5L14.5 8 8 14.5 1.5 8z", CAUTION: "M8 2L15 14H1z", WARNING: "M5 1.5h6L14.5 5v6L11 14.5H5L1.5 11V5z",
+};
+const FILLED = ["CAUTION", "WARNING"];
+
+/** The severity of an advisory, by shape, text and colour. */
+export const badge = (severity) => html("span", { class: `badge ${severity} ${FILLED.includes(severity) ? "filled" : ""}` },
+  svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: SHAPES[severity] ?? SHAPES.INFO })), severity);
+
+export class Advisories {
+  #list = byId("advisories");
+  #run;
+  #clock;
+  #links;
+  #items = [];
+  #current = "";
+  #last = 0;
+
+  /** `links.call(id)` and `links.camera(name)` show what an advisory rests on. */
+  constructor(run, clock, links) {
+    this.#run = run;
+    this.#clock = clock;
+    this.#links = links;
+    this.redraw();
+  }
+
+  /** Makes the rows again, because there are new advisories. */
+  redraw() {
+    this.#items = this.#run.advisories.map((row) => ({ row, item: this.#item(row) }));
+    this.#list.replaceChildren(...this.#items.map(({ item }) => item));
+    if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, `No advisory ${this.#clock.live ? "so far" : "in this run"}.`));
+    this.#current = "";
+    this.draw();
+  }
+
+  draw() {
+    const { t } = this.#clock, active = new Set(this.#run.activeAdvisories(t)), now = this.#items.filter(({ row }) => active.has(row));
+    const names = now.map(({ row }) => `${row.id}/${row.revision}`).join(" ");
+    this.#announce(t);
+    if (names === this.#current) return;
+    this.#current = names;
+    for (const { row, item } of this.#items) if (active.has(row)) item.setAttribute("aria-current", "true"); else item.removeAttribute("aria-current");
+    if (now.length) keepInView(this.#list, now.at(-1).item);
+  }
+
+  /** Tells a screen reader of an advisory whose time has just come while the clock plays. */
+  #announce(t) {
+    if (this.#clock.playing && t > this.#last) {
+      const come = this.#run.advisories.find((row) => row.active && this.#last < row.t && row.t <= t);
+      if (come) byId("alert").textContent = `${come.severity}: ${come.texts[0]?.message ?? ""}`;
+    }
+    this.#last = t;
+  }
+
+  #item(row) {
+    const source = row.equipment ? `${words(row.equipment)}, ` : "", texts = [...new Map(row.texts.map((text) => [text.message, text])).values()];
+    const to = (message) => row.texts.filter((text) => text.message === message).map((text) => text.recipient).join(", ");
+    return html("li", {},
+      html("div", { class: "row-head" }, timeButton(this.#clock, row.t, seconds(row.t)), row.active ? badge(row.severity) : html("span", { class: "badge" }, "over"), html("span", { class: "dim" }, `${source}${words(row.kind)}`)),
+      texts.map((text) => html("div", {}, html("span", { class: "dim" }, `${to(text.message)}: `), text.message, text.recommendation ? html("span", { class: "who" }, ` (${instruction(text.recommendation)})`) : null)),
+      row.active ? this.#evidence(row.evidence) : null);
+  }
+
+  #evidence(evidence) {
+    const shares = evidence.sources.map((name) => (known(evidence.shares[name]) ? `${words(name)} ${percent(evidence.shares[name])}` : words(name)));
+    const button = (text, act) => { const node = html("button", { type: "button", class: "time" }, text); node.addEventListener("click", act); return node; };
+    const facts = [
+      ["rests on", shares.join(", ")], ["rules", evidence.rules.map(words).join(", ")], ["note", evidence.note], ["runway", evidence.runway],
+      ["time to go", known(evidence.time_to_go_s) ? seconds(evidence.time_to_go_s) : null],
+      ["time to loss", known(evidence.time_to_loss_s) ? seconds(evidence.time_to_loss_s) : null],
+      ["calls", evidence.radio_ids.map((id) => button(id, () => this.#links.call(id)))],
+      ["cameras", evidence.camera_ids.map((name) => button(name, () => this.#links.camera(name)))],
+      ["tracks", evidence.tracks.join(", ")], ["faults", evidence.inconsistencies.join(", ")],
+    ].filter(([, value]) => known(value) && value !== "" && value.length);
+    const spaced = (value) => (Array.isArray(value) ? value.flatMap((node, i) => (i ? [", ", node] : [node])) : value);
+    return html("details", {}, html("summary", {}, "Evidence"), html("dl", {}, facts.flatMap(([name, value]) => [html("dt", {}, capital(name)), html("dd", {}, spaced(value))])));
+  }
+}

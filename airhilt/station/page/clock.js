@@ -1,0 +1,145 @@
+// The time shown, one for the whole page: it plays, pauses, jumps and loops.
+
+export const RATES = [0.25, 0.5, 1, 2, 4, 8];
+
+export class Clock {
+  #listeners = [];
+  #last = null;
+
+  /** A clock of a run that lasts `end` seconds; while it is live, the end moves on, and may be followed. */
+  constructor(end, live = false) {
+    this.t = 0;
+    this.end = end;
+    this.live = live;
+    this.following = live;
+    this.rate = 1;
+    this.playing = false;
+    this.loop = { from: null, to: null, on: false };
+  }
+
+  /** Calls a function with the clock, now and after each change. */
+  listen(listener) {
+    this.#listeners.push(listener);
+    listener(this);
+  }
+
+  tell() { this.#listeners.forEach((listener) => listener(this)); }
+
+  /** Shows a time in seconds. */
+  set(t) {
+    this.t = Math.min(Math.max(t, 0), this.end);
+    this.following = false;
+    this.tell();
+  }
+
+  /** Takes in that a live run has come to a time. */
+  setEnd(end) {
+    this.end = Math.max(end, this.end);
+    if (this.following) this.t = this.end;
+    this.tell();
+  }
+
+  /** Shows what is happening now, as it happens. */
+  follow() {
+    this.playing = false;
+    this.following = true;
+    this.t = this.end;
+    this.tell();
+  }
+
+  /** Plays, from the beginning if the end is shown. */
+  play() {
+    if (this.playing) return;
+    const { from, on } = this.loop;
+    if (this.t >= this.end) this.t = on ? from : 0;
+    this.playing = true;
+    this.#last = null;
+    this.tell();
+    requestAnimationFrame((now) => this.#tick(now));
+  }
+
+  pause() {
+    this.playing = false;
+    this.tell();
+  }
+
+  toggle() {
+    if (this.following) this.set(this.t);
+    else if (this.playing) this.pause();
+    else if (this.live && this.t >= this.end) this.follow();
+    else this.play();
+  }
+
+  setRate(rate) {
+    this.rate = rate;
+    this.tell();
+  }
+
+  /** Plays faster, or slower with a step of -1. */
+  stepRate(step) {
+    const i = RATES.indexOf(this.rate) + step;
+    if (RATES[i]) this.setRate(RATES[i]);
+  }
+
+  /** Sets the begin or the end of the loop to the time shown; the loop is on once it has both. */
+  mark(side) {
+    const loop = { ...this.loop, [side]: this.t };
+    if (loop.from !== null && loop.to !== null && loop.from >= loop.to) loop[side === "from" ? "to" : "from"] = null;
+    loop.on = loop.from !== null && loop.to !== null;
+    this.loop = loop;
+    this.tell();
+  }
+
+  /** Switches the loop on or off. Without a begin and an end it is the whole run. */
+  toggleLoop() {
+    const { from, to, on } = this.loop;
+    this.loop = { from: from ?? 0, to: to ?? this.end, on: !on };
+    this.tell();
+  }
+
+  #tick(now) {
+    if (!this.playing) return;
+    if (this.#last !== null) {
+      let t = this.t + Math.min((now - this.#last) / 1000, 0.5) * this.rate;
+      if (this.loop.on && t >= this.loop.to && this.t <= this.loop.to) t = this.loop.from;
+      if (t >= this.end) {
+        this.playing = false;
+        this.following = this.live;
+      }
+      this.t = Math.min(t, this.end);
+      this.tell();
+    }
+    this.#last = now;
+    if (this.playing) requestAnimationFrame((later) => this.#tick(later));
+  }
+}
+
+/** The clock of a page that is shown within another: what somebody does to it, the other page's clock does. */
+export class FollowingClock extends Clock {
+  #leader;
+
+  constructor(end, leader) {
+    super(end);
+    this.#leader = leader;
+    leader.listen(() => this.#follow());
+  }
+
+  #follow() {
+    this.t = Math.min(this.#leader.t, this.end);
+    this.playing = this.#leader.playing && this.#leader.t < this.end;
+    this.rate = this.#leader.rate;
+    this.tell();
+  }
+
+  set(t) { this.#leader.set(t); }
+
+  toggle() { this.#leader.toggle(); }
+
+  setRate(rate) { this.#leader.setRate(rate); }
+
+  stepRate(step) { this.#leader.stepRate(step); }
+
+  mark(side) { this.#leader.mark(side); }
+
+  toggleLoop() { this.#leader.toggleLoop(); }
+}

@@ -1,0 +1,76 @@
+// The displays of a seat: a cockpit for the pilot of an aircraft, a scope with strips for a controller.
+
+import { byId } from "./dom.js";
+import { Instruments } from "./instruments.js";
+import { ModePanel } from "./mode_panel.js";
+import { NavigationDisplay } from "./navigation_display.js";
+import { PrimaryFlightDisplay } from "./primary_flight_display.js";
+import { Strips } from "./strips.js";
+
+export class Displays {
+  #run;
+  #seat = null;
+  #arranged = undefined;
+  #instruments = new Instruments();
+  #pfd = new PrimaryFlightDisplay();
+  #nd;
+  #strips;
+  #panel;
+  #cameras;
+
+  /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
+  constructor(run, clock, cameras, send, tell) {
+    this.#run = run;
+    this.#cameras = cameras;
+    this.#nd = new NavigationDisplay(run, clock);
+    this.#strips = new Strips(run, clock);
+    this.#panel = new ModePanel(send, tell);
+    requestAnimationFrame(() => this.#draw());
+  }
+
+  /** Keys of the cockpit, for the list of keys. */
+  get keys() {
+    const inCockpit = (act) => () => { if (document.body.dataset.seat) act(); };
+    return [
+      { names: ["s"], shown: ["S"], text: "cockpit: speed", act: inCockpit(() => this.#panel.focus("speed")) },
+      { names: ["h"], shown: ["H"], text: "cockpit: track", act: inCockpit(() => this.#panel.focus("track")) },
+      { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: inCockpit(() => this.#panel.focus("altitude")) },
+      { names: ["g"], shown: ["G"], text: "cockpit: go around", act: inCockpit(() => this.#panel.goAround()) },
+      { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: inCockpit(() => this.#nd.step(1)) },
+      { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: inCockpit(() => this.#nd.step(-1)) },
+    ];
+  }
+
+  /** Takes in which seat the person has, null for none. */
+  setSeat(seat) {
+    if (seat !== this.#seat) {
+      this.#instruments.clear();
+      this.#nd.reset();
+    }
+    this.#seat = seat;
+    this.#arrange();
+  }
+
+  /** Shows the displays of the seat; who sits where is known with the briefing, which may come later. */
+  #arrange() {
+    const seat = this.#seat, category = seat && this.#run.categories ? this.#run.categories[seat] ?? "unit" : "";
+    this.#arranged = this.#run.categories;
+    document.body.dataset.seat = { aircraft: "pilot", vehicle: "driver", unit: "controller" }[category] ?? "";
+    this.#cameras.offer(!category ? undefined : category === "unit" ? null : seat);
+    this.#panel.offer(category, this.#run.airport);
+  }
+
+  /** Takes in what the instruments show. */
+  take(shown) { this.#instruments.take(shown); }
+
+  #draw() {
+    if (this.#arranged !== this.#run.categories) this.#arrange();
+    const shown = this.#instruments.now(), { seat } = document.body.dataset;
+    if (seat === "pilot") {
+      this.#pfd.draw(shown);
+      this.#nd.draw(this.#seat, shown);
+    }
+    if (seat === "controller") this.#strips.draw();
+    requestAnimationFrame(() => this.#draw());
+  }
+}

@@ -1,0 +1,112 @@
+// A run that goes on: its changes come over a WebSocket, which is opened again when it is lost.
+
+import { byId } from "./dom.js";
+
+const RETRY_MS = 1000;
+const SLOWLY_MS = 1000; // between two drawings of what takes long
+
+/** The name of this browser tab, which it keeps when its connection is lost or the page is loaded again. */
+function identity() {
+  if (!sessionStorage.getItem("browser")) sessionStorage.setItem("browser", Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join(""));
+  return sessionStorage.getItem("browser");
+}
+
+export class Live {
+  #run;
+  #clock;
+  #panes;
+  #socket = null;
+  #watched = null;
+  #drawn = 0;
+  #drawing = null;
+  #undrawn = new Set(); // kinds of changes that lists do not show yet
+  #seen = 0;
+
+  constructor(run, clock) {
+    this.#run = run;
+    this.#clock = clock;
+  }
+
+  /** Begins to follow the run. */
+  connect(panes) {
+    this.#panes = panes;
+    this.#open();
+  }
+
+  /** Lets the pictures of a camera come. */
+  watch(name) {
+    this.#watched = name;
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify({ watch: name }));
+  }
+
+  #open() {
+    const url = new URL("api/live", location.href);
+    url.protocol = url.protocol.replace("http", "ws");
+    url.searchParams.set("from", this.#seen);
+    url.searchParams.set("browser", identity());
+    this.#socket = new WebSocket(url);
+    this.#socket.onopen = () => { this.#tell(); this.watch(this.#watched); };
+    this.#socket.onmessage = (event) => this.#take(JSON.parse(event.data));
+    this.#socket.onclose = (event) => {
+      const isOver = ["finished", "stopped", "gone"].includes(this.#run.phase);
+      byId("state").textContent = isOver ? this.#phase() : event.reason || "connection lost, trying again";
+      if (!isOver) setTimeout(() => this.#open(), RETRY_MS);
+    };
+  }
+
+  #phase() { return this.#run.phase === "gone" ? "the run is not there any more" : this.#run.phase; }
+
+  #tell() {
+    const { phase, pace } = this.#run;
+    byId("state").textContent = phase !== "running" ? this.#phase() : pace === "paused" ? "paused" : `running, pace ${pace}`;
+  }
+
+  /** Sends what somebody at a seat wishes. */
+  send(wish) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(wish));
+  }
+
+  /** Sends sound of the microphone. */
+  sendSound(buffer) { if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(buffer); }
+
+  /** Number of bytes that wait to be sent. */
+  unsent() { return this.#socket?.bufferedAmount ?? 0; }
+
+  #take(message) {
+    const { next, changes, seats, own, refused } = message;
+    if (seats) { this.#panes.seat.setSeats(seats); this.#panes.talk.setSeat(this.#panes.seat.own); }
+    if (own) this.#panes.seat.take(own);
+    if (refused) this.#panes.seat.refuse(refused);
+    if (!changes) { this.#panes.talk.take(message); return; }
+    const { plan, transcript, traffic, cameras, sounds } = this.#panes;
+    this.#seen = next;
+    const changed = this.#run.apply(changes), has = (...kinds) => kinds.some((kind) => changed.has(kind));
+    this.#panes.talk.take(message);
+    for (const [kind, ...rest] of changes) {
+      if (kind === "picture") cameras.add(...rest);
+      if (kind === "call") this.#panes.seat.heard(rest[0]);
+      if (kind === "call" && this.#clock.following && !this.#panes.seat.own) sounds.add(rest[0]);
+    }
+    if (has("briefing")) plan.renew();
+    if (has("state")) plan.keepFitted();
+    if (has("track")) traffic.redraw();
+    if (has("call")) transcript.redraw();
+    if (has("camera")) cameras.renew();
+    if (has("clock")) this.#tell();
+    for (const kind of changed) this.#undrawn.add(kind);
+    this.#drawing ??= setTimeout(() => this.#drawLists(), Math.max(SLOWLY_MS - (performance.now() - this.#drawn), 0));
+    this.#clock.setEnd(this.#run.now ?? 0);
+  }
+
+  /** Draws what takes long: not with every message. */
+  #drawLists() {
+    const { profile, marks, advisories, transport } = this.#panes;
+    this.#drawing = null;
+    this.#drawn = performance.now();
+    if (this.#undrawn.has("advisory")) advisories.redraw();
+    if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
+    this.#undrawn.clear();
+    profile.redraw();
+    marks.draw();
+  }
+}

@@ -1,0 +1,117 @@
+// What the person at a seat hears: the frequencies while somebody speaks there, and the assistant.
+
+import { byId, html } from "./dom.js";
+import { megahertz } from "./words.js";
+
+const RATE_HZ = 16000;
+const AHEAD_S = 0.08; // between the coming of a piece of sound and its playing, against gaps
+const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] }; // Hz, and when each pulse begins, in s
+const PULSE_S = 0.12;
+
+export class Loudspeaker {
+  #context = null;
+  #gain = null;
+  #due = new Map(); // when the next piece of each transmission is to be played
+  #open = new Map(); // frequencies of the transmissions on the air
+  #waiting = new Map(); // pieces of the transmissions that are played when they have ended
+  #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
+  #lamp = html("span", { class: "lamp", role: "status" });
+
+  constructor() {
+    this.#volume.addEventListener("input", () => this.#setVolume());
+    this.#drawLamp();
+    byId("hearing").append(this.#lamp, html("label", {}, "Volume", this.#volume));
+  }
+
+  /** Begins to give out sound; a browser allows that after a click alone. */
+  begin() {
+    if (!this.#context) {
+      this.#context = new AudioContext({ latencyHint: "interactive" });
+      this.#gain = this.#context.createGain();
+      this.#gain.connect(this.#context.destination);
+      this.#setVolume();
+    }
+    this.#context.resume();
+    byId("hearing").hidden = false;
+  }
+
+  end() {
+    this.#context?.suspend();
+    this.#due.clear();
+    this.#open.clear();
+    this.#waiting.clear();
+    byId("hearing").hidden = true;
+  }
+
+  /** Takes in pieces of transmissions. `isOwn(id)` says which are one's own; `isDeaf`, that one transmits; `isSlow`, that time passes slowly. */
+  take(pieces, { isOwn, isDeaf, isSlow }) {
+    for (const [phase, { id, frequency_khz: khz, pcm }] of pieces) {
+      if (phase === "opened") this.#open.set(id, khz);
+      if (phase === "closed") this.#close(id);
+      if (pcm && !isOwn(id) && !isDeaf && this.#context) {
+        if (isSlow) this.#waiting.set(id, [...(this.#waiting.get(id) ?? []), pcm]); else this.#play(id, pcm);
+      }
+    }
+    this.#drawLamp();
+  }
+
+  /** Plays the tone of a severity and then the voice, and returns when the first sample is audible, in s from now; null if nothing is played. */
+  async warn(severity, url) {
+    const context = this.#context;
+    if (!context || context.state !== "running") return null;
+    const begin = context.currentTime, [hertz, pulses] = TONES[severity] ?? [0, []];
+    for (const at of pulses) this.#pulse(hertz, begin + at);
+    const latency = (context.outputLatency || 0) + (context.baseLatency || 0);
+    if (url) this.#voice(url, begin + (pulses.length ? pulses.at(-1) + PULSE_S + 0.05 : 0));
+    return pulses.length || url ? latency : null;
+  }
+
+  #play(id, pcm) {
+    const bytes = Uint8Array.from(atob(pcm), (letter) => letter.charCodeAt(0)), samples = new Int16Array(bytes.buffer);
+    const buffer = this.#context.createBuffer(1, samples.length, RATE_HZ), channel = buffer.getChannelData(0);
+    samples.forEach((sample, i) => { channel[i] = sample / 32768; });
+    const due = Math.max(this.#due.get(id) ?? 0, this.#context.currentTime + AHEAD_S);
+    this.#start(buffer, due);
+    this.#due.set(id, due + buffer.duration);
+  }
+
+  #start(buffer, at) {
+    const source = this.#context.createBufferSource();
+    source.buffer = buffer;
+    source.connect(this.#gain);
+    source.start(at);
+  }
+
+  #pulse(hertz, at) {
+    const oscillator = this.#context.createOscillator(), envelope = this.#context.createGain();
+    oscillator.frequency.value = hertz;
+    envelope.gain.setValueAtTime(0, at);
+    envelope.gain.linearRampToValueAtTime(0.35, at + 0.01);
+    envelope.gain.setValueAtTime(0.35, at + PULSE_S - 0.01);
+    envelope.gain.linearRampToValueAtTime(0, at + PULSE_S);
+    oscillator.connect(envelope).connect(this.#gain);
+    oscillator.start(at);
+    oscillator.stop(at + PULSE_S);
+  }
+
+  async #voice(url, at) {
+    const answer = await fetch(url);
+    if (answer.status !== 200) return;
+    this.#start(await this.#context.decodeAudioData(await answer.arrayBuffer()), Math.max(at, this.#context.currentTime));
+  }
+
+  #close(id) {
+    this.#open.delete(id);
+    for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm);
+    this.#waiting.delete(id);
+    this.#due.delete(id);
+  }
+
+  #setVolume() { if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2; }
+
+  #drawLamp() {
+    const busy = [...new Set(this.#open.values())].map(megahertz).join(", ");
+    this.#lamp.classList.toggle("on", Boolean(busy));
+    this.#lamp.textContent = busy ? `${busy} busy` : "Frequency free";
+  }
+}

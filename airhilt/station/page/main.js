@@ -1,0 +1,61 @@
+// Reads a recorded run from the server, or follows a live one, and lets all panes follow one clock.
+
+import { Advisories } from "./advisories.js";
+import { Cameras } from "./cameras.js";
+import { Clock, FollowingClock } from "./clock.js";
+import { byId, html } from "./dom.js";
+import { connectKeys, timeKeys } from "./keys.js";
+import { Live } from "./live.js";
+import { Marks } from "./marks.js";
+import { Run } from "./model.js";
+import { Plan } from "./plan.js";
+import { Profile } from "./profile.js";
+import { noteReading } from "./rows.js";
+import { Seat } from "./seat.js";
+import { LiveSounds, Sounds } from "./sounds.js";
+import { Talk } from "./talk.js";
+import { connectTheme } from "./theme.js";
+import { Traffic } from "./traffic.js";
+import { Transcript } from "./transcript.js";
+import { Transport } from "./transport.js";
+
+const note = (text) => byId("notes").append(html("p", {}, text));
+
+async function begin() {
+  const answer = await fetch("api/run");
+  if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+  const run = new Run(await answer.json()), together = window.parent === window ? null : window.parent.together;
+  const clock = together ? new FollowingClock(run.end_s, together.clock) : new Clock(run.end_s, Boolean(run.live));
+  if (together) document.body.dataset.together = "true";
+  document.title = `${run.title || run.run} - AIRHILT`;
+  byId("title").textContent = run.title || run.run;
+  byId("subtitle").textContent = run.live ? "" : [run.run, run.scenario.description].filter((text) => text).join(": ");
+  byId("subtitle").title = run.scenario.description;
+  byId("state").textContent = run.phase;
+  run.notes.forEach(note);
+
+  const plan = new Plan(run, clock), profile = new Profile(run, clock), marks = new Marks(run, clock);
+  const live = run.live ? new Live(run, clock) : null, sounds = live ? new LiveSounds() : new Sounds(run, clock);
+  const transcript = new Transcript(run, clock), cameras = new Cameras(run, clock, plan, (name) => live?.watch(name));
+  const advisories = new Advisories(run, clock, { call: (id) => transcript.goTo(id), camera: (name) => cameras.choose(name) });
+  const traffic = new Traffic(run, clock), transport = new Transport(run, clock);
+  const panes = [plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport];
+  noteReading(byId("calls"), byId("advisories"));
+  connectTheme(() => { profile.redraw(); plan.draw(); marks.draw(); });
+  clock.listen(() => panes.forEach((pane) => pane.draw()));
+  const seat = live ? new Seat(run, live, clock, cameras) : null;
+  live?.connect({ plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport, seat, talk: new Talk(run, live) });
+  connectKeys([
+    ...timeKeys(clock, transport),
+    { names: ["m"], shown: ["M"], text: "sound off or on", act: () => sounds.mute() },
+    { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },
+    { names: ["+", "="], shown: ["+"], text: "zoom in", act: () => plan.zoom(1.5) },
+    { names: ["-"], shown: ["-"], text: "zoom out", act: () => plan.zoom(1 / 1.5) },
+    ...(run.seats?.length ? seat.keys : []),
+    { names: ["?"], shown: ["?"], text: "this list", act: () => byId("help").showModal() },
+  ]);
+  if (together && !together.join(window, run)) sounds.mute();
+  document.body.dataset.ready = "true";
+}
+
+begin().catch((error) => note(`The page cannot be shown: ${error.message}`));

@@ -1,0 +1,141 @@
+// The microphone of the person at a seat: opened after consent, transmitted while the button is held.
+
+import { byId, html } from "./dom.js";
+import { megahertz } from "./words.js";
+
+const MOST_UNSENT_BYTES = 64000; // two seconds of sound
+const WHY = {
+  NotAllowedError: "The microphone was denied. Type what you want to say, or allow it in the browser and try again.",
+  NotFoundError: "There is no microphone. Type what you want to say.",
+  NotReadableError: "Another program has the microphone. Type what you want to say.",
+};
+const CONSENT = "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
+const RECORDED = "It is recorded in the folder of the run, as sound and as text.";
+const NOT_RECORDED = "Its sound is not recorded. The words are, as they were recognised.";
+
+export class Microphone {
+  #link;
+  #info = null;
+  #node = null;
+  #held = false;
+  #delay = 0;
+
+  /** `link` has send(wish), sendSound(buffer), unsent() and delay(event), the time since an event in s. */
+  constructor(link) {
+    this.#link = link;
+    const button = byId("talk-button");
+    button.addEventListener("pointerdown", (event) => { if (event.button === 0) { button.setPointerCapture(event.pointerId); this.press(event); } });
+    for (const name of ["pointerup", "pointercancel"]) button.addEventListener(name, () => this.release());
+    button.addEventListener("click", () => { if (!this.#node) this.#ask(); });
+    window.addEventListener("blur", () => this.release());
+    window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
+    window.addEventListener("keyup", (event) => this.#key(event, false), { capture: true });
+    byId("consent-open").addEventListener("click", () => { byId("consent").close(); this.#open(); });
+    byId("consent-type").addEventListener("click", () => { byId("consent").close(); this.#tell("The microphone is closed."); });
+    this.#draw();
+  }
+
+  get isHeld() { return this.#held; }
+
+  /** Takes in what the run says of the seat; null without a seat. */
+  setInfo(info) {
+    this.#info = info;
+    if (!info) this.#close();
+    byId("talk").hidden = !info;
+    byId("talk-button").disabled = !info?.has_sound;
+    if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
+    else if (info && !info.is_recognised) this.#tell("No recogniser takes part: only people understand you.");
+    const frequencies = info?.frequencies_khz ?? [];
+    byId("talk-frequency").replaceChildren(...frequencies.map((khz) => html("option", { value: khz }, megahertz(khz))));
+    byId("talk-frequency").parentElement.hidden = frequencies.length < 2;
+  }
+
+  /** Begins to transmit. */
+  press(event) {
+    if (this.#held || !this.#node) return;
+    this.#held = true;
+    const khz = Number(byId("talk-frequency").value) || null;
+    this.#link.send({ press: { frequency_khz: khz, delay_s: this.#link.delay(event) } });
+    this.#node.port.postMessage({ isOn: true });
+    this.#draw();
+  }
+
+  /** Ends the transmission, once the last samples have been sent. */
+  release() {
+    if (!this.#held) return;
+    this.#held = false;
+    this.#node?.port.postMessage({ isOn: false });
+    this.#draw();
+  }
+
+  #key(event, isDown) {
+    const { tagName, type } = event.target, isTyping = tagName === "SELECT" || tagName === "SUMMARY" || (tagName === "INPUT" && type === "text");
+    if (event.key !== " " || !this.#info?.has_sound || isTyping || document.querySelector("dialog[open]")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (isDown && !event.repeat) { if (this.#node) this.press(event); else this.#ask(); }
+    if (!isDown) this.release();
+  }
+
+  #ask() {
+    byId("consent-text").textContent = `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
+    byId("consent").showModal();
+  }
+
+  async #open() {
+    this.#tell("Opening the microphone.");
+    try {
+      if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
+      const stream = await navigator.mediaDevices.getUserMedia({ audio: { channelCount: 1, echoCancellation: false, noiseSuppression: false, autoGainControl: true } });
+      const { context, source } = connected(stream);
+      await context.audioWorklet.addModule("page/microphone-worklet.js");
+      await context.resume();
+      const node = new AudioWorkletNode(context, "microphone", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+      node.port.onmessage = ({ data }) => this.#take(data);
+      source.connect(node);
+      stream.getTracks()[0].addEventListener("ended", () => { this.#close(); this.#tell("The microphone is gone. Type what you want to say."); });
+      this.#node = node;
+      this.#tell("");
+    } catch (error) {
+      this.#tell(WHY[error.name] ?? `The microphone cannot be opened: ${error.message}. Type what you want to say.`);
+    }
+    this.#draw();
+  }
+
+  #take({ pcm, level, isOver }) {
+    if (level !== undefined) byId("talk-level").value = level;
+    if (pcm && this.#link.unsent() > MOST_UNSENT_BYTES) { this.release(); this.#tell("Your call was cut: the connection is too slow."); }
+    else if (pcm) this.#link.sendSound(pcm);
+    if (isOver) this.#link.send({ release: true });
+  }
+
+  #close() {
+    this.release();
+    const context = this.#node?.context;
+    this.#node = null;
+    context?.close();
+    byId("talk-level").value = 0;
+    this.#draw();
+  }
+
+  #draw() {
+    const button = byId("talk-button");
+    button.setAttribute("aria-pressed", this.#held);
+    button.textContent = this.#node ? (this.#held ? "On the air" : "Hold to talk") : "Open the microphone";
+    byId("talk-level").hidden = !this.#node;
+  }
+
+  #tell(text) { byId("talk-state").textContent = text; }
+}
+
+/** Connects a stream at 16 kHz, or, where the browser cannot do that, at the rate of the device. */
+function connected(stream) {
+  const context = new AudioContext({ sampleRate: 16000, latencyHint: "interactive" });
+  try {
+    return { context, source: context.createMediaStreamSource(stream) };
+  } catch {
+    context.close();
+    const other = new AudioContext({ latencyHint: "interactive" });
+    return { context: other, source: other.createMediaStreamSource(stream) };
+  }
+}

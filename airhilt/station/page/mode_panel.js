@@ -1,0 +1,74 @@
+// The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
+
+import { byId, html } from "./dom.js";
+
+const FIELDS = [
+  { id: "speed", name: "Speed", unit: "kt", least: 1, most: 1000, command: (value) => ({ action: "speed", cas_kt: value }) },
+  { id: "track", name: "Track", unit: "\u00b0 true", least: 0, most: 360, command: (value) => ({ action: "track", track_deg: value % 360 }) },
+  { id: "altitude", name: "Altitude", unit: "ft", least: 0, most: 60_000, command: (value) => ({ action: "altitude", altitude_ft: value }) },
+];
+const OF_RUNWAYS = [["Line up", "line_up"], ["Take off", "take_off"], ["Approach", "land"]];
+const AT_ONCE = [["Hold position", "hold_position"], ["Continue", "continue"], ["Own route", "resume_route"]];
+const OF_VEHICLES = ["hold_position", "continue"];
+
+export class ModePanel {
+  #send;
+  #tell;
+
+  /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
+  constructor(send, tell) {
+    this.#send = send;
+    this.#tell = tell;
+    byId("panel-values").replaceChildren(...FIELDS.map((field) => this.#field(field)));
+    const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
+    byId("panel-runways").replaceChildren(runway, ...OF_RUNWAYS.map(([name, action]) => this.#button(name, () => this.#atRunway(name, action))));
+    const around = this.#button("Go around", () => this.#give("Go around", { action: "go_around" }));
+    around.id = "panel-go-around";
+    byId("panel-actions").replaceChildren(around, ...AT_ONCE.map(([name, action]) => { const button = this.#button(name, () => this.#give(name, { action })); button.dataset.action = action; return button; }));
+  }
+
+  /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
+  offer(category, airport) {
+    const idents = (airport?.runways ?? []).flatMap((runway) => runway.ends.map((end) => end.ident)), isVehicle = category === "vehicle";
+    byId("panel-values").hidden = isVehicle;
+    byId("panel-runways").hidden = isVehicle || !idents.length;
+    for (const button of byId("panel-actions").children) button.hidden = isVehicle && !OF_VEHICLES.includes(button.dataset.action);
+    const select = byId("panel-runway"), chosen = select.value;
+    if (select.options.length !== idents.length) select.replaceChildren(...idents.map((ident) => html("option", { value: ident, selected: ident === chosen }, ident)));
+  }
+
+  /** Puts the cursor into the field of speed, track or altitude. */
+  focus(id) { byId(`panel-${id}`).select(); }
+
+  goAround() { byId("panel-go-around").click(); }
+
+  #give(text, command) {
+    this.#send(command);
+    this.#tell(`Set: ${text}.`);
+  }
+
+  #button(name, act) {
+    const button = html("button", { type: "button" }, name);
+    button.addEventListener("click", act);
+    return button;
+  }
+
+  #atRunway(name, action) {
+    const runway = byId("panel-runway").value;
+    this.#give(`${name}, runway ${runway}`, { action, runway });
+  }
+
+  #field({ id, name, unit, least, most, command }) {
+    const input = html("input", { type: "text", inputmode: "decimal", autocomplete: "off", id: `panel-${id}`, size: 6, "aria-label": `${name} in ${unit}` });
+    const form = html("form", {}, html("span", { class: "dial-name" }, name), html("span", { class: "dial" }, input, html("span", { class: "dim" }, unit)), html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"));
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      const value = Number(input.value);
+      if (input.value.trim() === "" || !(value >= least && value <= most)) { this.#tell(`${name}: expected ${least} to ${most} ${unit}.`); return; }
+      this.#give(`${name.toLowerCase()} ${value} ${unit}`, command(value));
+      input.value = "";
+      input.blur();
+    });
+    return form;
+  }
+}

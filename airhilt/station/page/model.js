@@ -1,0 +1,217 @@
+// What the server said of the run, prepared for drawing: tracks in metres, states at any time, events.
+
+import { at, before } from "./series.js";
+import { instruction, known, words } from "./words.js";
+
+export const METRE_PER_NM = 1852;
+const COLOURS = 8;
+export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
+
+/** The track of one actor. */
+export class Track {
+  patience = 1; // s without a state after which the actor has ended
+
+  constructor(given, index) {
+    Object.assign(this, given);
+    this.east = given.east_nm.map((value) => value * METRE_PER_NM);
+    this.north = given.north_nm.map((value) => value * METRE_PER_NM);
+    this.colour = `--c${index % COLOURS}`;
+  }
+
+  get first() { return this.t[0]; }
+  get last() { return this.t[this.t.length - 1]; }
+
+  /** Metres east and north of the centre at a time. */
+  place(t) { return [at(this.t, this.east, t), at(this.t, this.north, t)]; }
+
+  /** The state at a time: the first one before it, the last one after it. */
+  state(t, span) {
+    const now = Math.min(Math.max(t, this.first), this.last);
+    const from = Math.max(now - span, this.first), to = Math.min(now + span, this.last), seconds = Math.max(to - from, 1e-9);
+    const [e1, n1] = this.place(from), [e2, n2] = this.place(to), [east, north] = this.place(now);
+    const moved = Math.hypot(e2 - e1, n2 - n1);
+    const { speed, course } = this.velocity(now) ?? { speed: moved / seconds, course: moved > 0.5 ? Math.atan2(e2 - e1, n2 - n1) : 0 };
+    return {
+      east, north, speed, course,
+      heading: this.heading_deg ? this.#heading(now) : course,
+      altitude: at(this.t, this.altitude_ft, now),
+      rate: (at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from)) / seconds * 60,
+      onGround: this.on_ground.some(([down, up]) => down <= now && now <= up),
+      phase: words(this.phases.findLast((phase) => phase.from <= now)?.what ?? ""),
+      isThere: t >= this.first - 1, ended: t > this.last + this.patience,
+    };
+  }
+
+  /** Speed and course as a sensor has them, null if they follow from the places. */
+  velocity() { return null; }
+
+  #heading(t) {
+    const i = before(this.t, t), next = Math.min(i + 1, this.t.length - 1), from = this.heading_deg[i];
+    const turn = (this.heading_deg[next] - from + 540) % 360 - 180, span = this.t[next] - this.t[i];
+    return (from + (span > 0 ? turn * (t - this.t[i]) / span : 0)) * Math.PI / 180;
+  }
+}
+
+/** The track of an actor of a live run, to which states are added. */
+export class LiveTrack extends Track {
+  patience = 15;
+  #velocities = [];
+
+  constructor(callsign, category, type, index) {
+    super({ callsign, category, type, t: [], east_nm: [], north_nm: [], altitude_ft: [], heading_deg: [], on_ground: [], phases: [] }, index);
+  }
+
+  add([t, east, north, altitude, velocity, heading, onGround, phase]) {
+    if (this.t.length && t <= this.last) return;
+    const wasOnGround = this.on_ground.length && this.on_ground.at(-1)[1] === this.last;
+    if (onGround && wasOnGround) this.on_ground.at(-1)[1] = t;
+    else if (onGround) this.on_ground.push([t, t]);
+    if (this.phases.at(-1)?.what !== phase) this.phases.push({ from: t, what: phase });
+    this.t.push(t);
+    this.east.push(east);
+    this.north.push(north);
+    this.altitude_ft.push(altitude);
+    this.heading_deg.push(heading);
+    this.#velocities.push(velocity);
+  }
+
+  velocity(t) {
+    const [east, north] = this.#velocities[before(this.t, t)];
+    return { speed: Math.hypot(east, north), course: Math.atan2(east, north) };
+  }
+}
+
+/** Puts a row into a list in the place of the one with the same identity, or at its end. */
+function put(rows, row, same) {
+  const i = rows.findLastIndex((one) => same(one, row));
+  if (i < 0) rows.push(row); else rows[i] = row;
+}
+
+/** A run as the page shows it. */
+export class Run {
+  #callsigns = new Map(); // by the addresses under which actors were known first
+  #active = { t: null, rows: [] };
+  #actors; // that have had a track so far
+
+  constructor(given) {
+    Object.assign(this, given);
+    const pair = given.pair ?? [];
+    const order = [...given.tracks].sort((a, b) => pair.includes(b.callsign) - pair.includes(a.callsign));
+    this.tracks = order.map((track, index) => new Track(track, index));
+    this.#actors = order.length;
+    this.span = given.airport ? 1 : 4; // s before and after an instant over which its speed is a mean
+    this.title = given.scenario.title || given.scenario.name;
+    this.moments = momentsOf(this);
+    this.bounds = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
+    for (const track of this.tracks) track.east.forEach((east, i) => this.#widen(east, track.north[i]));
+  }
+
+  #widen(east, north) {
+    const { bounds } = this;
+    bounds.east = [Math.min(bounds.east[0], east), Math.max(bounds.east[1], east)];
+    bounds.north = [Math.min(bounds.north[0], north), Math.max(bounds.north[1], north)];
+  }
+
+  /** Takes in the changes of a live run, and returns which parts of it are different now. */
+  apply(changes) {
+    const changed = new Set();
+    for (const [kind, ...rest] of changes) {
+      changed.add(kind);
+      switch (kind) {
+        case "clock": this.now = Math.max(rest[0] ?? 0, this.now ?? 0); [, this.phase, this.pace] = rest; break;
+        case "briefing": [this.controller, this.airport, this.categories] = rest; this.span = this.airport ? 1 : 4; break;
+        case "state": if (this.#addState(rest)) changed.add("track"); break;
+        case "name": this.#rename(...rest); changed.add("track"); break;
+        case "call": put(this.calls, rest[0], (a, b) => a.id === b.id); break;
+        case "spoken": this.spoken.push(rest[0]); break;
+        case "advisory": put(this.advisories, rest[0], (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment); break;
+        case "event": this.events.push(rest[0]); break;
+        case "camera": this.cameras.push(rest[0]); break;
+        default: break;
+      }
+    }
+    if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
+    if (changed.has("call") || changed.has("event")) this.moments = momentsOf(this);
+    return changed;
+  }
+
+  /** Takes in the callsign of an actor that was known by its address until now.
+   *  Where the truth has told of the callsign meanwhile, the address is the same actor once more.
+   */
+  #rename(address, callsign) {
+    this.#callsigns.set(address, callsign);
+    const track = this.track(address);
+    if (!track) return;
+    if (this.track(callsign)) this.tracks.splice(this.tracks.indexOf(track), 1);
+    else track.callsign = callsign;
+  }
+
+  /** Adds a state, and returns true if it is the first one of an actor. */
+  #addState([name, category, type, ...state]) {
+    let track = this.track(name);
+    const isNew = !track || track.type !== type;
+    if (!track) this.tracks.push(track = new LiveTrack(name, category, type, this.#actors++));
+    track.type = type;
+    track.category = this.categories?.[name] ?? category;
+    track.add(state);
+    this.now = Math.max(this.now ?? 0, state[0]);
+    this.#widen(state[1], state[2]);
+    return isNew;
+  }
+
+  track(callsign) { return this.tracks.find((track) => track.callsign === callsign); }
+
+  /** The callsign of an actor that an advisory may know by its address alone. */
+  callsignOf(name) { return this.#callsigns.get(name) ?? name; }
+
+  states(t) { return this.tracks.map((track) => ({ track, state: track.state(t, this.span) })); }
+
+  /** Highest severity of the advisories that are active for an actor at a time, or null. */
+  severityOf(callsign, t) {
+    const ranks = this.activeAdvisories(t).filter((row) => row.traffic.some((name) => this.callsignOf(name) === callsign)).map((row) => SEVERITIES.indexOf(row.severity));
+    return ranks.length ? SEVERITIES[Math.max(...ranks)] : null;
+  }
+
+  /** The newest revision of each advisory at a time, where its conflict is not over; found once for each time. */
+  activeAdvisories(t) {
+    const { advisories } = this, known = this.#active;
+    if (known.t === t && known.of === advisories.at(-1) && known.count === advisories.length) return known.rows;
+    const newest = new Map();
+    for (const row of advisories) if (row.t <= t) newest.set(`${row.equipment}/${row.id}`, row);
+    this.#active = { t, of: advisories.at(-1), count: advisories.length, rows: [...newest.values()].filter((row) => row.active) };
+    return this.#active.rows;
+  }
+
+  /** Horizontal and vertical distance of the pair at a time, null without a pair. */
+  apart(t) {
+    const [first, second] = (this.pair ?? []).map((callsign) => this.track(callsign));
+    if (!first || !second || t > Math.min(first.last, second.last) + 1) return null;
+    const [a, b] = [first.state(t, 0), second.state(t, 0)];
+    return { horizontal: Math.hypot(a.east - b.east, a.north - b.north), vertical: Math.abs(a.altitude - b.altitude) };
+  }
+}
+
+const PHASES = {
+  begun: "conflict begins", opened: "conflict window opens", closed: "conflict window closes", loss_of_separation: "loss of separation", nmac: "near mid-air collision",
+  tcas_ta: "TCAS traffic advisory due", tcas_ra: "TCAS resolution advisory due", runway_incursion: "runway incursion", collision: "collision",
+};
+const TOLD = ["advisory", "equipment", "conflict", "pilot_reacts", "failure", "unable", "status", "actor_ended", "worker_lost", "radio_lost", "cameras_lost", "command", "refused", "finished", "stopped"];
+
+/** The events that one may jump to, in the order of their times. */
+function momentsOf(run) {
+  const calls = run.calls.map((call) => ({ t: call.from, kind: "radio", text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}` }));
+  const others = run.events.filter((event) => TOLD.includes(event.kind) && event.t > 0).map((event) => ({ t: event.t, kind: event.kind, severity: event.severity, text: textOf(event) }));
+  const seen = new Set(), all = [...calls, ...others].sort((a, b) => a.t - b.t);
+  return all.filter((one) => { const key = `${one.t.toFixed(1)} ${one.text}`; return !seen.has(key) && seen.add(key); });
+}
+
+function textOf(event) {
+  switch (event.kind) {
+    case "advisory": return event.active ? `${event.severity}: ${event.text}` : `over: ${event.text}`;
+    case "conflict": return `${PHASES[event.phase] ?? words(event.phase)}, ${event.who}`;
+    case "command": { try { return `${event.who}: ${instruction(JSON.parse(event.text))}`; } catch { return `${event.who}: ${event.text}`; } }
+    case "status": return `${words(event.who)} ${event.state}${event.text ? `: ${event.text}` : ""}`;
+    case "finished": case "stopped": return `run ${event.kind}`;
+    default: return [words(event.kind), event.who, event.text].filter((part) => known(part) && part !== "").join(", ");
+  }
+}

@@ -1,0 +1,90 @@
+// The seat of a person: task cards, words for the radio, and the displays of the seat.
+
+import { Displays } from "./displays.js";
+import { byId, html } from "./dom.js";
+import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
+
+export class Seat {
+  #run;
+  #live;
+  #own = null;
+  #tasks = [];
+  #displays;
+
+  constructor(run, live, clock, cameras) {
+    this.#run = run;
+    this.#live = live;
+    byId("seat").hidden = !run.seats?.length;
+    byId("seat-name").replaceChildren(...(run.seats ?? []).map((name) => html("option", { value: name }, name)));
+    this.#displays = new Displays(run, clock, cameras, (command) => live.send({ fly: command }), (text) => { byId("panel-state").textContent = text; });
+    byId("seat-take").addEventListener("click", () => live.send(this.#own ? { leave: this.#own } : { take: byId("seat-name").value }));
+    byId("say").addEventListener("submit", (event) => { event.preventDefault(); this.#say(); });
+    this.setSeats({});
+  }
+
+  get keys() { return this.#displays.keys; }
+
+  /** Takes in which seats are free, taken or one's own. */
+  setSeats(seats) {
+    this.#own = Object.keys(seats).find((name) => seats[name] === "yours") ?? null;
+    byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
+    byId("seat-name").disabled = Boolean(this.#own);
+    if (this.#own) byId("seat-name").value = this.#own;
+    byId("seat-state").textContent = this.#own ? "Yours." : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
+    byId("say").hidden = !this.#own;
+    this.#displays.setSeat(this.#own);
+    this.#drawTasks();
+  }
+
+  get own() { return this.#own; }
+
+  /** Shows why something was not done. */
+  refuse(text) { byId("seat-state").textContent = text; }
+
+  /** Takes in what only the person at the own seat sees. */
+  take(changes) {
+    const instruments = changes.findLast(([kind]) => kind === "cockpit");
+    if (instruments) {
+      this.#displays.take(instruments[1]);
+      this.#showInstruments(instruments[1]);
+    }
+    const isOpen = (card) => !card.done && !changes.some(([kind, other]) => kind === "task" && other.done && other.line === card.line) && !this.#run.calls.some((call) => call.id === card.line) && !this.#tasks.some((other) => other.line === card.line);
+    const done = changes.filter(([kind, card]) => kind === "task" && card.done).map(([, card]) => card.line);
+    this.#tasks = this.#tasks.filter((card) => !done.includes(card.line));
+    const notices = changes.filter(([kind]) => kind === "notice");
+    if (notices.length) this.refuse(notices.at(-1)[2]);
+    this.#tasks.push(...changes.filter(([kind]) => kind === "task").map(([, card]) => card).filter(isOpen));
+    this.#drawTasks();
+  }
+
+  /** Takes a card away once somebody has made its call. */
+  heard(call) {
+    this.#tasks = this.#tasks.filter((card) => card.line !== call.id);
+    this.#drawTasks();
+  }
+
+  #showInstruments(shown) {
+    const parts = [`${whole(shown.airspeed_kt)} kt`, feet(shown.altitude_ft), `${whole(shown.vertical_speed_fpm)} ft/min`, `heading ${bearing(shown.heading_deg)} ${shown.north}`,
+      known(shown.radio_height_ft) ? `radio height ${feet(shown.radio_height_ft)}` : null, shown.gear === 1 ? "gear down" : shown.gear === 0 ? "gear up" : "gear moving",
+      `flaps ${percent(shown.flaps)}`, words(shown.mode), `selected ${feet(shown.selected_altitude_ft)}, ${whole(shown.selected_airspeed_kt)} kt`];
+    byId("instruments").textContent = parts.filter((part) => part).join(", ");
+    byId("instruments").hidden = false;
+  }
+
+  #drawTasks() {
+    const own = this.#tasks.filter((card) => card.seat === this.#own);
+    byId("tasks").replaceChildren(...own.map((card) => {
+      const button = html("button", { type: "button" }, card.text);
+      button.addEventListener("click", () => { byId("words").value = card.text; byId("words").focus(); });
+      return html("li", {}, html("span", { class: "dim" }, `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `), button);
+    }));
+    if (!this.#own) byId("instruments").hidden = true;
+  }
+
+  #say() {
+    const text = byId("words").value.trim();
+    if (!text) return;
+    this.#live.send({ say: { text } });
+    byId("words").value = "";
+  }
+}

@@ -1,0 +1,89 @@
+// Flight progress strips: one an aircraft or vehicle that the controller expects, in the order that the controller gives them.
+
+import { byId, html } from "./dom.js";
+import { METRE_PER_NM } from "./model.js";
+import { level } from "./plan.js";
+import { whole, words } from "./words.js";
+
+const PERIOD_MS = 500;
+
+export class Strips {
+  #list = byId("strips");
+  #run;
+  #clock;
+  #strips = new Map();
+  #drawn = 0;
+
+  constructor(run, clock) {
+    this.#run = run;
+    this.#clock = clock;
+    this.#list.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  /** Adds strips of those who are new, and shows what is known of all. */
+  draw() {
+    if (performance.now() - this.#drawn < PERIOD_MS) return;
+    this.#drawn = performance.now();
+    const callsigns = this.#callsigns();
+    for (const callsign of callsigns) if (!this.#strips.has(callsign)) this.#add(callsign);
+    for (const [callsign, strip] of this.#strips) if (callsigns.includes(callsign)) this.#fill(callsign, strip); else this.#remove(callsign);
+  }
+
+  #callsigns() {
+    const seen = this.#run.tracks.filter((track) => track.category !== "wildlife").map((track) => track.callsign);
+    return [...new Set([...Object.keys(this.#run.categories ?? {}), ...seen])];
+  }
+
+  #add(callsign) {
+    const note = html("input", { type: "text", class: "strip-note", maxlength: 40, autocomplete: "off", "aria-label": `Note on ${callsign}`, placeholder: "note" });
+    const parts = { type: html("span", { class: "strip-type" }), where: html("span", { class: "strip-where" }), said: html("span", { class: "strip-said" }) };
+    const cock = html("button", { type: "button", "aria-pressed": false, "aria-label": `Cock the strip of ${callsign}`, title: "Cock the strip: something is left to do (X)" }, "\u25b6");
+    cock.addEventListener("click", () => this.#cock(item));
+    const item = html("li", { class: "flight-strip", tabindex: 0, "data-callsign": callsign },
+      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), parts.type), html("span", { class: "strip-middle" }, parts.where, parts.said), note, cock);
+    this.#strips.set(callsign, { item, parts, cock });
+    this.#list.append(item);
+  }
+
+  /** Takes away a strip that was known by an address, because its callsign is known now. */
+  #remove(callsign) {
+    this.#strips.get(callsign).item.remove();
+    this.#strips.delete(callsign);
+  }
+
+  #fill(callsign, { item, parts }) {
+    const track = this.#run.track(callsign), state = track?.state(this.#clock.t, this.#run.span), isThere = state && !state.ended && state.isThere;
+    item.dataset.kind = this.#run.categories?.[callsign] ?? track?.category ?? "";
+    const alert = this.#run.severityOf(callsign, this.#clock.t) ?? "";
+    item.dataset.severity = alert;
+    parts.type.textContent = [words(track?.type || item.dataset.kind), alert].filter((text) => text).join(" ");
+    const knots = isThere ? whole(state.speed * 3600 / METRE_PER_NM) : "";
+    parts.where.textContent = !isThere ? "not seen" : state.onGround ? `ground ${knots} kt` : `${level(state.altitude)}  ${knots} kt`;
+    const call = this.#lastCall(callsign), said = call?.transcripts.at(-1)?.text ?? call?.said ?? "";
+    parts.said.textContent = said;
+    parts.said.title = said;
+  }
+
+  /** The last call of this callsign that the recogniser has understood. */
+  #lastCall(callsign) {
+    return this.#run.calls.findLast((call) => call.from <= this.#clock.t && (call.addressed === callsign || call.speaker === callsign || call.transcripts.some((one) => one.speaker === callsign)));
+  }
+
+  #cock(item) {
+    const is = item.classList.toggle("cocked");
+    this.#strips.get(item.dataset.callsign).cock.setAttribute("aria-pressed", is);
+  }
+
+  #key(event) {
+    const item = event.target;
+    if (!item.classList.contains("flight-strip")) return;
+    const other = { ArrowUp: item.previousElementSibling, ArrowDown: item.nextElementSibling }[event.key];
+    if (event.key === "x") this.#cock(item);
+    else if (event.key === "Enter") item.querySelector(".strip-note").focus();
+    else if (other && event.altKey) { if (event.key === "ArrowUp") other.before(item); else other.after(item); item.focus(); }
+    else if (other) other.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

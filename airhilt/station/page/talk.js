@@ -1,0 +1,73 @@
+// What the person at a seat says, hears, and is warned of.
+
+import { byId } from "./dom.js";
+import { Loudspeaker } from "./loudspeaker.js";
+import { Microphone } from "./microphone.js";
+import { RunPace } from "./run-pace.js";
+import { OwnAdvisories } from "./own-advisories.js";
+
+const ECHO_MS = 2000;
+
+export class Talk {
+  #run;
+  #live;
+  #own = null;
+  #microphone;
+  #loudspeaker = new Loudspeaker();
+  #advisories;
+  #pace;
+  #roundTrip = 0; // s
+
+  constructor(run, live) {
+    this.#run = run;
+    this.#live = live;
+    this.#microphone = new Microphone({
+      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), delay: (event) => this.#delay(event),
+    });
+    this.#advisories = new OwnAdvisories(run, (perceived) => live.send({ perceived: { ...perceived, after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)) } }), (severity, url) => this.#loudspeaker.warn(severity, url));
+    this.#pace = new RunPace(run, (factor) => live.send({ pace: { factor } }));
+    this.#microphone.setInfo(null);
+    byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
+    setInterval(() => { if (this.#own) live.send({ echo: performance.now() }); }, ECHO_MS);
+  }
+
+  /** Takes in one's own seat, null for none. */
+  setSeat(own) {
+    this.#pace.show(Boolean(own));
+    if (own === this.#own) return;
+    this.#own = own;
+    if (own) {
+      this.#loudspeaker.begin();
+      this.#takeActive();
+    } else { this.#microphone.setInfo(null); this.#loudspeaker.end(); this.#advisories.clear(); }
+    this.#live.send({ echo: performance.now() });
+  }
+
+  #takeActive() {
+    for (const row of this.#run.activeAdvisories(this.#run.now ?? 0)) this.#advisories.takeAdvisory(this.#own, row);
+  }
+
+  /** Takes in a message of the server. */
+  take({ own, changes, sounds, echo }) {
+    if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
+    for (const [kind, row] of this.#own ? changes ?? [] : []) {
+      if (kind === "name") this.#takeActive(); // An advisory knew the aircraft by its address alone.
+      if (kind === "advisory") this.#advisories.takeAdvisory(this.#own, row);
+      if (kind === "spoken") this.#advisories.takeSpoken(this.#own, row);
+    }
+    for (const [kind, ...rest] of own ?? []) {
+      if (kind === "info") this.#prepare(rest[0]);
+    }
+    if (sounds && this.#own) this.#loudspeaker.take(sounds, { isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`), isDeaf: this.#microphone.isHeld, isSlow: Number.parseFloat(this.#run.pace) < 1 });
+    if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
+  }
+
+  /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */
+  #prepare(info) {
+    this.#microphone.setInfo(info);
+    if (document.activeElement === byId("seat-take")) byId(info.has_sound ? "talk-button" : "words").focus();
+  }
+
+  /** Time from an event on the page until a message of now is with the server, in s. */
+  #delay(event) { return Math.max(0, (performance.now() - event.timeStamp) / 1000 + this.#roundTrip / 2); }
+}

@@ -1,0 +1,64 @@
+// The calls on the radio: what was said, what was recognised with which confidence, who understood it.
+
+import { byId, html, timeButton } from "./dom.js";
+import { keepInView } from "./rows.js";
+import { capital, decibels, fixed, known, megahertz, percent, seconds, words } from "./words.js";
+
+/** Confidence below which a word is marked: the paper's tau_ASR. */
+const SURE = 0.8;
+
+export class Transcript {
+  #list = byId("calls");
+  #run;
+  #clock;
+  #items = [];
+  #current = "";
+
+  constructor(run, clock) {
+    this.#run = run;
+    this.#clock = clock;
+    this.redraw();
+  }
+
+  /** Makes the rows again, because there are new calls. */
+  redraw() {
+    const several = new Set(this.#run.calls.map((call) => call.frequency_khz)).size > 1;
+    this.#items = this.#run.calls.map((call) => ({ call, item: this.#item(call, several) }));
+    this.#list.replaceChildren(...this.#items.map(({ item }) => item));
+    if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, this.#clock.live ? "Nobody has said anything so far." : "Nobody says anything in this run."));
+    this.#current = "";
+    this.draw();
+  }
+
+  draw() {
+    const { t } = this.#clock, now = this.#items.filter(({ call }) => call.from <= t && t <= call.to), last = this.#items.findLast(({ call }) => call.from <= t);
+    const shown = now.length ? now : last && t - last.call.to < 3 ? [last] : [], names = shown.map(({ call }) => call.id).join(" ");
+    if (names === this.#current) return;
+    this.#current = names;
+    for (const { item } of this.#items) item.removeAttribute("aria-current");
+    for (const { item } of shown) item.setAttribute("aria-current", "true");
+    if (shown.length) keepInView(this.#list, shown.at(-1).item);
+  }
+
+  /** Shows the row of a call and sets the clock to its beginning. */
+  goTo(id) {
+    const found = this.#run.calls.find((call) => call.id === id);
+    if (found) this.#clock.set(found.from);
+  }
+
+  #item(call, several) {
+    const who = call.speaker ?? call.transcripts.find((one) => one.speaker)?.speaker ?? "somebody";
+    const facts = [several ? megahertz(call.frequency_khz) : null, known(call.snr_db) ? decibels(call.snr_db) : null, call.blocked_by.length ? "blocked" : null].filter((fact) => fact);
+    return html("li", {},
+      html("div", { class: "row-head" }, timeButton(this.#clock, call.from, seconds(call.from)), html("span", { class: "who" }, who),
+        call.addressed ? html("span", { class: "dim" }, `to ${call.addressed}`) : null, html("span", { class: "dim" }, facts.join(", "))),
+      known(call.said) ? html("div", {}, call.said || "(carrier without words)") : null,
+      call.transcripts.map((one) => this.#heard(one)),
+      call.hearings.length ? html("div", { class: "row-head" }, call.hearings.map((one) => html("span", { class: `badge ${one.outcome}` }, `${one.who}: ${words(one.outcome)}`))) : null);
+  }
+
+  #heard(one) {
+    const marked = one.words.length ? one.words.flatMap((word, i) => [i ? " " : "", word.confidence < SURE ? html("span", { class: "low", title: `confidence ${fixed(word.confidence, 2)}` }, word.text) : word.text]) : [one.text || "(nothing)"];
+    return html("div", { class: "heard" }, `${capital(one.engine)}, ${percent(one.confidence)}: `, marked);
+  }
+}

@@ -1,0 +1,41 @@
+"""The files of the page."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+MEDIA_TYPES = {
+    "css": "text/css; charset=utf-8",
+    "html": "text/html; charset=utf-8",
+    "js": "text/javascript; charset=utf-8",
+    "svg": "image/svg+xml",
+}
+"""Media type of the files, by the end of their names."""
+SHARED = {
+    "series": ("at", "before"),
+    "words": (
+        "bearing", "capital", "counted", "decibels", "feet", "fixed", "instruction", "known",
+        "megahertz", "metres", "miles", "minus", "percent", "seconds", "whole", "words",
+    ),
+}  # fmt: skip
+"""Functions that the page takes from scripts of a report, by the names of the scripts."""
+
+
+def media_type(name: str) -> str:
+    """Return the media type of a file."""
+    return MEDIA_TYPES[name.rpartition(".")[2]]
+
+
+def page_files() -> dict[str, bytes]:
+    """Return the files of the page by their names."""
+    folder = resources.files(__package__).joinpath("page")
+    files = {
+        path.name: path.read_bytes()
+        for path in folder.iterdir()
+        if path.name.rpartition(".")[2] in MEDIA_TYPES
+    }
+    shared = resources.files("airhilt.report").joinpath("shared")
+    for name, functions in SHARED.items():
+        script = shared.joinpath(f"{name}.js").read_text("utf-8")
+        files[f"{name}.js"] = f"{script}\nexport {{ {', '.join(functions)} }};\n".encode()
+    return files

@@ -1,0 +1,135 @@
+"""``plan.json``: an experiment with people, and the order of the trials of each participant."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError, model_validator
+
+from airhilt.errors import AirhiltError, first_problem
+from airhilt.options import options_of
+from airhilt.scenario import loading
+from airhilt.scenario.seats import seats_of
+
+Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
+SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach")
+"""Options that the experiment itself gives."""
+
+
+class Trial(BaseModel):
+    """One run of a participant, the same for all participants but for its position."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: str
+    scenario: str
+    conditions: dict[str, JsonValue]
+
+
+class Plan(BaseModel):
+    """An experiment: every participant has each scenario in each combination of the conditions.
+
+    The order is that of a balanced Latin square, a row a participant.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    format: Literal[1] = 1
+    participants: tuple[Identifier, ...] = Field(
+        min_length=1, max_length=1000, description="identifiers such as P01, no names of people"
+    )
+    seat: str = Field(description="seat that participants have: tower, a unit, or a callsign")
+    scenarios: tuple[str, ...] = Field(min_length=1, description="names, or JSON files")
+    conditions: dict[str, tuple[JsonValue, ...]] = Field(
+        default_factory=dict,
+        description="values of options, such as assistant, snr_db and visibility_m",
+    )
+    options: dict[str, JsonValue] = Field(
+        default_factory=dict, description="options that all trials have, as airhilt.run takes them"
+    )
+    break_after: int = Field(default=0, ge=0, description="trials between breaks; 0: no break")
+    break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
+    nasa_tlx: bool = Field(default=True, description="ask NASA-TLX after each trial")
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Plan:
+        if len(set(self.participants)) < len(self.participants):
+            raise ValueError("participants: one is there twice")
+        for name, values in self.conditions.items():
+            if not values:
+                raise ValueError(f"conditions/{name}: expected at least one value")
+        for name in (*self.conditions, *self.options):
+            if name in SETTLED:
+                raise ValueError(f"{name}: the experiment gives it; expected another option")
+        return self
+
+    def trials(self) -> list[Trial]:
+        """Return all trials, in the order of the file."""
+        combinations = list(itertools.product(*self.conditions.values()))
+        return [
+            Trial(
+                name=f"{Path(scenario).stem}-{number}",
+                scenario=scenario,
+                conditions=dict(zip(self.conditions, combination, strict=True)),
+            )
+            for scenario in self.scenarios
+            for number, combination in enumerate(combinations, 1)
+        ]
+
+    def order(self, participant: str) -> list[Trial]:
+        """Return the trials of a participant, in their order.
+
+        Raises
+        ------
+        AirhiltError
+            There is no such participant.
+        """
+        if participant not in self.participants:
+            raise AirhiltError(
+                f"participant {participant!r}: not in the plan; expected one of "
+                f"{', '.join(self.participants)}"
+            )
+        trials = self.trials()
+        rows = balanced_latin_square(len(trials))
+        row = rows[self.participants.index(participant) % len(rows)]
+        return [trials[index] for index in row]
+
+    def check(self) -> None:
+        """Complain about a trial that cannot be run.
+
+        Raises
+        ------
+        AirhiltError
+            A scenario, the seat or an option is wrong.
+        """
+        for trial in self.trials():
+            options_of({**self.options, **trial.conditions})
+            seats_of([self.seat], loading.read(loading.find(trial.scenario)))
+
+
+def balanced_latin_square(size: int) -> list[list[int]]:
+    """Return rows of 0 to ``size`` - 1 in which each number follows each other equally often.
+
+    There are ``size`` rows, twice as many if ``size`` is odd (Williams 1949, Aust. J. Chem. 2,
+    149).
+    """
+    first = [0]
+    for step in range(1, size):
+        first.append((step + 1) // 2 if step % 2 else size - step // 2)
+    rows = [[(number + shift) % size for number in first] for shift in range(size)]
+    return rows if size % 2 == 0 else [*rows, *(row[::-1] for row in rows)]
+
+
+def plan_of(document: Any, origin: str) -> Plan:
+    """Return the plan that a JSON document holds; ``origin`` begins an error message.
+
+    Raises
+    ------
+    AirhiltError
+        It is not valid.
+    """
+    try:
+        return Plan.model_validate(document)
+    except ValidationError as error:
+        problem = first_problem(error).replace("Value error, ", "")
+        raise AirhiltError(f"{origin}: {problem}") from None

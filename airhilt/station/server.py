@@ -1,0 +1,83 @@
+"""Runs the server of a station until it is interrupted."""
+
+from __future__ import annotations
+
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+from contextlib import suppress
+
+import uvicorn
+from starlette.types import ASGIApp
+
+from airhilt.station.address import Address
+from airhilt.station.guard import Guard
+
+LARGEST_MESSAGE_BYTES = 1 << 20
+"""Greatest size of a message from a browser, in bytes."""
+MOST_CONNECTIONS = 200
+"""Largest number of connections at a time."""
+PING_S, PATIENCE_S = 2.0, 5.0
+"""Time between two questions if a browser is there, and for which its answer may take, in s."""
+GRACE_S = 2
+"""Time that open connections have to end with the server, in s."""
+
+
+def serve(
+    app: ASGIApp,
+    address: Address,
+    *,
+    opened: Callable[[str], None],
+    notice: Callable[[str], None],
+    browser: bool = True,
+    is_over: Callable[[], bool] | None = None,
+) -> None:
+    """Serve an application to browsers until it is interrupted, or nobody needs it any more.
+
+    Parameters
+    ----------
+    opened
+        Is told the URL, once it can be opened.
+    notice
+        Is told of requests that were refused.
+    browser
+        True opens the URL in the user's browser.
+    is_over
+        Says, once a second, if nobody needs the server any more; None: it is always needed.
+
+    Raises
+    ------
+    StationError
+        The address cannot be listened at.
+    """
+    listening = address.bound()
+    url = address.url(listening.getsockname()[1])
+    config = uvicorn.Config(
+        Guard(app, address, notice),
+        log_level="warning",
+        access_log=False,
+        lifespan="off",
+        server_header=False,
+        ssl_certfile=address.certificate,
+        ssl_keyfile=address.key,
+        limit_concurrency=MOST_CONNECTIONS,
+        timeout_graceful_shutdown=GRACE_S,
+        ws_max_size=LARGEST_MESSAGE_BYTES,
+        ws_ping_interval=PING_S,
+        ws_ping_timeout=PATIENCE_S,
+    )
+    with listening, suppress(KeyboardInterrupt):
+        opened(url)
+        if browser:
+            threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()
+        server = uvicorn.Server(config)
+        if is_over is not None:
+            threading.Thread(target=_end_when, args=(is_over, server), daemon=True).start()
+        server.run(sockets=[listening])
+
+
+def _end_when(is_over: Callable[[], bool], server: uvicorn.Server) -> None:
+    while not is_over():
+        time.sleep(1.0)
+    server.should_exit = True

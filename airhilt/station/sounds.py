@@ -1,0 +1,79 @@
+"""The sounds of a recorded run: one for each frequency, and one of the spoken advisories."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.audio.wav import write_wav
+from airhilt.errors import StationError
+from airhilt.messages import AdvisoryAudio
+from airhilt.record import Run
+from airhilt.record.frequency import read_frequency, splice
+from airhilt.units import SECOND_NS
+
+ASSISTANT = "assistant"
+"""Name of the sound of the spoken advisories."""
+
+
+class Sounds:
+    """Makes each sound of a run when it is asked for, in a folder of its own.
+
+    The run folder is not written to.
+
+    Parameters
+    ----------
+    frequencies_khz
+        Frequencies on which there is sound.
+    spoken
+        Advisories that were spoken.
+    """
+
+    def __init__(
+        self, run: Run, frequencies_khz: Sequence[int], spoken: Sequence[AdvisoryAudio]
+    ) -> None:
+        self._run = run
+        self._frequencies_khz = tuple(frequencies_khz)
+        self._spoken = tuple({(one.id, one.text): one for one in reversed(spoken)}.values())[::-1]
+        self._folder = tempfile.TemporaryDirectory(prefix="airhilt-", ignore_cleanup_errors=True)
+        self._lock = threading.Lock()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the sounds: frequencies in kHz, and `ASSISTANT` if it spoke."""
+        has_voice = any(one.samples for one in self._spoken)
+        return (*map(str, self._frequencies_khz), *((ASSISTANT,) if has_voice else ()))
+
+    def wav(self, name: str) -> Path:
+        """Return the WAV file of a sound, which begins with the run.
+
+        Raises
+        ------
+        AirhiltError
+            There is no such sound, or a file of the run is missing or damaged.
+        """
+        if name not in self.names:
+            expected = ", ".join(self.names) or "none: the run has no sound"
+            raise StationError(f"sound {name!r}: not in this run; expected {expected}")
+        path = Path(self._folder.name) / f"{name}.wav"
+        with self._lock:
+            if not path.is_file():
+                write_wav(path, self._audio(name))
+        return path
+
+    def _audio(self, name: str) -> Audio:
+        if name != ASSISTANT:
+            return read_frequency(self._run, int(name)).audio
+        heard = ((one.t_ns, _end_ns(one), one) for one in self._spoken)
+        return splice(self._run.folder, heard)
+
+    def close(self) -> None:
+        """Delete the files."""
+        self._folder.cleanup()
+
+
+def _end_ns(audio: AdvisoryAudio) -> int:
+    return audio.t_ns + audio.samples * SECOND_NS // SAMPLE_RATE_HZ

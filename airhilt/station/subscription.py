@@ -1,0 +1,285 @@
+"""The subscription of a station to a run: it listens, and can change nothing of the run.
+
+What comes faster than the station can take is dropped and counted, so that the run never waits.
+"""
+
+from __future__ import annotations
+
+import json
+import queue
+import threading
+from base64 import b64encode
+from collections import OrderedDict
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import zenoh
+
+from airhilt.bus.access import Role
+from airhilt.bus.session import connect_client, find_run
+from airhilt.commands import Command
+from airhilt.messages import (
+    ActorCommand,
+    AdvisoryPerceived,
+    MicrophoneAudio,
+    PaceCommand,
+    SpokenWords,
+)
+from airhilt.record import Logged
+from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.station.changes import Changes
+from airhilt.station.pictures import Picture
+
+SUBSCRIBED = (
+    "clock", "briefing", "status/*", "adsb/*", "surface/*", "radio/*/tx", "asr/*", "advisory/*",
+    "equipment/**", "tts/*", "vision/*", "command/*",
+)  # fmt: skip
+"""Keys below the run of what everybody may see."""
+TRUTH = ("truth/**",)
+"""Keys of the truth, for observers alone; of it comes what the run shares."""
+OF_SEATS = ("cockpit/{seat}", "task/{seat}", "seat/{seat}/info", "notice/{seat}")
+"""Keys of what only the person at a seat sees."""
+ASKED = ("briefing", "clock")
+"""Keys that the run answers, for who comes late."""
+ASKED_OF_SEATS = ("seat/{seat}/info",)
+"""Keys that it answers for the person at a seat."""
+STREAMED = "radio/*/audio"
+"""Keys of the sound of transmissions while they last."""
+MOST_WAITING = 20_000
+"""Largest number of messages that wait for the station."""
+MOST_SOUNDS = 60
+"""Largest number of transmissions and spoken advisories whose sound is kept."""
+MOST_PICTURES = 48
+"""Largest number of pictures of a camera that are kept: about three seconds."""
+
+
+class Subscription:
+    """Listens to the run at an endpoint until it is closed.
+
+    Parameters
+    ----------
+    endpoint
+        Endpoint of the run; None: the one of the keys.
+    take
+        Called with each message, on one thread.
+    lost
+        Called on that thread once the run is not there any more.
+    tls
+        Folder with the keys of the observer, or of the operator where there are seats; None: the
+        run asks for none.
+    seats
+        Seats of people, who see nothing of the truth.
+    sounds
+        Gets the sound of the frequencies piece by piece; None: it is not needed.
+
+    Attributes
+    ----------
+    run
+        Name of the run.
+    dropped
+        Number of messages for which there was no room.
+
+    Raises
+    ------
+    BusError
+        No run answers there in time, or the keys are none.
+    """
+
+    def __init__(
+        self,
+        endpoint: str | None,
+        take: Callable[[Logged], None],
+        lost: Callable[[], None],
+        *,
+        patience_s: float = 30.0,
+        tls: Path | None = None,
+        seats: Sequence[str] = (),
+        sounds: Changes | None = None,
+    ) -> None:
+        self.dropped = 0
+        self._streamed = sounds
+        self._take = take
+        self._lost = lost
+        role: Role = "operator" if seats else "observer"
+        self._session = connect_client(endpoint, patience_s, tls, role)
+        self._prefix = find_run(self._session, patience_s)
+        self.run = self._prefix.rpartition("/")[2]
+        self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
+        self._sounds: OrderedDict[str, bytes] = OrderedDict()
+        self._pictures: dict[str, OrderedDict[int, Picture]] = {}
+        self._watched: dict[str, zenoh.Subscriber[None]] = {}
+        self._tokens: dict[str, zenoh.LivelinessToken] = {}
+        """Tokens of the seats that somebody has."""
+        self._watching = threading.Lock()
+        """Held while it is changed which cameras are watched, or which seats are taken."""
+        self._lock = threading.Lock()
+        self._kept: list[Any] = [
+            self._session.declare_subscriber(f"{self._prefix}/{key}", self._hear)
+            for key in _keys(seats)
+        ]
+        if sounds is not None:
+            key = f"{self._prefix}/{STREAMED}"
+            self._kept.append(self._session.declare_subscriber(key, self._stream))
+        self._kept.append(
+            self._session.liveliness().declare_subscriber(
+                f"{self._prefix}/run", self._ended, history=True
+            )
+        )
+        for key in (*ASKED, *_of(seats, ASKED_OF_SEATS)):
+            for reply in self._session.get(f"{self._prefix}/{key}", timeout=2.0):
+                if reply.ok is not None:
+                    self._hear(reply.ok)
+        self._thread = threading.Thread(target=self._work, name="station", daemon=True)
+        self._thread.start()
+
+    def sound(self, name: str) -> bytes | None:
+        """Return the PCM of a transmission or a spoken advisory, None if it is not kept."""
+        with self._lock:
+            return self._sounds.get(name)
+
+    def picture(self, camera: str, seq: int) -> Picture | None:
+        """Return a picture of a camera that is watched, None if it is not kept."""
+        with self._lock:
+            kept = self._pictures.get(camera)
+            return None if kept is None else kept.get(seq)
+
+    def watch(self, cameras: set[str]) -> None:
+        """Let the pictures of these cameras come, and no others: the run draws them for us."""
+        with self._watching:
+            for name in set(self._watched) - cameras:
+                self._watched.pop(name).undeclare()  # type: ignore[no-untyped-call]
+            for name in cameras - set(self._watched):
+                key = f"{self._prefix}/camera/{name}/frame"
+                self._watched[name] = self._session.declare_subscriber(key, self._see)
+        with self._lock:
+            for name in set(self._pictures) - cameras:
+                del self._pictures[name]
+
+    def say(self, seat: str, words: SpokenWords) -> None:
+        """Let a seat speak."""
+        self._session.put(f"{self._prefix}/speech/{key_chunk(seat)}", words.model_dump_json())
+
+    def speak(self, seat: str, audio: MicrophoneAudio) -> None:
+        """Press, feed or release the microphone of a seat."""
+        self._session.put(f"{self._prefix}/microphone/{key_chunk(seat)}", audio.model_dump_json())
+
+    def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
+        """Tell that an advisory has reached the person at a seat."""
+        key = f"{self._prefix}/perceived/{key_chunk(seat)}"
+        self._session.put(key, perceived.model_dump_json())
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Tell that a person has taken a seat, or has left it; so does the end of this process."""
+        chunk = key_chunk(seat)
+        with self._watching:
+            token = self._tokens.pop(chunk, None)
+            if is_taken:
+                key = f"{self._prefix}/seat/{chunk}"
+                self._tokens[chunk] = token or self._session.liveliness().declare_token(key)
+            elif token is not None:
+                token.undeclare()  # type: ignore[no-untyped-call]
+
+    def set_pace(self, pace: PaceCommand) -> None:
+        """Let the time of the run pass more slowly, stand still, or pass again."""
+        self._session.put(f"{self._prefix}/pace", pace.model_dump_json())
+
+    def fly(self, seat: str, command: Command) -> None:
+        """Give a command to the aircraft or vehicle of a seat."""
+        message = ActorCommand(command=command)
+        self._session.put(f"{self._prefix}/command/{key_chunk(seat)}", message.model_dump_json())
+
+    def close(self) -> None:
+        """Leave the run."""
+        self.watch(set())
+        for entity in self._kept:
+            entity.undeclare()
+        self._kept.clear()
+        self._waiting.put(None)
+        self._thread.join()
+        self._session.close()  # type: ignore[no-untyped-call]
+
+    def _hear(self, sample: zenoh.Sample) -> None:
+        """Receive a message on a thread of Zenoh."""
+        key = str(sample.key_expr)[len(self._prefix) + 1 :]
+        data = sample.payload.to_bytes()
+        if sample.attachment is not None:
+            header = sample.attachment.to_bytes()
+            self._keep_sound(key, header, data)
+            data = header
+        self._post(Logged(key, "", 0, data))
+
+    def _post(self, logged: Logged | None) -> None:
+        try:
+            self._waiting.put_nowait(logged)
+        except queue.Full:
+            self.dropped += 1
+
+    def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> None:
+        if not pcm or key.partition("/")[0] not in ("radio", "tts"):
+            return
+        with self._lock:
+            self._sounds[sound_name(json.loads(header))] = pcm
+            while len(self._sounds) > MOST_SOUNDS:
+                self._sounds.popitem(last=False)
+
+    def _stream(self, sample: zenoh.Sample) -> None:
+        """Receive a piece of a transmission, its beginning or its end, on a thread of Zenoh."""
+        if sample.attachment is None or self._streamed is None:
+            return
+        header = json.loads(sample.attachment.to_bytes())
+        about = {name: header[name] for name in ("id", "frequency_khz")}
+        sound = b64encode(sample.payload.to_bytes()).decode()
+        self._streamed.add(header["phase"], about | ({"pcm": sound} if sound else {}))
+
+    def _see(self, sample: zenoh.Sample) -> None:
+        """Receive a picture on a thread of Zenoh."""
+        if sample.attachment is None:
+            return
+        frame = json.loads(sample.attachment.to_bytes())
+        if frame["encoding"] != "rgb8":
+            return
+        view = frame["view"]
+        picture = Picture(view["width_px"], view["height_px"], sample.payload.to_bytes())
+        with self._lock:
+            kept = self._pictures.setdefault(frame["camera"], OrderedDict())
+            kept[frame["seq"]] = picture
+            while len(kept) > MOST_PICTURES:
+                kept.popitem(last=False)
+
+    def _ended(self, sample: zenoh.Sample) -> None:
+        if sample.kind == zenoh.SampleKind.DELETE:
+            self._waiting.put(Logged("", "", 0, b""))
+
+    def _work(self) -> None:
+        while (logged := self._waiting.get()) is not None:
+            if logged.key:
+                self._take(logged._replace(t_ns=_time_ns(logged.data)))
+            else:
+                self._lost()
+
+
+def sound_name(header: Mapping[str, Any]) -> str:
+    """Return the name by which the sound of a transmission or a spoken advisory is asked for."""
+    if "recipient" in header:
+        return f"{header['id']}-{header['revision']}-{header['recipient']}"
+    return str(header["id"])
+
+
+def _keys(seats: Sequence[str]) -> list[str]:
+    """Return the keys of what is shown: no truth where there are seats."""
+    return [*SUBSCRIBED, *(_of(seats, OF_SEATS) if seats else TRUTH)]
+
+
+def _of(seats: Sequence[str], keys: Sequence[str]) -> list[str]:
+    """Return keys for each of some seats."""
+    return [key.format(seat=key_chunk(seat)) for seat in seats for key in keys]
+
+
+def _time_ns(data: bytes) -> int:
+    """Return when a message was published, 0 if it does not say so."""
+    try:
+        t_ns = json.loads(data)["t_ns"]
+    except (ValueError, LookupError, TypeError):
+        return 0
+    return t_ns if isinstance(t_ns, int) else 0

@@ -1,0 +1,36 @@
+"""The fixed sentences of alerts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.findings import LossOfSeparation, Occupied
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.messages import CONTROLLER, Evidence, HoldPosition, Severity
+
+OCCUPIED = Alert(
+    id="01-DAL456",
+    revision=0,
+    kind="runway_conflict",
+    severity=Severity.WARNING,
+    recipients=("DAL456", "AAL123", CONTROLLER),
+    traffic=("AAL123", "DAL456"),
+    evidence=Evidence(sources=("adsb",), runway="01"),
+    finding=Occupied("DAL456", "01"),
+    recommendations={"DAL456": HoldPosition(runway="01")},
+)
+
+
+def test_who_occupies_a_runway_is_told_of_itself_and_others_of_it() -> None:
+    told = {name: Template().message(OCCUPIED, name) for name in OCCUPIED.recipients}
+    assert told["DAL456"] == "DAL456 hold position, you are on runway 01"
+    assert told["AAL123"] == "AAL123 DAL456 is on runway 01"
+    assert told[CONTROLLER] == "DAL456 is on runway 01; DAL456 hold position"
+
+
+def test_separation_that_is_lost_already_is_lost_in_no_time() -> None:
+    finding = LossOfSeparation(("AAL123", "DAL456"), 0.0)
+    alert = replace(OCCUPIED, kind="loss_of_separation", finding=finding, recommendations={})
+    told = Template().message(alert, "AAL123")
+    assert told == "AAL123 traffic DAL456, loss of separation in 0 s"

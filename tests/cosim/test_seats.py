@@ -1,0 +1,173 @@
+"""Seats of people: what they say is said, understood and done, and repeats in a replay."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from airhilt.cosim.replay import replay
+from airhilt.errors import ScenarioError
+from seats import SECOND, calls, contents, logged, message, said, tower
+
+
+def test_the_script_of_a_seat_is_told_to_its_person_and_not_said(tmp_path: Path) -> None:
+    log = logged(tower(), tmp_path / "run", ["tower"])
+    card = contents(log, "task/Washington_Tower")[0]
+    assert card["addressed"] == "AAL123"
+    assert "cleared to land" in card["text"]
+    assert not [call for call in calls(log) if call["speaker"] == "Washington Tower"]
+
+
+def test_what_a_person_says_in_its_place_is_the_line_of_the_script(tmp_path: Path) -> None:
+    own = "American one two three, Washington Tower, wind calm, runway zero one, cleared to land"
+    log = logged(tower(), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, own)])
+    card = contents(log, "task/Washington_Tower")[0]
+    by_tower, by_crew = calls(log)[:2]
+    assert (by_tower["id"], by_tower["text"]) == (card["line"], own)
+    assert by_tower["t_tx_ns"] == 5 * SECOND
+    assert by_crew["speaker"] == "AAL123"
+    assert "cleared to land" in by_crew["text"].lower()
+
+
+def test_a_crew_reads_back_and_does_what_only_a_person_has_told_it(tmp_path: Path) -> None:
+    words = "American one two three, go around, climb and maintain three thousand"
+    log = logged(tower(60.0), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, words)])
+    readback = next(call for call in calls(log) if call["speaker"] == "AAL123")
+    assert readback["in_reply_to"] == "seat.Washington_Tower.1"
+    assert "go" in readback["text"].lower()
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert json.loads(commands[0]["text"])["action"] == "go_around"
+    states = contents(log, "truth/state/AAL123")
+    assert states[-1]["altitude_m"] > states[0]["altitude_m"]
+
+
+def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> None:
+    log = logged(tower(), tmp_path / "run", ["AAL123"])
+    assert [call["speaker"] for call in calls(log)].count("AAL123") == 0
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert not [one for one in commands if one["subject"] == "AAL123"]
+
+
+def test_a_person_flies_by_commands(tmp_path: Path) -> None:
+    command = {"action": "go_around", "climb_to_ft": 3000.0}
+    given = [message("command/AAL123", 5.0, command=command)]
+    log = logged(tower(60.0), tmp_path / "run", ["AAL123"], given)
+    states = contents(log, "truth/state/AAL123")
+    assert states[-1]["altitude_m"] > states[0]["altitude_m"]
+
+
+def test_words_at_a_seat_that_is_not_left_to_a_person_are_refused(tmp_path: Path) -> None:
+    log = logged(tower(10.0), tmp_path / "run", [], [said("Washington_Tower", 5.0, "hello")])
+    refused = [one for one in contents(log, "truth/event") if one["kind"] == "refused"]
+    assert "no seat of this run" in refused[0]["text"]
+
+
+def test_words_on_a_frequency_that_nobody_has_reach_nobody(tmp_path: Path) -> None:
+    given = [message("speech/Washington_Tower", 2.0, text="hello", frequency_khz=136_000)]
+    log = logged(tower(10.0), tmp_path / "run", ["tower"], given, speech=True)
+    (call,) = calls(log)
+    assert (call["frequency_khz"], call["text"]) == (136_000, "hello")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [{"text": ""}, {"text": "x" * 601}, {"words": "hello"}, {"text": "x", "frequency_khz": 5}],
+)
+def test_words_that_are_none_are_refused(tmp_path: Path, content: dict[str, Any]) -> None:
+    given = [message("speech/Washington_Tower", 2.0, **content)]
+    log = logged(tower(5.0), tmp_path / "run", ["tower"], given)
+    refused = [one for one in contents(log, "truth/event") if one["kind"] == "refused"]
+    assert "SpokenWords" in refused[0]["text"]
+
+
+def test_a_run_with_a_person_is_replayed_without_the_person(tmp_path: Path) -> None:
+    words = "American one two three, go around"
+    given = [said("Washington_Tower", 5.0, words), said("nobody", 6.0037, words)]
+    logged(tower(30.0), tmp_path / "run", ["tower"], given, speech=True)
+    verdict = replay(tmp_path / "run")
+    assert verdict.identical, str(verdict)
+
+
+def test_the_script_goes_on_once_the_person_has_left_until_somebody_comes(tmp_path: Path) -> None:
+    given = [
+        message("seat/Washington_Tower", 2.0, is_taken=True),
+        message("seat/Washington_Tower", 8.0, is_taken=False),
+        message("seat/Washington_Tower", 20.0, is_taken=True),
+    ]
+    log = logged(tower(), tmp_path / "run", ["tower"], given)
+    by_tower = [call for call in calls(log) if call["speaker"] == "Washington Tower"]
+    assert [(call["id"], call["t_tx_ns"]) for call in by_tower] == [("landing", 8 * SECOND)]
+    cards = contents(log, "task/Washington_Tower")
+    assert [(card["line"], card["is_done"]) for card in cards] == [
+        ("landing", False), ("landing", True), ("proceed", False),
+    ]  # fmt: skip
+    assert "goes on by itself" in contents(log, "notice/Washington_Tower")[0]["text"]
+
+
+def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -> None:
+    given = [
+        message("seat/AAL123", 2.0, is_taken=True),
+        message("seat/AAL123", 3.0, is_taken=False),
+    ]
+    log = logged(tower(), tmp_path / "run", ["AAL123"], given)
+    assert "AAL123" in [call["speaker"] for call in calls(log)]
+
+
+def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
+    given = [message("pace", t_s, factor=factor) for t_s, factor in ((2.0, 0.0), (2.1, 0.5))]
+    log = logged(tower(5.0), tmp_path / "run", ["tower"], given)
+    events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "pace"]
+    assert events == ["paused", "0.5x"]
+    assert replay(tmp_path / "run").identical
+
+
+def test_nobody_is_on_the_air_in_a_pause(tmp_path: Path) -> None:
+    given = [
+        message("microphone/Washington_Tower", 2.0, phase="pressed"),
+        message("pace", 3.0, factor=0.0),
+        message("microphone/Washington_Tower", 3.1, phase="pressed"),
+        message("pace", 3.2, factor=1.0),
+    ]
+    log = logged(tower(8.0), tmp_path / "run", ["tower"], given, speech=True)
+    (call,) = [one for one in calls(log) if one["is_from_microphone"]]
+    assert call["t_end_ns"] == 3 * SECOND
+    assert "paused" in contents(log, "notice/Washington_Tower")[0]["text"]
+
+
+@pytest.mark.parametrize("content", [{"factor": -1.0}, {"factor": 2.0}, {}])
+def test_a_pace_that_is_none_is_refused(tmp_path: Path, content: dict[str, Any]) -> None:
+    log = logged(tower(3.0), tmp_path / "run", ["tower"], [message("pace", 2.0, **content)])
+    assert "PaceCommand" in next(
+        one["text"] for one in contents(log, "truth/event") if one["kind"] == "refused"
+    )
+
+
+def test_a_run_without_seats_is_not_paused(tmp_path: Path) -> None:
+    log = logged(tower(3.0), tmp_path / "run", [], [message("pace", 2.0, factor=0.0)])
+    assert [one["kind"] for one in contents(log, "truth/event")].count("pace") == 0
+
+
+def test_a_person_is_told_what_the_aircraft_cannot_do_and_what_is_refused(tmp_path: Path) -> None:
+    given = [
+        message("command/AAL123", 2.0, command={"action": "altitude", "altitude_ft": 60_000}),
+        message("command/AAL123", 3.0, command={"action": "dance"}),
+    ]
+    log = logged(tower(5.0), tmp_path / "run", ["AAL123"], given)
+    unable, refused = [one["text"] for one in contents(log, "notice/AAL123")]
+    assert unable.startswith("Unable: ")
+    assert refused.startswith("Refused: ")
+
+
+def test_a_seat_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ScenarioError, match=r"--seat 'UAL9'.*expected tower, or one of .*AAL123"):
+        logged(tower(5.0), tmp_path / "run", ["UAL9"])
+
+
+def test_there_is_no_seat_where_nobody_has_a_radio(tmp_path: Path) -> None:
+    silent = tower(5.0)
+    silent = silent.model_copy(update={"radio": silent.radio.model_copy(update={"lines": ()})})
+    with pytest.raises(ScenarioError, match=r"--seat 'AAL123'.*no radio line.*radio/lines"):
+        logged(silent, tmp_path / "run", ["AAL123"])

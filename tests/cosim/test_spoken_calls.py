@@ -1,0 +1,137 @@
+"""What people at seats speak: on the frequency, recognised, understood, done and recorded."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, to_pcm
+from airhilt.cosim.recorded import UnregisteredMessage
+from airhilt.cosim.replay import replay
+from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.options import Options
+from airhilt.sensors.radio.microphones import LONGEST_CALL_S
+from seats import SECOND, calls, contents, logged, message, spoken, tower, voice
+
+GO_AROUND = "American one two three, go around, climb and maintain three thousand"
+LANDING = "American one two three, runway zero one, cleared to land"
+SEAT = "Washington_Tower"
+
+
+def holding(t_s: float, for_s: float, seat: str = SEAT) -> list[UnregisteredMessage]:
+    """Return the messages of somebody who holds the button and says nothing."""
+    return spoken(seat, t_s, np.zeros(round(for_s * SAMPLE_RATE_HZ), np.float32))
+
+
+def test_a_crew_reads_back_and_does_what_was_recognised_and_it_replays(tmp_path: Path) -> None:
+    said = spoken(SEAT, 5.0, voice(GO_AROUND))
+    log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True)
+    first, readback = calls(log)[:2]
+    assert (first["speaker"], first["text"], first["is_from_microphone"]) == (
+        "Washington Tower", "", True,
+    )  # fmt: skip
+    assert first["t_tx_ns"] == 5 * SECOND
+    assert "go around" in contents(log, "asr/")[0]["text"]
+    assert (readback["speaker"], readback["in_reply_to"]) == ("AAL123", f"seat.{SEAT}.1")
+    done = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert json.loads(done[0]["text"])["action"] == "go_around"
+    verdict = replay(tmp_path / "run")
+    assert verdict.identical, str(verdict)
+
+
+def test_what_is_not_recognised_with_confidence_is_asked_for_again(tmp_path: Path) -> None:
+    said = spoken(SEAT, 5.0, voice(GO_AROUND))
+    log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True, snr_db=0.0)
+    assert contents(log, "truth/hearing/AAL123")[0]["outcome"] == "unsure"
+    assert calls(log)[1]["text"].startswith("Say again")
+    assert not [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+
+
+def test_a_spoken_call_of_the_script_is_done_once_it_is_taken(tmp_path: Path) -> None:
+    said = spoken(SEAT, 3.0, voice(LANDING))
+    log = logged(tower(12.0), tmp_path / "run", ["tower"], said, speech=True)
+    cards = [one for one in contents(log, "task/") if one["line"] == "landing"]
+    assert [one["is_done"] for one in cards] == [False, True]
+    assert calls(log)[1]["id"] == "landing_readback"
+
+
+def test_two_who_press_at_once_block_each_other(tmp_path: Path) -> None:
+    said = [*holding(2.0, 2.0), *holding(2.5, 2.0, "AAL123")]
+    seats = ["tower", "AAL123"]
+    log = logged(tower(8.0), tmp_path / "run", seats, sorted(said, key=lambda one: one.t_ns),
+                 speech=True)  # fmt: skip
+    assert [len(one["blocked_by"]) for one in calls(log)] == [1, 1]
+    assert not contents(log, "truth/hearing/")
+
+
+def test_a_call_that_is_too_long_is_cut_and_its_person_told(tmp_path: Path) -> None:
+    held = holding(1.0, LONGEST_CALL_S + 5.0)
+    log = logged(tower(70.0), tmp_path / "run", ["tower"], held, speech=True)
+    (call,) = [one for one in calls(log) if one["is_from_microphone"]]
+    assert call["t_end_ns"] - call["t_tx_ns"] == LONGEST_CALL_S * SECOND
+    assert [one["text"] for one in contents(log, f"notice/{SEAT}")] == [
+        "Your call was cut after 60 s."
+    ]
+
+
+def test_a_microphone_whose_sound_does_not_come_any_more_is_released(tmp_path: Path) -> None:
+    pressed = [message(f"microphone/{SEAT}", 1.0, phase="pressed")]
+    log = logged(tower(8.0), tmp_path / "run", ["tower"], pressed, speech=True)
+    (call,) = [one for one in calls(log) if one["is_from_microphone"]]
+    assert call["t_end_ns"] == 4 * SECOND
+    assert "no sound came" in contents(log, f"notice/{SEAT}")[0]["text"]
+
+
+def test_in_a_run_without_sound_the_person_is_told_to_type(tmp_path: Path) -> None:
+    log = logged(tower(4.0), tmp_path / "run", ["tower"], holding(1.0, 1.0))
+    assert "Type" in contents(log, f"notice/{SEAT}")[0]["text"]
+    assert not contents(log, f"seat/{SEAT}/info")[0]["has_sound"]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"phase": "samples", "pcm": b64encode(bytes(3)).decode()},
+        {"phase": "samples", "pcm": b64encode(bytes(32_002)).decode()},
+        {"phase": "samples", "pcm": "A"},
+        {"phase": "pressed", "frequency_khz": 5},
+        {"phase": "shouted"},
+    ],
+)
+def test_what_is_no_sound_of_a_microphone_is_refused(
+    tmp_path: Path, content: dict[str, object]
+) -> None:
+    given = [message(f"microphone/{SEAT}", 1.0, **content)]
+    log = logged(tower(2.0), tmp_path / "run", ["tower"], given)
+    refused = [one for one in contents(log, "truth/event") if one["kind"] == "refused"]
+    assert "MicrophoneAudio" in refused[0]["text"]
+
+
+def test_without_recording_of_voices_neither_log_nor_folder_has_them(tmp_path: Path) -> None:
+    said = spoken(SEAT, 2.0, voice("hello"))
+    out = tmp_path / "run"
+    log = logged(tower(6.0), out, ["tower"], said, speech=True, voice_recording=False)
+    pcm = to_pcm(voice("hello"))[6400:9600]
+    assert {one["pcm"] for one in contents(log, "microphone/")} == {""}
+    assert b64encode(pcm) not in b"".join(one.data for one in log)
+    assert not list((out / "audio").glob("microphone*"))
+    assert not contents(log, f"seat/{SEAT}/info")[0]["voice_is_recorded"]
+    with pytest.raises(RunFolderError, match="no-voice-recording"):
+        replay(out)
+
+
+def test_calls_of_people_are_no_stuck_microphones(tmp_path: Path) -> None:
+    logged(tower(3.5), tmp_path / "run", ["tower"], holding(1.0, 2.0), speech=True)
+    radio = json.loads((tmp_path / "run" / "summary.json").read_text())["radio"]
+    assert (radio["transmissions"], radio["stuck_microphone"]) == (1, 0)
+    assert radio["hallucinated"] is None
+
+
+def test_voices_cannot_be_left_out_where_nobody_has_a_seat(tmp_path: Path) -> None:
+    with pytest.raises(AirhiltError, match=r"--no-voice-recording would do nothing without --seat"):
+        logged(tower(2.0), tmp_path / "run", [], voice_recording=False)
+    assert Options().voice_recording

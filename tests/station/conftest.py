@@ -1,0 +1,36 @@
+"""Runs to be looked at."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from airhilt import load, run
+from airhilt.scenario import Scenario
+from shortened import shortened
+
+
+@pytest.fixture(scope="session")
+def spoken_run(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run of 25 s with calls and a warning, all of which can be heard."""
+    out = tmp_path_factory.mktemp("spoken") / "run"
+    short = encounter.model_copy(update={"duration_s": 25.0})
+    return run(short, out=out, latency="fixed", report=False).folder
+
+
+@pytest.fixture
+def brief_file(encounter: Scenario, tmp_path: Path) -> Path:
+    """The first 12 s of the encounter as a file."""
+    path = tmp_path / "brief.json"
+    path.write_text(json.dumps(shortened(encounter.model_dump(mode="json"), 12.0)))
+    return path
+
+
+@pytest.fixture(scope="session")
+def airport_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run of 6 s at an airport, without sound and pictures."""
+    out = tmp_path_factory.mktemp("airport") / "run"
+    short = load("s01b_dropped_hold").model_copy(update={"duration_s": 6.0, "cameras": ()})
+    return run(short, out=out, latency="fixed", assistant="none", speech=False, report=False).folder

@@ -1,0 +1,121 @@
+"""What the page is told of a run folder."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from airhilt.audio.wav import read_wav
+from airhilt.errors import AirhiltError, StationError
+from airhilt.record import open_run
+from airhilt.record.frequency import read_frequency
+from airhilt.station.app import debrief_app
+from airhilt.station.debrief import Debrief
+from camera_run import camera_run
+from stations import asked
+
+
+@pytest.fixture(scope="module")
+def debrief(spoken_run: Path) -> Iterator[Debrief]:
+    debrief = Debrief(open_run(spoken_run))
+    yield debrief
+    debrief.close()
+
+
+@pytest.fixture(scope="module")
+def filmed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Debrief]:
+    with pytest.MonkeyPatch.context() as patch:
+        folder = camera_run(tmp_path_factory.mktemp("filmed") / "run", patch).folder
+    debrief = Debrief(open_run(folder))
+    yield debrief
+    debrief.close()
+
+
+def test_a_call_has_what_was_said_and_what_was_recognised(debrief: Debrief) -> None:
+    call = debrief.document["calls"][0]
+    assert call["speaker"] == "AAL123"
+    assert "flight level" in call["said"]
+    transcript = call["transcripts"][0]
+    assert 0.0 < transcript["confidence"] <= 1.0
+    assert [word["text"] for word in transcript["words"]] == transcript["text"].split()
+
+
+def test_an_advisory_has_all_its_recipients_and_its_evidence(debrief: Debrief) -> None:
+    advisory = debrief.document["advisories"][0]
+    assert {text["recipient"] for text in advisory["texts"]} >= {"ATC", "DAL456"}
+    assert "adsb" in advisory["evidence"]["sources"]
+
+
+def test_a_frequency_sounds_as_listen_writes_it(debrief: Debrief, spoken_run: Path) -> None:
+    khz = next(name for name in debrief.document["sounds"] if name.isdigit())
+    written = read_wav(debrief.sounds.wav(khz))
+    expected = read_frequency(open_run(spoken_run), int(khz)).audio
+    assert len(written) == len(expected)
+    assert abs(written - expected).max() < 1e-4
+
+
+def test_the_voice_of_the_assistant_begins_when_it_did(debrief: Debrief) -> None:
+    voice = read_wav(debrief.sounds.wav("assistant"))
+    begin = round(debrief.document["spoken"][0]["from"] * 16_000)
+    assert not voice[: begin - 16].any()
+    assert voice[begin : begin + 8_000].any()
+
+
+def test_the_run_folder_is_not_changed(spoken_run: Path) -> None:
+    before = {path: path.stat().st_mtime_ns for path in spoken_run.rglob("*")}
+    debrief = Debrief(open_run(spoken_run))
+    for name in debrief.document["sounds"]:
+        debrief.sounds.wav(name)
+    debrief.close()
+    assert {path: path.stat().st_mtime_ns for path in spoken_run.rglob("*")} == before
+
+
+def test_a_sound_that_is_not_there_is_named(debrief: Debrief) -> None:
+    with pytest.raises(StationError, match=r"'\.\./run\.json': not in this run"):
+        debrief.sounds.wav("../run.json")
+
+
+def test_a_picture_has_the_boxes_of_the_detector_and_the_true_ones(filmed: Debrief) -> None:
+    camera = filmed.camera("nose-AAL123")
+    assert camera["t"] == sorted(camera["t"])
+    assert any(found and found["boxes"] for found in camera["found"])
+    assert any(there for there in camera["there"])
+
+
+def test_a_picture_is_drawn_again_by_a_renderer_of_this_machine(filmed: Debrief) -> None:
+    """The one of the run is none that is installed."""
+    camera = filmed.camera("nose-AAL123")
+    jpeg = filmed.picture("nose-AAL123", camera["seq"][5])
+    image = Image.open(io.BytesIO(jpeg))
+    shown = next(one for one in filmed.document["cameras"] if one["name"] == "nose-AAL123")
+    assert image.size == (shown["width_px"], shown["height_px"])
+    colours = image.getcolors(1 << 20)
+    assert colours is not None
+    assert len(colours) > 100
+
+
+def test_a_picture_or_a_camera_that_is_not_there_is_named(filmed: Debrief) -> None:
+    with pytest.raises(AirhiltError, match="no picture 99999"):
+        filmed.picture("nose-AAL123", 99_999)
+    with pytest.raises(AirhiltError, match="expected nose-AAL123"):
+        filmed.camera("roof")
+
+
+def test_the_server_answers_a_mistake_in_words(debrief: Debrief) -> None:
+    answer = asked(debrief_app(debrief), "/api/sounds/nothing.wav")
+    assert answer.status_code == 404
+    assert "expected" in answer.json()["error"]
+
+
+def test_no_file_outside_of_the_page_is_served(debrief: Debrief) -> None:
+    for name in ("..%2Fapp.py", "%2Fetc%2Fpasswd", "app.py"):
+        assert asked(debrief_app(debrief), f"/page/{name}").status_code == 404
+
+
+def test_what_the_page_is_told_is_json(debrief: Debrief) -> None:
+    json.dumps(debrief.document, allow_nan=False)

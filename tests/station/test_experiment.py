@@ -1,0 +1,114 @@
+"""Experiments: the order of trials, what is finished, and the table."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import shutil
+import subprocess
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+from airhilt.errors import AirhiltError, StationError
+from airhilt.station.experiment import Conductor, Progress, write_tables
+from airhilt.station.plan import Plan, balanced_latin_square, plan_of
+from airhilt.station.questionnaires import NasaTlx
+
+Cli = Callable[..., subprocess.CompletedProcess[str]]
+ANSWERS = NasaTlx(
+    mental_demand=50, physical_demand=10, temporal_demand=30, performance=20, effort=40,
+    frustration=0,
+)  # fmt: skip
+
+
+def plan(**given: Any) -> Plan:
+    document = {
+        "participants": ["P01", "P02"],
+        "seat": "AAL123",
+        "scenarios": ["s02a_headon"],
+        "conditions": {"assistant": ["reference", "none"]},
+    }
+    return plan_of(document | given, "plan.json")
+
+
+@pytest.mark.parametrize("size", range(1, 9))
+def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: int) -> None:
+    rows = balanced_latin_square(size)
+    for place in range(size):
+        assert len(set(Counter(row[place] for row in rows).values())) == 1
+    followers = Counter(pair for row in rows for pair in itertools.pairwise(row))
+    assert len(followers) == size * (size - 1)
+    assert len(set(followers.values())) <= 1
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"participants": ["Jane Doe"]}, "participants"),
+        ({"participants": ["P01", "P01"]}, "twice"),
+        ({"conditions": {"seat": ["tower"]}}, "the experiment gives it"),
+        ({"conditions": {"snr_db": [900]}}, "snr_db"),
+        ({"scenarios": ["nowhere"]}, "nowhere"),
+        ({"seat": "nobody"}, "nobody of that name"),
+    ],
+)
+def test_a_plan_that_cannot_be_is_refused_in_words(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(AirhiltError, match=said):
+        plan(**given).check()
+
+
+def test_a_finished_trial_is_not_run_again_and_has_a_row(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    conductor = Conductor(progress)
+    assert conductor.state()["step"] == "ready"
+    first, second = progress.trials
+    stopped = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}") / "run.json"
+    stopped.write_text(json.dumps(json.loads(stopped.read_text()) | {"phase": "stopped"}))
+    assert conductor.state()["step"] == "ready"
+    assert progress.new_run(first) == f"01-{first.name}-2"
+    shutil.copytree(recorded_run, progress.folder / f"01-{first.name}-2")
+    assert conductor.state()["step"] == "questions"
+    with pytest.raises(StationError, match="not time"):
+        conductor.begin()
+    conductor.answer(ANSWERS)
+    assert (progress.is_done(first), progress.is_done(second)) == (True, False)
+    assert Conductor(progress).state()["trial"] == 2
+    with pytest.raises(StationError, match="no question"):
+        conductor.answer(ANSWERS)
+    assert write_tables(experiment, tmp_path) == 1
+    row = pq.read_table(tmp_path / "experiment.parquet").to_pylist()[0]
+    assert row["run"] == f"P01/01-{first.name}-2"
+    assert row["condition.assistant"] == "reference"
+    assert row["nasa_tlx.raw_tlx"] == 25.0
+    assert row["duration_s"] == pytest.approx(8.0)
+    assert (tmp_path / "experiment.csv").read_text().startswith('"participant"')
+
+
+def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
+    progress = Progress(plan(break_after=1), tmp_path, "P01")
+    shutil.copytree(recorded_run, progress.folder / f"01-{progress.trials[0].name}")
+    conductor = Conductor(progress)
+    conductor.answer(ANSWERS)
+    assert conductor.state()["rest_s"] > 100.0
+    with pytest.raises(StationError, match="not time"):
+        conductor.begin()
+
+
+def test_the_command_tells_the_order_of_each_participant(
+    airhilt_command: Cli, tmp_path: Path
+) -> None:
+    path = tmp_path / "plan.json"
+    path.write_text(plan().model_dump_json())
+    done = airhilt_command("experiment", path)
+    assert done.returncode == 0
+    assert "P01: s02a_headon-1, s02a_headon-2" in done.stdout
+    assert "P02: s02a_headon-2, s02a_headon-1" in done.stdout
+    assert (tmp_path / "experiments" / "plan" / "experiment.csv").is_file()

@@ -1,0 +1,247 @@
+"""The page of a run that goes on, with all of it in processes of their own."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
+
+from airhilt.cosim.replay import replay
+from airhilt.record import open_run
+from devtools import Page
+from stations import running
+
+PATIENCE_S = 90.0
+
+
+def page_process(run: subprocess.Popen[str]) -> psutil.Process:
+    children = psutil.Process(run.pid).children(recursive=True)
+    return next(child for child in children if "view" in child.cmdline())
+
+
+def listening(url: str, origin: str | None = None) -> ClientConnection:
+    given = None if origin is None else Origin(origin)
+    place = url.replace("http", "ws") + "api/live"
+    opened = connect(place, open_timeout=PATIENCE_S, origin=given, proxy=None)
+    assert isinstance(opened, ClientConnection)
+    return opened
+
+
+def how_closed(socket: ClientConnection) -> int:
+    """Return the code with which the server closes, and check that it says why."""
+    try:
+        for _ in socket:
+            pass
+    except ConnectionClosed:
+        pass
+    assert socket.close_reason
+    return socket.close_code or 0
+
+
+def states(socket: ClientConnection, most: int = 40) -> set[str]:
+    """Return the names of the actors in the next messages that have any."""
+    for _ in range(most):
+        changes = json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ())
+        if names := {change[1] for change in changes if change[0] == "state"}:
+            return names
+    return set()
+
+
+def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Path) -> None:
+    with running(brief_file, tmp_path / "run") as (process, url):
+        with listening(url) as socket:
+            assert states(socket)
+        page_process(process).kill()
+        assert process.stderr is not None
+        process.stderr.read()
+        assert process.wait(timeout=PATIENCE_S) == 0
+    run = open_run(tmp_path / "run")
+    assert run.info.phase == "finished"
+    assert not run.info.unregistered_programs
+    assert not any(
+        logged.key == "truth/event" and b"unregistered" in logged.data for logged in run.messages()
+    )
+
+
+def test_strangers_and_garbage_are_refused_and_the_page_stays(
+    encounter_file: Path, tmp_path: Path
+) -> None:
+    with running(encounter_file, tmp_path / "run") as (_, url):
+        with pytest.raises(InvalidStatus, match="403"):
+            listening(url, origin="http://evil.example")
+        for garbage in ("", "{", '{"watch": "../*"}', '{"command": 1}', "[" * 100_000):
+            with listening(url) as socket:
+                socket.send(garbage)
+                assert how_closed(socket) == 1008
+        with listening(url) as socket:
+            assert states(socket)
+
+
+@pytest.mark.browser
+def test_the_page_follows_the_run_until_somebody_goes_back(
+    page: Page, encounter_file: Path, tmp_path: Path
+) -> None:
+    with running(encounter_file, tmp_path / "run", "--share-truth") as (_, url):
+        page.open(url)
+        page.wait_for("document.querySelectorAll('#traffic tbody tr').length === 2")
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        page.wait_for("Number(document.getElementById('slider').value) > 3")
+        assert (
+            page.evaluate("document.getElementById('live').getAttribute('aria-pressed')") == "true"
+        )
+        page.press("Home", 36)
+        assert page.evaluate("document.getElementById('slider').value") == "0"
+        assert (
+            page.evaluate("document.getElementById('live').getAttribute('aria-pressed')") == "false"
+        )
+        page.evaluate("document.getElementById('live').click()")
+        page.wait_for(
+            "document.getElementById('slider').value === document.getElementById('slider').max"
+        )
+        page.open("about:blank")
+
+
+def answer(socket: ClientConnection, kind: str) -> Any:
+    """Return the next message of a kind."""
+    while True:
+        message = json.loads(socket.recv(timeout=PATIENCE_S))
+        if kind in message:
+            return message[kind]
+
+
+def send(socket: ClientConnection, **wish: Any) -> None:
+    socket.send(json.dumps(wish))
+
+
+def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    with running(brief_file, out, "--seat", "AAL123", "--share-truth") as (process, url):
+        with listening(url) as own, listening(url) as other:
+            send(own, say={"text": "hello"})
+            assert "Take one first" in answer(own, "refused")
+            send(own, take="AAL123")
+            while answer(own, "seats")["AAL123"] != "yours":
+                pass
+            assert answer(own, "own")[0][0] in ("info", "task", "cockpit")
+            send(other, take="AAL123")
+            assert "Somebody has the seat" in answer(other, "refused")
+            send(other, fly={"action": "turn", "degrees": 30})
+            assert "Take one first" in answer(other, "refused")
+            send(own, say={"text": "Washington Center, American one two three, hello"})
+            send(own, fly={"action": "altitude", "altitude_ft": 34000})
+        page_process(process).kill()
+        assert process.stderr is not None
+        process.stderr.read()
+        assert process.wait(timeout=PATIENCE_S) == 0
+    messages = list(open_run(out).messages())
+    keys = [logged.key for logged in messages]
+    assert keys.count("speech/AAL123") == keys.count("command/AAL123") == 1
+    said = [json.loads(one.data) for one in messages if one.key.startswith("truth/radio/seat.")]
+    assert said[0]["text"] == "Washington Center, American one two three, hello"
+    assert replay(out).identical
+
+
+def test_who_may_take_a_seat_sees_nothing_of_the_truth(
+    encounter_file: Path, tmp_path: Path
+) -> None:
+    options = ("--seat", "tower", "--share-truth")
+    with running(encounter_file, tmp_path / "run", *options) as (_, url), listening(url) as socket:
+        seen: set[str] = set()
+        for _ in range(30):
+            for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
+                seen.add(kind)
+                if kind == "state":
+                    assert rest[-1] == ""  # The phase is known to nobody else.
+                if kind == "call":
+                    assert rest[0]["said"] is None
+        assert "state" in seen
+
+
+@pytest.mark.browser
+def test_a_person_takes_a_seat_and_says_what_the_script_has(
+    page: Page, encounter_file: Path, tmp_path: Path
+) -> None:
+    with running(encounter_file, tmp_path / "run", "--seat", "AAL123") as (_, url):
+        page.open(url, width=1280, height=720)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        page.click("seat-take")
+        page.wait_for("document.querySelector('#tasks button')")
+        page.wait_for("document.getElementById('instruments').textContent.includes('gear up')")
+        assert page.evaluate(
+            "document.getElementById('say-button').getBoundingClientRect().bottom < innerHeight"
+        )
+        names = "[...document.querySelectorAll('#traffic tbody th')].map((one) => one.textContent)"
+        page.wait_for(f"{names}.sort().join() === 'AAL123,DAL456'")
+        words = page.evaluate("document.querySelector('#tasks button').textContent")
+        page.evaluate("document.querySelector('#tasks button').click()")
+        assert page.evaluate("document.getElementById('words').value") == words
+        page.evaluate("document.getElementById('say-button').click()")
+        page.wait_for("document.querySelector('#calls button')")
+        page.wait_for("!document.querySelector('#tasks button')")
+        page.open("about:blank")
+
+
+def seated(page: Page, url: str, seat: str) -> None:
+    """Open the page of a run and take its only seat."""
+    page.open(url, width=1280, height=720)
+    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    page.click("seat-take")
+    page.wait_for(f"document.body.dataset.seat === '{seat}'")
+
+
+def is_seen(page: Page, name: str) -> bool:
+    seen: bool = page.evaluate(f"document.getElementById('{name}').getClientRects().length > 0")
+    return seen
+
+
+@pytest.mark.browser
+def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
+    page: Page, encounter_file: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "run"
+    with running(encounter_file, out, "--seat", "AAL123") as (_, url):
+        seated(page, url, "pilot")
+        assert is_seen(page, "pfd")
+        assert not is_seen(page, "plan")
+        page.wait_for("document.getElementById('nd').ariaLabel.includes('DAL456')")
+        page.wait_for("!document.getElementById('own-advisories').hidden")
+        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
+        page.evaluate("document.activeElement.blur()")
+        page.press("a", 65)
+        page.evaluate("document.activeElement.value = 'high'")
+        page.evaluate("document.activeElement.form.requestSubmit()")
+        said = "document.getElementById('panel-state').textContent"
+        assert "expected 0 to 60000 ft" in page.evaluate(said)
+        page.evaluate("document.activeElement.value = '36000'")
+        page.evaluate("document.activeElement.form.requestSubmit()")
+        assert page.evaluate(said) == "Set: altitude 36000 ft."
+        page.wait_for("document.getElementById('instruments').textContent.includes('36,000 ft')")
+        page.open("about:blank")
+    commands = [one.data for one in open_run(out).messages() if one.key.startswith("command/")]
+    assert json.loads(commands[0])["command"]["altitude_ft"] == 36000
+
+
+@pytest.mark.browser
+def test_a_controller_orders_strips_by_keys(
+    page: Page, encounter_file: Path, tmp_path: Path
+) -> None:
+    names = "[...document.querySelectorAll('.flight-strip')].map((one) => one.dataset.callsign)"
+    with running(encounter_file, tmp_path / "run", "--seat", "tower") as (_, url):
+        seated(page, url, "controller")
+        assert is_seen(page, "plan")
+        assert not is_seen(page, "pfd")
+        page.wait_for(f"{names}.join() === 'AAL123,DAL456'")
+        page.evaluate("document.querySelector('.flight-strip').focus()")
+        moved = "new KeyboardEvent('keydown', {key: 'ArrowDown', altKey: true, bubbles: true})"
+        page.evaluate(f"document.activeElement.dispatchEvent({moved})")
+        assert page.evaluate(f"{names}.join()") == "DAL456,AAL123"
+        page.press("x", 88)
+        assert page.evaluate("document.querySelector('.cocked').dataset.callsign") == "AAL123"
+        page.open("about:blank")

@@ -1,0 +1,165 @@
+"""What a station makes of the messages of a run that goes on."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from airhilt.messages import (
+    ActorTruth,
+    AdsbReport,
+    Briefing,
+    Clock,
+    Message,
+    RosterEntry,
+    SpokenTruth,
+    TaskCard,
+    Transcript,
+    Transmission,
+)
+from airhilt.record import Logged
+from airhilt.station.changes import Changes
+from airhilt.station.live import LiveRun
+
+SECOND = 1_000_000_000
+REPORT = AdsbReport(
+    icao24="a1b2c3", callsign="AAL123", latitude_deg=38.85, longitude_deg=-77.04,
+    altitude_ft=2_000.0, ground_speed_kt=140.0, track_deg=90.0, vertical_rate_fpm=0.0, nacp=9,
+    nacv=2, receiver="tower", t_adsb_in_ns=SECOND, t_adsb_out_ns=SECOND, t_ns=SECOND,
+)  # fmt: skip
+TRUTH = ActorTruth(
+    actor="AAL123", category="aircraft", phase="glide", on_ground=False, latitude_deg=38.85,
+    longitude_deg=-77.04, altitude_m=700.0, height_agl_m=690.0, velocity_north_m_s=0.0,
+    velocity_east_m_s=70.0, velocity_down_m_s=3.0, heading_deg=91.0, t_ns=2 * SECOND,
+)  # fmt: skip
+
+
+class Followed:
+    """A run whose changes are looked at."""
+
+    def __init__(self) -> None:
+        self._changes = Changes()
+        self.run = LiveRun(self._changes)
+
+    def hear(self, key: str, message: Message | bytes) -> None:
+        if isinstance(message, bytes):
+            self.run.take(Logged(key, "", 0, message))
+        else:
+            data = message.model_dump_json().encode()
+            self.run.take(Logged(key, "", message.t_ns, data))
+
+    def changes(self, kind: str) -> list[list[Any]]:
+        batch = self._changes.since(0)
+        found = [] if batch is None else json.loads(batch.changes)
+        return [change[1:] for change in found if change[0] == kind]
+
+
+def test_without_the_truth_the_traffic_is_that_of_adsb() -> None:
+    followed = Followed()
+    entry = RosterEntry(callsign="AAL123", category="aircraft", type="B737")
+    followed.hear(
+        "briefing",
+        Briefing(
+            controller="TOWER",
+            horizontal_separation_nm=3.0,
+            vertical_separation_ft=1_000.0,
+            roster=(entry,),
+        ),
+    )
+    followed.hear("adsb/a1b2c3", REPORT)
+    name, category, kind, t, *_, altitude_ft, velocity, _, _, _ = followed.changes("state")[0]
+    assert (name, category, kind, t, altitude_ft) == ("AAL123", "aircraft", "B737", 1.0, 2_000)
+    assert velocity == [72.0, 0.0]
+
+
+def test_an_actor_gets_its_callsign_once_adsb_tells_it() -> None:
+    followed = Followed()
+    for callsign in (None, "AAL123", "AAL123"):
+        followed.hear("adsb/a1b2c3", REPORT.model_copy(update={"callsign": callsign}))
+    assert [state[0] for state in followed.changes("state")] == ["a1b2c3", "AAL123", "AAL123"]
+    assert followed.changes("name") == [["a1b2c3", "AAL123"]]
+
+
+def test_where_the_truth_is_shared_it_takes_the_place_of_adsb() -> None:
+    followed = Followed()
+    followed.hear("truth/state/AAL123", TRUTH)
+    followed.hear("adsb/a1b2c3", REPORT)
+    assert [state[3] for state in followed.changes("state")] == [2.0]
+
+
+def test_a_call_without_the_truth_is_what_was_recognised() -> None:
+    followed = Followed()
+    times = {"t_tx_ns": SECOND, "t_end_ns": 2 * SECOND}
+    followed.hear("radio/119100/tx", Transmission(id="one", frequency_khz=119_100, **times))
+    heard = Transcript(
+        id="one", frequency_khz=119_100, text="hello", confidence=0.7, engine="ctc", **times
+    )
+    followed.hear("asr/119100", heard)
+    assert followed.changes("call")[-1][0]["said"] is None
+    said = SpokenTruth(
+        id="one", speaker="AAL123", addressed=None, frequency_khz=119_100, text="Hello.", **times
+    )
+    followed.hear("truth/radio/one", said)
+    row = followed.changes("call")[-1][0]
+    assert (row["said"], row["transcripts"][0]["text"]) == ("Hello.", "hello")
+
+
+def test_garbage_changes_nothing() -> None:
+    followed = Followed()
+    for key in ("adsb/a1b2c3", "advisory/ATC", "vision/one", "truth/state/AAL123", "asr/119100"):
+        for garbage in (b"", b"[]", b"{}", b"\xff\xfe", b'{"t_ns": "x"}', b"null"):
+            followed.hear(key, garbage)
+    assert followed.changes("state") == []
+
+
+def test_the_end_of_a_run_is_known() -> None:
+    followed = Followed()
+    assert not followed.run.is_over
+    followed.hear("clock", Clock(run="one", phase="finished", pace="virtual", t_ns=SECOND))
+    assert followed.run.is_over
+    followed.run.lost()
+    assert followed.changes("clock") == [[1.0, "finished", "virtual"]]
+
+
+def test_a_run_that_vanishes_is_told() -> None:
+    followed = Followed()
+    followed.run.lost()
+    assert followed.changes("clock") == [[None, "gone", ""]]
+
+
+def test_a_browser_gets_each_change_once_and_a_late_one_all_of_them() -> None:
+    changes = Changes()
+    for number in range(3):
+        changes.add("event", number)
+    first = changes.since(0)
+    assert first is not None
+    assert json.loads(first.changes) == [["event", 0], ["event", 1], ["event", 2]]
+    assert changes.since(first.next_number) is None
+    changes.add("event", 3)
+    second = changes.since(first.next_number)
+    assert second is not None
+    assert (json.loads(second.changes), second.next_number) == ([["event", 3]], 4)
+
+
+def test_the_oldest_changes_are_forgotten() -> None:
+    changes = Changes(most=100)
+    for number in range(1_000):
+        changes.add("event", number)
+    batch = changes.since(0)
+    assert batch is not None
+    numbers = [change[1] for change in json.loads(batch.changes)]
+    assert 100 <= len(numbers) <= 110
+    assert numbers[-1] == 999
+    assert batch.next_number == 1_000
+
+
+def test_task_cards_and_instruments_are_for_the_person_at_the_seat_alone() -> None:
+    changes, own, other = Changes(), Changes(), Changes()
+    run = LiveRun(changes, {"TOWER": own, "AAL123": other})
+    card = TaskCard(line="one", seat="TOWER", addressed=None, frequency_khz=119_100, text="Hello.")
+    run.take(Logged("task/TOWER", "", 0, card.model_dump_json().encode()))
+    assert changes.since(0) is None
+    assert other.since(0) is None
+    batch = own.since(0)
+    assert batch is not None
+    assert json.loads(batch.changes)[0][1]["text"] == "Hello."

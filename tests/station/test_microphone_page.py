@@ -1,0 +1,172 @@
+"""The microphone of a seat, in a real browser whose microphone plays a file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
+from airhilt.messages import SpokenWords
+from airhilt.station import browsers
+from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
+from microphone import (
+    microphone_file,
+    open_microphone,
+    page_with_microphone,
+    playing,
+    sit_down,
+    talk,
+)
+from seats import voice
+from stations import PATIENCE_S, PretendedRun, seat_page
+
+STATE = "document.getElementById('talk-state').textContent"
+ADVISORY = {
+    "t": 1.0, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
+    "kind": "runway_conflict", "traffic": ["AAL123"],
+    "texts": [{"recipient": "ATC", "message": "Runway occupied.", "recommendation": None}],
+    "evidence": {
+        "sources": ["adsb"], "shares": {"adsb": 0.8}, "note": "", "rules": [], "runway": "01",
+        "time_to_go_s": 7.0, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
+        "tracks": [], "inconsistencies": [],
+    },
+}  # fmt: skip
+SPOKEN = {
+    "id": "a-1", "revision": 1, "recipient": "ATC", "from": 1.0, "to": 2.0, "text": "",
+    "sound": "a-1-1-ATC",
+}  # fmt: skip
+WORDS = "American one two three, cleared to land"
+
+
+@pytest.fixture(scope="module")
+def served() -> Iterator[tuple[PretendedRun, str]]:
+    with seat_page() as served:
+        yield served
+
+
+@pytest.fixture
+def seat(
+    served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
+) -> Iterator[tuple[PretendedRun, str]]:
+    """The page of a seat, which is free again when the next test begins."""
+    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    yield served
+    presence, is_taken = served[0].presence, False
+    while is_taken or not presence.empty():
+        _, is_taken = presence.get(timeout=PATIENCE_S)
+
+
+@pytest.mark.browser
+def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
+    seat: tuple[PretendedRun, str], tmp_path: Path
+) -> None:
+    run, url = seat
+    file = microphone_file(tmp_path / "said.wav", WORDS)
+    with page_with_microphone(*playing(file)) as page:
+        sit_down(page, url)
+        assert page.evaluate("document.activeElement.id") == "talk-button"
+        open_microphone(page)
+        talk(page)
+        pressed, pcm = run.call()
+    assert 0.0 <= pressed.delay_s < 60.0
+    said, expected = from_pcm(pcm), voice(WORDS)
+    assert len(said) > len(expected) - SAMPLE_RATE_HZ // 5
+    loud = [np.sqrt(np.mean(sound[np.abs(sound) > 0.02] ** 2)) for sound in (said, expected)]
+    assert loud[0] == pytest.approx(loud[1], rel=0.3)
+
+
+@pytest.mark.browser
+def test_an_advisory_to_the_seat_is_shown_sounded_and_reported_to_the_run(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    run.changes.add("briefing", "TOWER", None, {})
+    with page_with_microphone() as page:
+        sit_down(page, url)
+        run.changes.add("advisory", ADVISORY)
+        assert run.next().way == "seen"
+        shown = page.evaluate("document.getElementById('own-advisories').innerText")
+        assert "WARNING" in shown
+        assert "Runway occupied." in shown
+        assert "rests on adsb 80" in shown
+        run.changes.add("spoken", {**SPOKEN, "recipient": "AAL123"})
+        run.changes.add("spoken", SPOKEN)
+        heard = run.next()
+    assert (heard.way, heard.id, heard.revision, heard.recipient) == ("heard", "a-1", 1, "ATC")
+
+
+@pytest.mark.browser
+def test_who_is_denied_the_microphone_is_told_and_can_type(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    with page_with_microphone("--deny-permission-prompts") as page:
+        sit_down(page, url)
+        open_microphone(page)
+        assert "Type what you want to say" in page.evaluate(STATE)
+        page.evaluate("document.getElementById('words').value = 'hello'")
+        page.click("say-button")
+    assert run.next() == SpokenWords(text="hello")
+
+
+@contextmanager
+def sitting(url: str) -> Iterator[ClientConnection]:
+    with connect(url.replace("http", "ws") + "api/live", proxy=None) as socket:
+        socket.send(json.dumps({"take": "TOWER"}))
+        yield socket
+
+
+def told(socket: ClientConnection, kind: str) -> str:
+    """Return the next message of a kind."""
+    while kind not in (message := json.loads(socket.recv(timeout=60.0))):
+        pass
+    return str(message[kind])
+
+
+def test_more_sound_than_anybody_can_speak_is_cut_and_told(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    with sitting(url) as socket:
+        socket.send(json.dumps({"press": {}}))
+        for _ in range(200):
+            socket.send(bytes(LARGEST_PIECE_BYTES))
+        assert "more sound came" in told(socket, "refused")
+        _, pcm = run.call()
+    assert len(pcm) < 100 * LARGEST_PIECE_BYTES
+
+
+@pytest.mark.parametrize("sound", [b"", b"\0", bytes(LARGEST_PIECE_BYTES + 2)])
+def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], sound: bytes) -> None:
+    with sitting(seat[1]) as socket:
+        socket.send(sound)
+        with suppress(ConnectionClosed):
+            while socket.recv(timeout=60.0):
+                pass
+        assert "expected" in (socket.close_reason or "")
+
+
+def test_who_leaves_the_page_while_talking_is_released(seat: tuple[PretendedRun, str]) -> None:
+    run, url = seat
+    with sitting(url) as socket:
+        socket.send(json.dumps({"press": {"frequency_khz": 119_100}}))
+        socket.send(bytes(3200))
+        assert run.next().phase == "pressed"
+    assert [run.next().phase, run.next().phase] == ["samples", "released"]
+
+
+def test_sound_may_come_as_fast_as_it_is_spoken_and_a_little_faster() -> None:
+    now_s = 0.0
+    button = HeldButton(lambda: now_s)
+    second = bytes(2 * SAMPLE_RATE_HZ)
+    assert all(button.admits(second) for _ in range(int(AHEAD_S)))
+    assert not button.admits(second)
+    now_s = 10.0
+    assert button.admits(second)

@@ -1,0 +1,170 @@
+"""People at seats, in real browsers with a microphone that plays a file, in runs of their own.
+
+They take minutes: ``pytest -m slow tests/station/test_people_in_the_loop.py``.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+
+from airhilt.cosim.replay import replay
+from airhilt.library import find
+from airhilt.record import open_run
+from devtools import Page
+from microphone import (
+    BUTTON,
+    microphone_file,
+    open_microphone,
+    page_with_microphone,
+    playing,
+    sit_down,
+    talk,
+)
+
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
+PATIENCE_S = 300.0
+GO_AROUND = "American one two three, go around, climb and maintain three thousand"
+A_SECOND = "new Promise((done) => setTimeout(done, 1000))"
+"""Time that the person in the tests takes to think."""
+CALLS = "document.getElementById('calls').textContent"
+
+
+@contextmanager
+def running(out: Path, scenario: str, duration_s: float, *options: str) -> Iterator[str]:
+    """Start a run with sound and a page, yield the URL, and wait for the end of the run."""
+    file = out.with_suffix(".json")
+    content = json.loads(find("scenarios", scenario).read_text()) | {"duration_s": duration_s}
+    file.write_text(json.dumps(content))
+    command = [sys.executable, "-m", "airhilt", "cosim", "--scenario", str(file), "--no-cameras"]
+    command += ["--no-browser", "--port", "0", "--latency", "fixed", "--out", str(out), *options]
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
+    )
+    assert process.stderr is not None
+    with process.stderr:
+        try:
+            line = next(line for line in process.stderr if line.startswith("http"))
+            yield line.split()[0]
+            end_page(process)
+            process.stderr.read()
+            assert process.wait(timeout=PATIENCE_S) == 0
+        finally:
+            if process.poll() is None:
+                end_page(process)
+                process.send_signal(signal.SIGINT)
+                process.stderr.read()
+                process.wait(timeout=PATIENCE_S)
+
+
+def end_page(run: subprocess.Popen[str]) -> None:
+    """End the server of the page, which waits for browsers, and let the run go on."""
+    for child in psutil.Process(run.pid).children(recursive=True):
+        if "view" in child.cmdline():
+            child.kill()
+
+
+def contents(out: Path, key: str) -> list[dict[str, Any]]:
+    return [json.loads(one.data) for one in open_run(out).messages() if one.key.startswith(key)]
+
+
+def test_a_spoken_clearance_is_recognised_read_back_and_flown(tmp_path: Path) -> None:
+    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
+    options = ("--seat", "tower", "--assistant", "none")
+    with (
+        running(out, "s01b_nominal", 60.0, *options) as url,
+        page_with_microphone(*playing(file)) as page,
+    ):
+        sit_down(page, url)
+        open_microphone(page)
+        talk(page)
+        page.wait_for(f"{CALLS}.includes('go around')")
+        page.wait_for("document.querySelectorAll('#calls > li').length >= 2")
+        page.wait_for("document.getElementById('state').textContent === 'finished'")
+    heard, readback = contents(out, "asr/")[:2]
+    assert "go around climb and maintain three thousand" in heard["text"]
+    assert readback["id"].endswith(".readback")
+    commands = [one for one in contents(out, "truth/event") if one["kind"] == "command"]
+    assert json.loads(commands[0]["text"])["action"] == "go_around"
+    heights_m = [state["altitude_m"] for state in contents(out, "truth/state/AAL123")]
+    assert heights_m[-1] > min(heights_m) + 50.0
+    assert replay(out).identical
+
+
+def test_what_is_spoken_in_noise_is_asked_for_again(tmp_path: Path) -> None:
+    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
+    options = ("--seat", "tower", "--assistant", "none", "--snr", "0")
+    with (
+        running(out, "s01b_nominal", 45.0, *options) as url,
+        page_with_microphone(*playing(file)) as page,
+    ):
+        sit_down(page, url)
+        open_microphone(page)
+        talk(page)
+        page.wait_for("document.querySelectorAll('#calls > li').length >= 2")
+    answer = contents(out, "truth/radio/seat.")[0]
+    assert answer["text"].startswith("Say again")
+
+
+def test_two_people_who_talk_at_once_are_both_blocked(tmp_path: Path) -> None:
+    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
+    options = ("--seat", "tower", "--seat", "AAL123", "--assistant", "none")
+    with (
+        running(out, "s01b_nominal", 60.0, *options) as url,
+        page_with_microphone(*playing(file)) as tower,
+        page_with_microphone(*playing(file)) as pilot,
+    ):
+        sit_down(tower, url)
+        pilot.open(url)
+        pilot.wait_for("document.getElementById('seat-state').textContent.includes('taken')")
+        pilot.evaluate("document.getElementById('seat-name').value = 'AAL123'")
+        pilot.click("seat-take")
+        pilot.wait_for("!document.getElementById('talk').hidden")
+        for page in (tower, pilot):
+            open_microphone(page)
+        hold(tower)
+        hold(pilot)
+        pilot.wait_for("document.querySelector('.lamp').textContent.includes('busy')")
+        for page in (tower, pilot):
+            page.key("keyUp", " ", 32)
+        tower.wait_for("document.querySelectorAll('#calls > li').length >= 2")
+    calls = [one for one in contents(out, "truth/radio/") if one["is_from_microphone"]]
+    assert {one["speaker"] for one in calls} == {"Washington Tower", "AAL123"}
+    assert all(one["blocked_by"] for one in calls)
+    assert replay(out).identical
+
+
+def hold(page: Page) -> None:
+    page.key("keyDown", " ", 32)
+    page.wait_for(f"{BUTTON} === 'On the air'")
+
+
+def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    with (
+        running(out, "s01b_noncompliance", 110.0, "--seat", "AAL123") as url,
+        page_with_microphone() as page,
+    ):
+        sit_down(page, url)
+        page.wait_for("document.getElementById('own-advisories').textContent.includes('WARNING')")
+        page.evaluate(A_SECOND)
+        page.click("panel-go-around")
+        page.wait_for("document.getElementById('state').textContent === 'finished'")
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["avoided"]
+    (person,) = summary["people"]
+    warned = [one for one in person["reactions"] if one["advised"] == "go_around"]
+    assert warned[0]["followed"]
+    assert warned[0]["first_action"] == "go_around"
+    assert warned[0]["t_heard_s"] > warned[0]["t_advisory_s"]
+    assert 0.0 < warned[0]["reaction_time_s"] < 30.0
+    assert replay(out).identical

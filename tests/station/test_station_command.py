@@ -1,0 +1,126 @@
+"""`airhilt station`: everything is chosen on its page, and its runs need it no more."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from airhilt.record import open_run
+from airhilt.scenario import Scenario
+from devtools import Page
+from stations import stationed
+
+PATIENCE_S = 90.0
+Cli = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def answer(client: httpx.Client, path: str, **wish: Any) -> Any:
+    found = client.post(path, json=wish) if wish else client.get(path)
+    return found.json()
+
+
+def started(client: httpx.Client, state: str) -> Any:
+    """Return the only run that was started, once it is in a state."""
+    due = time.monotonic() + PATIENCE_S
+    while (run := answer(client, "api/runs")["started"][0])["state"] != state:
+        assert time.monotonic() < due, run
+        time.sleep(0.2)
+    return run
+
+
+@pytest.fixture
+def own_scenarios(encounter: Scenario, tmp_path: Path) -> Path:
+    """A folder with a scenario of three minutes, and a link out of it."""
+    folder = tmp_path / "own"
+    folder.mkdir()
+    long = encounter.model_copy(update={"duration_s": 180.0})
+    (folder / "mine.json").write_text(long.model_dump_json())
+    (tmp_path / "secret.json").write_text(encounter.model_dump_json())
+    (folder / "link.json").symlink_to(tmp_path / "secret.json")
+    (folder / "wrong.json").write_text("{}")
+    return folder
+
+
+def test_a_run_goes_on_without_the_station_and_another_station_stops_it(
+    own_scenarios: Path, tmp_path: Path
+) -> None:
+    runs = tmp_path / "runs"
+    options = {"seat": ["tower"], "speech": False, "seed": 3}
+    with stationed(runs, "--scenarios", str(own_scenarios)) as (process, client):
+        name = answer(client, "api/runs", scenario="own/mine.json", options=options)["name"]
+        started(client, "running")
+        process.kill()
+        process.wait(timeout=PATIENCE_S)
+    with stationed(runs) as (_, client):
+        run = started(client, "running")
+        assert run["name"] == name
+        assert run["seats"] == ["Washington Centre"]
+        with httpx.Client(trust_env=False) as other:
+            assert "AIRHILT" in other.get(run["url"]).text
+        client.post(f"api/runs/{name}/stop", json={})
+        started(client, "ended")
+    info = open_run(runs / name).info
+    assert info.phase == "stopped"
+    assert info.options.seed == 3
+
+
+def test_what_is_not_offered_is_refused_in_words(
+    own_scenarios: Path, recorded_run: Path, tmp_path: Path
+) -> None:
+    runs = tmp_path / "runs"
+    shutil.copytree(recorded_run, runs / "one")
+    with stationed(runs, "--scenarios", str(own_scenarios)) as (_, client):
+        offered = {row["id"]: row for row in answer(client, "api/station")["scenarios"]}
+        assert "own/mine.json" in offered
+        assert "own/link.json" not in offered
+        assert "problem" in offered["own/wrong.json"]
+
+        def refused(path: str, **wish: Any) -> str:
+            found = client.post(path, json=wish)
+            assert found.status_code == 400
+            error: str = found.json()["error"]
+            return error
+
+        assert "not offered" in refused("api/runs", scenario="../secret.json")
+        assert "does not offer" in refused(
+            "api/runs", scenario="s02a_headon", options={"out": "/tmp/x"}
+        )
+        assert "nobody of that name" in refused(
+            "api/runs", scenario="s02a_headon", options={"seat": ["nobody"]}
+        )
+        assert "snr_db" in refused("api/runs", scenario="s02a_headon", options={"snr_db": 900})
+        assert "not in" in refused("api/debriefs", runs=["../own"])
+        assert "not started here" in refused("api/runs/one/stop", x=1)
+        stranger = {"Origin": "http://evil.example"}
+        assert client.post("api/runs", json={}, headers=stranger).status_code == 403
+        assert not (runs / ".station").exists()
+        assert [row["name"] for row in answer(client, "api/runs")["recorded"]] == ["one"]
+
+
+@pytest.mark.browser
+def test_a_person_opens_a_debrief_from_the_page(
+    page: Page, recorded_run: Path, tmp_path: Path
+) -> None:
+    runs = tmp_path / "runs"
+    shutil.copytree(recorded_run, runs / "one")
+    with stationed(runs) as (_, client):
+        page.open(str(client.base_url), width=1280, height=720)
+        page.wait_for("document.body.dataset.ready")
+        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
+        page.evaluate("document.querySelector('#recorded button').click()")
+        page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
+        assert "AAL123" in page.evaluate("document.getElementById('traffic').textContent")
+        page.open("about:blank")
+
+
+def test_a_folder_that_is_not_there_is_named(airhilt_command: Cli) -> None:
+    done = airhilt_command("station", "--scenarios", "nowhere", "--no-browser")
+    assert done.returncode == 2
+    assert "nowhere: no such folder" in done.stderr

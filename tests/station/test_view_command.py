@@ -1,0 +1,23 @@
+"""What `airhilt view` says to who asks for something that cannot be."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+Cli = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def test_a_folder_without_a_run_is_named(airhilt_command: Cli, tmp_path: Path) -> None:
+    done = airhilt_command("view", tmp_path, "--no-browser")
+    assert done.returncode == 2
+    assert "no run here" in done.stderr
+
+
+def test_an_open_address_is_refused_before_the_run_is_read(
+    airhilt_command: Cli, recorded_run: Path
+) -> None:
+    done = airhilt_command("view", recorded_run, "--host", "0.0.0.0", "--no-browser")
+    assert done.returncode == 2
+    assert "other machines can reach it" in done.stderr

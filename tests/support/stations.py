@@ -1,0 +1,189 @@
+"""Opens the page of a run as a user does, with a server in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import queue
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import psutil
+
+from airhilt.commands import Command
+from airhilt.messages import (
+    AdvisoryPerceived,
+    Message,
+    MicrophoneAudio,
+    PaceCommand,
+    SeatInfo,
+    SpokenWords,
+)
+from airhilt.station.address import Address
+from airhilt.station.app import live_app
+from airhilt.station.browsers import Browsers
+from airhilt.station.changes import Changes
+from airhilt.station.server import serve
+
+PATIENCE_S = 60.0
+TOWER = SeatInfo(
+    seat="TOWER", frequencies_khz=(119_100,), has_sound=True, is_recognised=True,
+    voice_is_recorded=True, longest_call_s=60.0,
+)  # fmt: skip
+
+
+@contextmanager
+def viewed(*run_folders: Path) -> Iterator[str]:
+    """Start `airhilt view`, yield the URL that it prints, and interrupt it."""
+    arguments = ["view", *map(str, run_folders), "--port", "0", "--no-browser"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "airhilt", *arguments], stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    with process.stdout:
+        try:
+            yield process.stdout.readline().split()[0]
+        finally:
+            process.send_signal(signal.SIGINT)
+            assert process.wait(timeout=PATIENCE_S) == 0
+
+
+@contextmanager
+def running(
+    encounter_file: Path, out: Path, *options: str
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Start a run with its page; yield its process and the URL, and interrupt what goes on."""
+    command = [sys.executable, "-m", "airhilt", "cosim", "--scenario", str(encounter_file)]
+    command += ["--view", "--no-browser", "--port", "0", "--pace", "realtime", "--no-speech"]
+    command += ["--latency", "fixed", "--out", str(out), *options]
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
+    )
+    assert process.stderr is not None
+    with process.stderr:
+        try:
+            line = next(line for line in process.stderr if line.startswith("http"))
+            yield process, line.split()[0]
+        finally:
+            if process.poll() is None:
+                for child in psutil.Process(process.pid).children():
+                    child.kill()
+                process.send_signal(signal.SIGINT)
+            process.stderr.read()
+            process.wait(timeout=PATIENCE_S)
+
+
+@contextmanager
+def stationed(runs: Path, *options: str) -> Iterator[tuple[subprocess.Popen[str], httpx.Client]]:
+    """Start `airhilt station`; yield its process and a client, and interrupt it."""
+    command = [sys.executable, "-m", "airhilt", "station", "--port", "0", "--no-browser"]
+    process = subprocess.Popen(
+        [*command, "--runs", str(runs), *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    assert process.stdout is not None
+    with process.stdout:
+        url = process.stdout.readline().split()[0]
+        try:
+            with httpx.Client(base_url=url, timeout=PATIENCE_S, trust_env=False) as client:
+                yield process, client
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.wait(timeout=PATIENCE_S)
+
+
+def asked(
+    app: Any, path: str = "/", host: str = "127.0.0.1:8420", **headers: str
+) -> httpx.Response:
+    """Return the answer of an application to a request with these headers."""
+
+    async def ask() -> httpx.Response:
+        transport = httpx.ASGITransport(app)
+        async with httpx.AsyncClient(transport=transport, base_url=f"http://{host}") as client:
+            return await client.get(path, headers=headers)
+
+    return asyncio.run(ask())
+
+
+class PretendedRun:
+    """A run of which there is only its page, with one seat; notes what browsers do."""
+
+    run = "pretended"
+
+    def __init__(self) -> None:
+        self.done: queue.Queue[Message | Command] = queue.Queue()
+        self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
+        self.changes, self.seat, self.sounds = Changes(), Changes(), Changes()
+        self.changes.add("clock", 0.0, "running", "realtime")
+        self.seat.add("info", TOWER.model_dump(mode="json", exclude={"t_ns"}))
+
+    def watch(self, cameras: set[str]) -> None:
+        """Draw nothing."""
+
+    def say(self, seat: str, words: SpokenWords) -> None:
+        """Note words that were typed."""
+        self.done.put(words)
+
+    def speak(self, seat: str, audio: MicrophoneAudio) -> None:
+        """Note what a microphone does."""
+        self.done.put(audio)
+
+    def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
+        """Note that an advisory was perceived."""
+        self.done.put(perceived)
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Note if somebody has the seat."""
+        self.presence.put((seat, is_taken))
+
+    def set_pace(self, pace: PaceCommand) -> None:
+        """Note how fast the time is to pass."""
+        self.done.put(pace)
+
+    def fly(self, seat: str, command: Command) -> None:
+        """Note a command."""
+        self.done.put(command)
+
+    def picture(self, camera: str, seq: int) -> None:
+        """Return no picture."""
+
+    def sound(self, name: str) -> None:
+        """Return no sound."""
+
+    def next(self) -> Any:
+        """Return what a browser does next."""
+        return self.done.get(timeout=PATIENCE_S)
+
+    def call(self) -> tuple[MicrophoneAudio, bytes]:
+        """Return the beginning of a call, and all of its sound."""
+        pressed, pcm = self.next(), b""
+        while (audio := self.next()).phase == "samples":
+            pcm += audio.pcm
+        assert (pressed.phase, audio.phase) == ("pressed", "released")
+        return pressed, pcm
+
+
+@contextmanager
+def seat_page() -> Iterator[tuple[PretendedRun, str]]:
+    """Serve the page of a pretended run in this process; yield the run and the URL."""
+    run, urls, is_over = PretendedRun(), queue.Queue[str](), threading.Event()
+    browsers = Browsers(run.changes, run, {"TOWER": run.seat}, run.sounds)
+    thread = threading.Thread(
+        target=serve,
+        args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]
+        kwargs={"opened": urls.put, "notice": print, "browser": False, "is_over": is_over.is_set},
+    )
+    thread.start()
+    try:
+        yield run, urls.get(timeout=PATIENCE_S)
+    finally:
+        is_over.set()
+        thread.join()
