@@ -41,8 +41,8 @@ def camera_run(
         oracle._renderer = BlankSceneRenderer(realised)
         return oracle._renderer
 
-    def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> list[Any]:
-        others = reference(assistant, radio, taken, engines._replace(detector=None))
+    def workers(assistant: Any, radio: Any, taken: Any, engines: Any, **options: bool) -> list[Any]:
+        others = reference(assistant, radio, taken, engines._replace(detector=None), **options)
         return [*others, oracle] if assistant != "none" else others
 
     patch.setattr(vision, "_start_renderers", lambda *_: None)

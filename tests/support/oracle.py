@@ -238,9 +238,9 @@ def watched(
 
     reference = reference_workers
 
-    def workers(assistant: Any, radio: Any, taken: Any, engines: Any) -> Any:
+    def workers(assistant: Any, radio: Any, taken: Any, engines: Any, **options: bool) -> Any:
         made.append(oracle(cast(Any, None), seed, smallest_px))
-        others = reference(assistant, radio, taken, engines._replace(detector=None))
+        others = reference(assistant, radio, taken, engines._replace(detector=None), **options)
         return [*others, made[0]]
 
     patch.setattr(vision, "_start_renderers", lambda *_: None)
