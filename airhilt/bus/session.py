@@ -312,7 +312,8 @@ class Bus:
 
         What was declared goes first, and the session itself last: Zenoh 1.10 keeps the shared
         memory and a file descriptor of a session whose publishers still exist when it is closed
-        as long as the process lives, and those of any other as long as the object does.
+        as long as the process lives, and those of any other as long as the object does. It keeps
+        the callback of a liveliness subscriber that is dropped without being undeclared.
         """
         for publisher in self._publishers.values():
             publisher.undeclare()  # type: ignore[no-untyped-call]
@@ -321,6 +322,8 @@ class Bus:
             thread.join()
         self._hearing.clear()
         self._publishers.clear()
+        for kept in self._kept:
+            kept.undeclare()
         self._kept.clear()
         self.session.close()  # type: ignore[no-untyped-call]
         del self.session

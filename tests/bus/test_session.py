@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import queue
 import re
 import time
 from contextlib import closing
 from typing import Never
+from weakref import ReferenceType, ref
 
 import pytest
 import zenoh
@@ -82,6 +84,24 @@ def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
     closed = [use(f"run-{number}") for number in range(5)]
     assert held() == before
     assert len(closed) == 5
+
+
+def test_a_closed_session_keeps_nobody_who_listened() -> None:
+    class Listener:
+        def note(self, name: str, is_there: bool) -> None:
+            """Take no note."""
+
+    def listened() -> ReferenceType[Listener]:
+        listener = Listener()
+        with closing(Bus("left")) as bus:
+            bus.watch_workers(listener.note)
+            bus.watch_seats(listener.note)
+            bus.hear("command/*", lambda key, _: listener.note(key, True))
+        return ref(listener)
+
+    kept = listened()
+    gc.collect()
+    assert kept() is None
 
 
 def test_a_subscriber_gets_what_is_made_for_it_and_not_what_cannot_be_made() -> None:
