@@ -268,10 +268,21 @@ class Bus:
             allowed_origin=zenoh.Locality.REMOTE,
         )
 
+        def take(sample: zenoh.Sample) -> None:
+            if admit(_size(sample), _source(sample)):
+                heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
+
+        self._receive(pattern, subscriber, take)
+
+    def _receive(self, pattern: str, subscriber: Any, take: Callable[[zenoh.Sample], None]) -> None:
+        """Call ``take`` with each sample, on a thread that ends with the subscriber.
+
+        A callback of Zenoh's own would not do: it keeps what it calls after the session is closed.
+        """
+
         def receive() -> None:
             for sample in subscriber:
-                if admit(_size(sample), _source(sample)):
-                    heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
+                take(sample)
 
         thread = threading.Thread(target=receive, name=f"hear {pattern}", daemon=True)
         thread.start()
@@ -288,11 +299,11 @@ class Bus:
             heard(self._refusals.get())
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with a worker's name and whether it is alive (on a Zenoh thread)."""
+        """Call ``changed`` with a worker's name and whether it is alive (on a thread of its own)."""
         self._watch("worker/*", changed)
 
     def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with a seat's name and whether it is taken (on a Zenoh thread)."""
+        """Call ``changed`` with a seat's name and whether it is taken (on a thread of its own)."""
         self._watch("seat/*", changed)
 
     def _watch(self, pattern: str, changed: Callable[[str, bool], None]) -> None:
@@ -301,19 +312,17 @@ class Bus:
         def notice(sample: zenoh.Sample) -> None:
             changed(str(sample.key_expr).rsplit("/", 1)[1], sample.kind == zenoh.SampleKind.PUT)
 
-        self._kept.append(
-            self.session.liveliness().declare_subscriber(
-                f"{self.prefix}/{pattern}", notice, history=True
-            )
+        subscriber = self.session.liveliness().declare_subscriber(
+            f"{self.prefix}/{pattern}", zenoh.handlers.FifoChannel(RECEIVED), history=True
         )
+        self._receive(pattern, subscriber, notice)
 
     def close(self) -> None:
         """Close the session; the liveliness token of the run goes with it, so workers notice.
 
         What was declared goes first, and the session itself last: Zenoh 1.10 keeps the shared
         memory and a file descriptor of a session whose publishers still exist when it is closed
-        as long as the process lives, and those of any other as long as the object does. It keeps
-        the callback of a liveliness subscriber that is dropped without being undeclared.
+        as long as the process lives, and those of any other as long as the object does.
         """
         for publisher in self._publishers.values():
             publisher.undeclare()  # type: ignore[no-untyped-call]
@@ -322,8 +331,6 @@ class Bus:
             thread.join()
         self._hearing.clear()
         self._publishers.clear()
-        for kept in self._kept:
-            kept.undeclare()
         self._kept.clear()
         self.session.close()  # type: ignore[no-untyped-call]
         del self.session

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import time
 import queue
 from collections.abc import Callable, Iterator
 from contextlib import closing
@@ -78,7 +79,11 @@ def answer(session: zenoh.Session, name: str, *, complete: bool = False) -> list
 
 
 def described(worker: RemoteWorker) -> bool:
-    return any(worker.describe(timeout_s=1.0) is not None for _ in range(50))
+    for _ in range(500):
+        if worker.describe(timeout_s=1.0) is not None:
+            return True
+        time.sleep(0.02)
+    return False
 
 
 def test_truth_reaches_no_program_unless_it_is_shared(
