@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import itertools
-import time
 import queue
+import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from typing import Any

@@ -82,7 +82,9 @@ def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
     use("first")  # Zenoh keeps threads and their descriptors for the sessions to come.
     before = held()
     closed = [use(f"run-{number}") for number in range(5)]
-    assert held() == before
+    after = held()  # Sessions of other tests may have ended meanwhile.
+    assert after.descriptors <= before.descriptors
+    assert after.shared_memory <= before.shared_memory
     assert len(closed) == 5
 
 
