@@ -1,4 +1,4 @@
-"""What people at seats are told of what their aircraft and the run cannot do."""
+"""Notices to people at seats: what their aircraft and the run cannot do."""
 
 from __future__ import annotations
 

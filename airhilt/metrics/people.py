@@ -1,4 +1,4 @@
-"""What people at seats said and did, and how soon they acted upon advisories."""
+"""Words and actions of people at seats, and how soon they acted upon advisories."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class _Action(NamedTuple):
 
 @dataclass
 class _Person:
-    """What is known of the person at one seat."""
+    """Record of the person at one seat."""
 
     actions: list[_Action] = field(default_factory=list)
     delays_s: list[float] = field(default_factory=list)

@@ -109,7 +109,7 @@ class EquipmentSummary(BaseModel):
 
 
 class PersonReaction(BaseModel):
-    """What a person did upon one revision of an advisory; null where it does not apply."""
+    """Reaction of a person to one revision of an advisory; null where it does not apply."""
 
     model_config = ConfigDict(frozen=True)
     advisory: str
@@ -130,7 +130,7 @@ class PersonReaction(BaseModel):
 
 
 class PersonSummary(BaseModel):
-    """What the person at one seat said and did."""
+    """Words and actions of the person at one seat."""
 
     model_config = ConfigDict(frozen=True)
     seat: str

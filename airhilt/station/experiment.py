@@ -33,7 +33,7 @@ TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float6
 
 
 class Progress:
-    """What a participant has done so far, as the folder says.
+    """Trials that a participant has done so far, as the folder says.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ LEAST_POSTERIOR = 0.01
 """Posterior below which a unit is not tried, unless it is the likeliest."""
 _NEVER = -math.inf
 Prior = Callable[[tuple[int, ...], int], float]
-"""What the language model and the reward say of a unit after others, as a log-likelihood."""
+"""Log-likelihood of a unit after others, by the language model and the reward."""
 
 
 @dataclass(slots=True)

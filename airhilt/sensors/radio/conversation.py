@@ -49,7 +49,7 @@ from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Understanding
 
 FromSeat = SpokenWords | MicrophoneAudio
-"""What the person at a seat says."""
+"""Message with the words, or the voice, of the person at a seat."""
 
 
 class RadioConversation:

@@ -49,7 +49,7 @@ Pair = tuple[str, str]
 
 
 class _Moving(NamedTuple):
-    """What moves, with its state now, and whether it is in flight."""
+    """Mobile with its state now, and whether it is in flight."""
 
     name: str
     body: Mover
