@@ -299,11 +299,11 @@ class Bus:
             heard(self._refusals.get())
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with a worker's name and whether it is alive (on a thread of its own)."""
+        """Call ``changed`` with a worker's name and whether it is there (on another thread)."""
         self._watch("worker/*", changed)
 
     def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with a seat's name and whether it is taken (on a thread of its own)."""
+        """Call ``changed`` with a seat's name and whether it is taken (on another thread)."""
         self._watch("seat/*", changed)
 
     def _watch(self, pattern: str, changed: Callable[[str, bool], None]) -> None:
