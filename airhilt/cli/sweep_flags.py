@@ -98,6 +98,11 @@ def specification_given(
         document["seeds"] = _seeds(seeds)
     if sample is not None:
         drawn = _sample(sample)
+    if drawn and not intervals:
+        raise AirhiltError(
+            f"{origin}: sample: there is no interval to draw from; expected a parameter with one, "
+            "such as --snr 0:20"
+        )
     if drawn:
         document["sample"] = {**drawn, "intervals": intervals}
     elif intervals:
@@ -161,17 +166,17 @@ def _said(context: click.Context, set_: tuple[str, ...]) -> Iterator[tuple[str, 
         elif name == CONFIGURATION:
             yield name, ("options", read_configuration(Path(value)))
         else:
-            yield name, ("axes", [value]) if name in WHOLE else _placed(value)
+            yield name, ("axes", [value]) if name in WHOLE else _placed(name, value)
     for text in set_:
         path, equals, values = text.partition("=")
         if not equals or not path.strip():
             raise AirhiltError(f"--set {text}: expected PATH=VALUES, such as radio.snr_db=0:20:5")
-        yield path.strip(), _placed(values)
+        yield path.strip(), _placed(path.strip(), values)
 
 
-def _placed(text: str) -> tuple[Place, Any]:
+def _placed(path: str, text: str) -> tuple[Place, Any]:
     """Return what a text of values is in a sweep file."""
-    values = read_values(text)
+    values = _values(path, text)
     if isinstance(values, Range):
         return "axes", values.model_dump(by_alias=True, exclude_none=True)
     if isinstance(values, Interval):
@@ -183,12 +188,26 @@ def _seeds(text: str) -> Any:
     """Return the seeds of a text: a number of them, or values."""
     if text.isdecimal():
         return first_seeds(int(text))
-    values = read_values(text)
+    values = _values("seeds", text)
     return (
         values.model_dump(by_alias=True, exclude_none=True)
         if isinstance(values, Interval)
         else list(values)
     )
+
+
+def _values(name: str, text: str) -> Range | Interval | tuple[Any, ...]:
+    """Return what a person writes for the values of a parameter.
+
+    Raises
+    ------
+    AirhiltError
+        It is none; the name begins the message.
+    """
+    try:
+        return read_values(text)
+    except AirhiltError as error:
+        raise AirhiltError(f"{name}: {error}") from None
 
 
 def _sample(text: str) -> Json:

@@ -102,17 +102,22 @@ class Case:
         return hashlib.sha256(text.encode()).hexdigest()
 
 
-def cases(specification: Specification) -> list[Case]:
+def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Case]:
     """Return the runs of a sweep, in the order of scenarios, parameters and seeds.
 
     Every scenario with every combination of values is checked before the first run.
+
+    Parameters
+    ----------
+    allowed
+        Folders besides its own in which a scenario may name files.
 
     Raises
     ------
     AirhiltError
         Something is wrong with them; the message tells all of it.
     """
-    scenarios = [load(path) for path in _paths(specification.scenarios)]
+    scenarios = [load(path, allowed) for path in _paths(specification.scenarios)]
     seeds = _seeds(specification)
     _require_countable(specification, len(scenarios) * len(seeds))
     combinations = list(_combinations(specification))

@@ -78,7 +78,7 @@ def sweep(
     """
     observer = observer or SweepObserver()
     cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
-    grid = cases(specification)
+    grid = cases(specification, work.allowed)
     renderer = renderer_of(grid)
     own = _own_environment(renderer, work.limits)
     by_key = {case.key(own): case for case in grid}
@@ -150,8 +150,10 @@ def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: Sweep
     with suppress(SweepFolderError):  # What is damaged is written anew.
         before = folder.info()
         if before.get(GRID) != info[GRID]:
+            is_same = before.get("specification") == info["specification"]
+            which = "this sweep with other software or files" if is_same else "another sweep"
             observer.notice(
-                f"{folder.path} holds another sweep, of {before.get('runs')} runs: its tables make "
+                f"{folder.path} holds {which}, of {before.get('runs')} runs: its tables make "
                 f"room for those of this one, of {info['runs']}; what finished stays in parts"
             )
 

@@ -62,7 +62,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
         Something that was given is wrong, or the probe failed.
     """
     cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
-    grid = cases(specification)
+    grid = cases(specification, work.allowed)
     renderer = renderer_of(grid)
     folder = SweepFolder(work.out)
     folder.require_usable()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
@@ -43,6 +43,9 @@ class Work:
         Address of Dask's dashboard; None: off.
     retry
         True: runs that a limit ended are tried again.
+    allowed
+        Folders besides their own in which scenarios may name files. Who gives the command allows
+        them; a sweep file cannot.
     """
 
     out: Path
@@ -54,6 +57,7 @@ class Work:
     sample: int = 0
     dashboard: str | None = None
     retry: bool = False
+    allowed: Sequence[Path] = ()
 
 
 def keep_of(text: str) -> tuple[Keep, int]:

@@ -10,6 +10,7 @@ from typing import Any
 import click
 import pytest
 
+from airhilt.cli.commands.cosim import COMMAND as COSIM
 from airhilt.cli.commands.sweep import COMMAND
 from airhilt.cli.run_flags import run_flags
 from airhilt.cli.sweep_flags import specification_given, value_flags
@@ -39,16 +40,23 @@ def with_file(tmp_path: Path) -> Callable[..., dict[str, Any]]:
     return both
 
 
+def flags(command: click.Command) -> set[str]:
+    context = click.Context(command)
+    return {flag for parameter in command.get_params(context) for flag in parameter.opts}
+
+
 def test_every_flag_of_a_run_that_changes_it_is_one_of_sweeps() -> None:
-    context = COMMAND.make_context("sweep", ["--scenario", "x"])
-    names = {parameter.name for parameter in COMMAND.get_params(context)}
-    of_runs = {
-        name
-        for name, field in Options.model_fields.items()
-        if (flag := flag_of(field)) is not None and flag.in_sweeps
+    fields = Options.model_fields.values()
+    of_one_run = {
+        spelling
+        for flag in map(flag_of, fields)
+        if flag is not None and not flag.in_sweeps
+        for spelling in (flag.name, *flag.former)
     }
-    assert of_runs - {"seed"} <= names
-    assert not {"attach", "endpoint", "overwrite", "pace", "video"} & of_runs
+    assert {"--attach", "--endpoint", "--pace", "--seat", "--video"} <= of_one_run
+    missing = flags(COSIM) - flags(COMMAND)
+    shown_on_a_page = {"--view", "--port", "--no-browser"}
+    assert missing == (of_one_run | shown_on_a_page | {"--seed"}) - flags(COMMAND)
 
 
 def test_flags_and_a_file_say_the_same(with_file: Callable[..., dict[str, Any]]) -> None:
@@ -167,9 +175,11 @@ def test_a_configuration_of_the_assistant_is_read_at_once(tmp_path: Path) -> Non
         (["--snr", "0:20"], "--sample"),
         (["--sample", "sobol"], "METHOD:COUNT"),
         (["--sample", "grid:5", "--snr", "0:20"], "lhs or sobol"),
-        (["--sample", "lhs:5"], "at least 1 item"),
+        (["--sample", "lhs:5"], "no interval to draw from.*--snr 0:20"),
         (["--set", "snr_db"], "PATH=VALUES"),
-        (["--snr", ""], "one is empty"),
+        (["--snr", ""], "^snr_db: .*one is empty"),
+        (["--set", "a.b=5:1:1"], "^a.b: .*the smaller end first"),
+        (["--seeds", "1,,2"], "^seeds: .*one is empty"),
         (["--assistant-config", "no.json"], "no.json"),
         (["--snr", "1", "--set", "radio.snr_db=2"], "snr_db: given twice"),
     ],

@@ -54,6 +54,16 @@ def test_a_quiet_sweep_says_nothing(airhilt_command: Any) -> None:
     assert (done.stdout, done.stderr) == ("", "")
 
 
+@pytest.mark.parametrize("command", [("sweep", "--scenario", "x"), ("evaluate", "--preset=paper")])
+def test_a_dry_run_says_first_that_it_does_a_run(
+    command: tuple[str, ...], airhilt_command: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = Estimate(runs=1, finished=0, run_s=2.0, run_mb=300.0, workers=1, at_once=1, total_s=2.0)
+    monkeypatch.setattr("airhilt.sweep.estimate.estimate", lambda *_: found)
+    assert "does one of those that are left" in airhilt_command(*command, "--dry-run").stderr
+    assert airhilt_command(*command, "--dry-run", "--quiet").stderr == ""
+
+
 def test_an_estimate_says_what_is_there_already(capsys: pytest.CaptureFixture[str]) -> None:
     some = Estimate(runs=5, finished=3, run_s=2.0, run_mb=300.0, workers=1, at_once=1, total_s=4.0)
     print_estimate(some, False)

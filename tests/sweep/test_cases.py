@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from pydantic import JsonValue
 
 import airhilt
-from airhilt import load
+from airhilt import library, load
 from airhilt.errors import AirhiltError
 from airhilt.files import content_sha256
 from airhilt.scenario import Scenario
@@ -234,6 +235,21 @@ def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
 
 
 # --- keys -----------------------------------------------------------------------------------
+
+
+def test_a_scenario_may_name_files_of_the_folders_that_are_allowed(tmp_path: Path) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "jets").mkdir()
+    shutil.copy(library.folder("aircraft") / "737.json", tmp_path / "jets" / "jet.json")
+    document = load("s02a_headon").model_dump(mode="json")
+    document["actors"][0]["aircraft"] = "../jets/jet.json"
+    path = tmp_path / "mine" / "scenario.json"
+    path.write_text(json.dumps(document))
+    wanted = given_as(scenarios=[str(path)])
+    with pytest.raises(AirhiltError, match="--allow-path"):
+        cases(wanted)
+    (case,) = cases(wanted, [tmp_path / "jets"])
+    assert "../jets/jet.json" in case.document["files"]
 
 
 def test_whatever_changes_a_run_changes_its_key() -> None:

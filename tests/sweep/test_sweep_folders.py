@@ -109,6 +109,17 @@ def test_another_sweep_in_a_folder_is_told_and_replaces_tables_and_specification
     assert not SweepFolder(sweeps.out).next_info_path.exists()
 
 
+def test_the_same_sweep_with_other_software_is_told_from_another_one(
+    sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sweeps.run(finishes)
+    here = environment("")
+    other = here.model_copy(update={"versions": here.versions | {"airhilt": "99"}})
+    monkeypatch.setattr(engine, "environment", lambda _: other)
+    (told,) = sweeps.run(finishes)[1]
+    assert "holds this sweep with other software or files, of 2 runs" in told
+
+
 def test_a_sweep_that_is_refused_leaves_tables_and_specification_as_they_were(
     sweeps: Sweeps,
 ) -> None:

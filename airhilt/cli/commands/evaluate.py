@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from airhilt.cli.notices import tell
 from airhilt.cli.output import echo
 from airhilt.cli.words import counted
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
     from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.sweep.estimate import Estimate
     from airhilt.sweep.evaluation.engine import Evaluation
     from airhilt.sweep.evaluation.preset import Choice, Preset
     from airhilt.sweep.work import Work
@@ -85,10 +87,10 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
     chosen = {name: value for name, value in options.items() if name in CHOSEN}
     choice = Choice(given["seeds"] or preset.seeds, chosen)
     work = work_given(given, given["out"] or Path("evaluations") / preset.name)
-    if given["dry_run"]:
-        _print_estimates(preset, choice, work, given["as_json"])
-        return 0
     quiet = given["quiet"]
+    if given["dry_run"]:
+        _print_estimates(preset, choice, work, given["as_json"], quiet)
+        return 0
     evaluation = run_evaluation(preset, choice, work, lambda name: _progress(name, quiet))
     if evaluation is None:
         return INTERRUPTED
@@ -116,7 +118,9 @@ def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
         click.echo(f"{rows} of {runs} in {evaluation.folder}")
 
 
-def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) -> None:
+def _print_estimates(
+    preset: Preset, choice: Choice, work: Work, as_json: bool, quiet: bool
+) -> None:
     """Print the size of each sweep; one run of each is tried."""
     from dataclasses import asdict, replace
 
@@ -124,10 +128,11 @@ def _print_estimates(preset: Preset, choice: Choice, work: Work, as_json: bool) 
     from airhilt.sweep.estimate import estimate
     from airhilt.sweep.evaluation.engine import specifications_of
 
-    found = {
-        name: estimate(specification, replace(work, out=work.out / name))
-        for name, specification in specifications_of(preset, choice).items()
-    }
+    found: dict[str, Estimate] = {}
+    for name, specification in specifications_of(preset, choice).items():
+        if not quiet:
+            tell(f"{name}: checks all runs, and does one of those that are left")
+        found[name] = estimate(specification, replace(work, out=work.out / name))
     if as_json:
         click.echo(json.dumps({name: asdict(each) for name, each in found.items()}, indent=2))
         return

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import shlex
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import click
 
+from airhilt.cli.notices import tell
+from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.work_flags import work_flags, work_given
 
 INTERRUPTED = 130
@@ -88,6 +91,7 @@ Examples:
     help="Folder of the sweep; what it has already is not run again.  [default: a new one under "
     "sweeps/]",
 )
+@allow_path_option
 @work_flags
 @click.pass_context
 def sweep(context: click.Context, /, **given: Any) -> int:
@@ -107,7 +111,10 @@ def sweep(context: click.Context, /, **given: Any) -> int:
         context, given["file"], given["scenarios"], given["seeds"], given["set_"], given["sample"]
     )
     work = work_given(given, given["out"] or _default_folder())
+    work = replace(work, allowed=given["allowed"])
     if given["dry_run"]:
+        if not given["quiet"]:
+            tell("checks all runs, and does one of those that are left")
         print_estimate(estimate(specification, work), given["as_json"])
         return 0
     if given["out"] is None and not given["quiet"]:
