@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from shutil import rmtree
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
@@ -30,6 +33,22 @@ class Request(BaseModel):
     """Place of the run folder if it stays."""
     files: Mapping[str, str] = {}
     """SHA-256 of each file that scenario or options name, as the key has them."""
+
+    @property
+    def partial_folder(self) -> Path:
+        """Place of the run folder while the run goes on, if it may stay."""
+        return Path(f"{self.folder}.partial")
+
+    def settle(self, folder: Path, status: Status) -> bool:
+        """Move a run folder to where it stays, or delete it; return whether it stays."""
+        is_kept = self.keep == "all" or (self.keep == "failed" and status != "finished")
+        if is_kept and folder.is_dir():
+            with suppress(FileNotFoundError):
+                rmtree(self.folder)
+            folder.replace(self.folder)
+            return True
+        rmtree(folder, ignore_errors=True)
+        return False
 
 
 class Machine(BaseModel):

@@ -40,51 +40,57 @@ def main(arguments: Sequence[str]) -> None:
     Parameters
     ----------
     arguments
-        Descriptors of questions and answers, and the renderer that the runs ask for; empty without
-        cameras.
+        Descriptors of questions and answers, the renderer that the runs ask for (empty without
+        cameras), and a folder for what is not kept of them.
     """
     questions, answers = (int(number) for number in arguments[:2])
+    renderer, scratch = arguments[2], Path(arguments[3])
     with os.fdopen(answers, "w", encoding="utf-8") as told:
         try:
-            text = environment(arguments[2]).model_dump_json()
+            text = environment(renderer).model_dump_json()
         except AirhiltError as error:
             sys.exit(str(error))
         told.write(text + "\n")
         told.flush()
         requests: queue.SimpleQueue[str] = queue.SimpleQueue()
-        threading.Thread(target=_read, args=(questions, requests), daemon=True).start()
+        reading = threading.Thread(target=_read, args=(questions, requests, scratch), daemon=True)
+        reading.start()
         keeper = RendererKeeper()
         while True:
-            outcome = run_request(Request.model_validate_json(requests.get()), keeper)
+            request = Request.model_validate_json(requests.get())
+            outcome = run_request(request, keeper, scratch)
             told.write(outcome.model_dump_json() + "\n")
             told.flush()
 
 
-def run_request(request: Request, keeper: RendererKeeper | None = None) -> Outcome:
+def run_request(
+    request: Request, keeper: RendererKeeper | None = None, scratch: Path | None = None
+) -> Outcome:
     """Return what becomes of a run; its folder stays if the request says so.
 
     Parameters
     ----------
     keeper
         Keeps the process that draws from one run to the next; None: each run has one of its own.
+    scratch
+        Folder for a run folder that cannot stay; None: that of the system for temporary files.
     """
     status: Status = "finished"
     cause, metrics = "", {}
     begun_wall, begun_cpu = time.perf_counter(), cpu_s()
-    with tempfile.TemporaryDirectory(prefix="airhilt-run-") as scratch:
-        folder = Path(scratch) / "run"
+    with tempfile.TemporaryDirectory(prefix="airhilt-run-", dir=scratch) as temporary:
+        folder = Path(temporary) / "run"
         losses = _Losses()
         try:
             if request.keep != "none":
-                folder = _emptied(Path(f"{request.folder}.partial"))
+                folder = _emptied(request.partial_folder)
             metrics = metrics_of(_summary(request, folder, keeper, losses))
         except Exception as error:  # A mistake in any part of a run is a row, not the sweep's end.
             status = "crashed" if is_of_machine(error) else "failed"
             cause = " ".join(_told(error).split()).replace(f"{folder}/", "")
         if losses.causes and status != "crashed":  # A result that another machine would not have.
             status, cause, metrics = "crashed", losses.causes[0], {}
-        is_kept = request.keep == "all" or (request.keep == "failed" and status != "finished")
-        is_kept = _settle(folder, Path(request.folder), is_kept)
+        is_kept = request.settle(folder, status)
     machine = Machine(
         wall_s=time.perf_counter() - begun_wall,
         cpu_s=cpu_s() - begun_cpu,
@@ -136,22 +142,12 @@ def _emptied(folder: Path) -> Path:
     return folder
 
 
-def _settle(folder: Path, kept: Path, is_kept: bool) -> bool:
-    """Move a run folder to where it stays, or delete it; return whether it stays."""
-    if is_kept and folder.is_dir():
-        with suppress(FileNotFoundError):
-            rmtree(kept)
-        folder.replace(kept)
-        return True
-    rmtree(folder, ignore_errors=True)
-    return False
-
-
-def _read(questions: int, requests: queue.SimpleQueue[str]) -> None:
+def _read(questions: int, requests: queue.SimpleQueue[str], scratch: Path) -> None:
     """Pass on the lines of questions; end the process when they do, whatever it is doing."""
     with os.fdopen(questions, encoding="utf-8") as lines:
         for line in lines:
             requests.put(line)
+    rmtree(scratch, ignore_errors=True)  # The worker may have been killed, and leave it to nobody.
     os._exit(0)
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import socket
+import tempfile
 import time
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -102,9 +103,13 @@ class RunnerProcess:
             machine = outcome.machine.model_copy(update={"peak_memory_mb": self._peak_mb})
             return outcome.model_copy(update={"machine": machine})
         process_id = self._child.process_id
-        self._restart()
+        self.close()
         if self._is_stopped:
             raise RunnerStopped
+        is_kept = False
+        with suppress(OSError):  # The run has its cause already.
+            is_kept = request.settle(request.partial_folder, status)
+        self._child, self.environment = self._start()
         machine = Machine(
             wall_s=time.perf_counter() - begun,
             cpu_s=None,
@@ -112,7 +117,9 @@ class RunnerProcess:
             host=socket.gethostname(),
             process=process_id,
         )
-        return Outcome(key=request.key, status=status, cause=cause, machine=machine)
+        return Outcome(
+            key=request.key, status=status, cause=cause, is_kept=is_kept, machine=machine
+        )
 
     def stop(self) -> None:
         """End the process, while another thread waits for it; `close` does the rest."""
@@ -120,29 +127,27 @@ class RunnerProcess:
         _end_tree(self._child.process_id)
 
     def close(self) -> None:
-        """End the process and what it has started."""
+        """End the process and what it has started, and remove what its runs have left."""
         _end_tree(self._child.process_id)
-        self._child.close()
+        self._started.close()
 
     def _start(self) -> tuple[ChildProcess, Environment]:
-        try:
-            child = ChildProcess(COMMAND, [self._renderer], environment=ENVIRONMENT)
-        except OSError as error:
-            raise _not_started(
-                f"({error.strerror or error}); expected a few kB where temporary files are "
-                "(TMPDIR), and room for one more process"
-            ) from None
-        try:
-            return child, Environment.model_validate(child.answer(STARTING_S))
-        except (Ended, NoAnswer) as problem:
-            child.close()
-            raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
-
-    def _restart(self) -> None:
-        self.close()
-        if self._is_stopped:
-            return
-        self._child, self.environment = self._start()
+        with ExitStack() as started:
+            try:
+                scratch = started.enter_context(_scratch())
+                child = ChildProcess(COMMAND, [self._renderer, scratch], environment=ENVIRONMENT)
+            except OSError as error:
+                raise _not_started(
+                    f"({error.strerror or error}); expected a few kB where temporary files are "
+                    "(TMPDIR), and room for one more process"
+                ) from None
+            started.callback(child.close)
+            try:
+                found = Environment.model_validate(child.answer(STARTING_S))
+            except (Ended, NoAnswer) as problem:
+                raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
+            self._started = started.pop_all()
+            return child, found
 
     def _watch(self) -> None:
         """Measure the memory of the run; complain if it is too much."""
@@ -152,6 +157,11 @@ class RunnerProcess:
 
     def _watch_quietly(self) -> None:
         self._peak_mb = max(self._peak_mb, _memory_mb(self._child.process_id))
+
+
+def _scratch() -> tempfile.TemporaryDirectory[str]:
+    """Return a folder for what a runner leaves; a process that is killed removes nothing itself."""
+    return tempfile.TemporaryDirectory(prefix="airhilt-runner-", ignore_cleanup_errors=True)
 
 
 def _not_started(why: str) -> RunnerError:

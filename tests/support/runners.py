@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.sweep import runner_process
 from airhilt.sweep.environment import Environment
-from airhilt.sweep.outcome import Request
+from airhilt.sweep.outcome import Keep, Request
 
 ENVIRONMENT = Environment(versions={"airhilt": "1"}, code_sha256="0" * 64, renderer="")
 SOURCE = f"""
@@ -17,7 +17,10 @@ import json, os, sys, time
 questions, answers = os.fdopen(int(sys.argv[1])), os.fdopen(int(sys.argv[2]), "w")
 print({ENVIRONMENT.model_dump_json()!r}, file=answers, flush=True)
 for line in questions:
-    key = json.loads(line)["key"]
+    asked = json.loads(line)
+    key = asked["key"]
+    scratch = sys.argv[4] + "/" + key
+    os.makedirs(scratch if asked["keep"] == "none" else asked["folder"] + ".partial")
     if key == "eats":
         eaten = b"x" * 200_000_000
     if key == "dies":
@@ -36,6 +39,6 @@ def use_as_runner(folder: Path, patch: pytest.MonkeyPatch) -> None:
     patch.setattr(runner_process, "COMMAND", (sys.executable, "-S", str(program)))
 
 
-def request(key: str) -> Request:
-    """Return a request of which this program looks at the key."""
-    return Request(key=key, scenario={}, options={}, keep="none", folder="")
+def request(key: str, keep: Keep = "none", folder: str = "") -> Request:
+    """Return a request of which this program looks at the key, and where a run folder goes."""
+    return Request(key=key, scenario={}, options={}, keep=keep, folder=folder)

@@ -10,6 +10,7 @@ from pathlib import Path
 import psutil
 import pytest
 
+from airhilt.sweep.outcome import Keep
 from airhilt.sweep.runner_process import Limits, RunnerError, RunnerProcess, RunnerStopped
 from runners import request, use_as_runner
 
@@ -45,6 +46,32 @@ def test_a_run_that_ends_badly_has_its_cause_and_the_next_one_runs(
         assert after.status == "finished"
         assert after.machine.process != outcome.machine.process
         assert not psutil.pid_exists(outcome.machine.process)
+
+
+@pytest.mark.parametrize("keep", ["all", "failed"])
+def test_the_folder_of_a_run_that_a_limit_ended_stays_if_it_is_to(
+    keep: Keep, tmp_path: Path
+) -> None:
+    folder = tmp_path / "runs" / "k"
+    with closing(RunnerProcess("", Limits(0.2, 150.0))) as runner:
+        assert runner.run(request("hangs", keep, str(folder))).is_kept
+    assert [each.name for each in folder.parent.iterdir()] == ["k"]
+
+
+def test_a_runner_that_is_killed_leaves_no_temporary_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each run that a limit ends would leave its folder, until the disk is full."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(temporary))
+    with closing(RunnerProcess("", Limits(0.2, 150.0))) as runner:
+        assert not runner.run(request("hangs")).is_kept
+        (own,) = temporary.iterdir()
+        assert not list(own.iterdir())
+        runner.run(request("good"))
+        assert list(own.iterdir())
+    assert not list(temporary.iterdir())
 
 
 def test_the_memory_of_a_run_is_told(runner: RunnerProcess) -> None:
