@@ -47,7 +47,7 @@ Values are lists (0,5,10), ranges with their end (0:20:5), ranges in even ratios
 Examples:
   airhilt sweep --scenario 's01a_*' --snr 0:20:5 --visibility 400,800,1600,5000,10000 \\
       --seeds 10 --assistant reference,paper,adsb_only --latency fixed --out sweeps/s01a
-  airhilt sweep --scenario s02a_headon --set actors.AAL123.initial.cas_kt=250:300:10 --dry-run
+  airhilt sweep --scenario s02a_headon --set actors.AAL123.initial.cas_kt=240:270:10 --dry-run
   airhilt sweep --scenario s01a_bad_readback --snr 0:20 --visibility 400:10000 --sample sobol:64
   airhilt sweep --file sweep.json --scheduler tcp://head:8786
 """,

@@ -8,9 +8,10 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.scenario.models import Airborne, AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
 from airhilt.scenario.problems import Problem
-from airhilt.units import FOOT
+from airhilt.units import FOOT, KNOT
 from airhilt.world.checks.altitudes import not_above_ground
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
+from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 
@@ -73,11 +74,14 @@ def _envelope(
             f"found {altitude_ft:g}; expected at most the service ceiling of a {kind.name}, "
             f"{speeds.service_ceiling_ft:g}",
         )
-    if not speeds.minimum_clean_kt <= cas_kt <= speeds.maximum_kt:
+    flown_ft = min(altitude_ft, speeds.service_ceiling_ft)
+    limits_m_s = GuidanceModes(kind).speed_limits_m_s(flown_ft * FOOT)
+    slowest_kt, greatest_kt = (limit / KNOT for limit in limits_m_s)
+    if not slowest_kt <= cas_kt <= greatest_kt:
         yield Problem(
             f"{path}/cas_kt",
-            f"found {cas_kt:g}; expected {speeds.minimum_clean_kt:g} to {speeds.maximum_kt:g}, "
-            f"what a {kind.name} flies",
+            f"found {cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
+            f"{kind.name} flies at {flown_ft:g} ft",
         )
 
 
