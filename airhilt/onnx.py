@@ -56,20 +56,21 @@ def open_network(
 
 
 def first_look(
-    network: onnxruntime.InferenceSession, inputs: Mapping[str, Any], limit_s: float = FIRST_LOOK_S
+    network: onnxruntime.InferenceSession, inputs: Mapping[str, Any], limit_s: float | None = None
 ) -> list[Any]:
     """Return the outputs of a network that may never end.
 
     Parameters
     ----------
     limit_s
-        Wall time after which it is stopped.
+        Wall time after which it is stopped; None: `FIRST_LOOK_S`.
 
     Raises
     ------
     TimeoutError
         It did not end within the limit.
     """
+    limit_s = FIRST_LOOK_S if limit_s is None else limit_s
     options = onnxruntime.RunOptions()
     options.log_severity_level = 4
     timer = Timer(limit_s, setattr, (options, "terminate", True))
@@ -84,3 +85,24 @@ def first_look(
     finally:
         timer.cancel()
     return found
+
+
+def require_end(
+    network: onnxruntime.InferenceSession,
+    inputs: Mapping[str, Any],
+    subject: str,
+    error: type[AirhiltError],
+) -> None:
+    """Complain about a network that does not end, or fails, when it is tried.
+
+    Raises
+    ------
+    AirhiltError
+        It is one.
+    """
+    try:
+        first_look(network, inputs)
+    except TimeoutError as cause:
+        raise error(f"{subject}: the network {cause}; expected one that ends") from None
+    except Exception as cause:  # onnxruntime raises classes of its own that share no base
+        raise error(f"{subject} has failed: {first_line(cause)}") from None

@@ -22,7 +22,7 @@ from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.errors import VisionError, first_line
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box, Confidence, VisibleClass
-from airhilt.onnx import open_network
+from airhilt.onnx import open_network, require_end
 
 EXPECTED = (
     "a network of tools/detector/train_refiner.py: 'views', uint8 [n, 2, 40, 40, 3], and 'about', "
@@ -70,7 +70,7 @@ class Refiner:
     Raises
     ------
     VisionError
-        The file is missing, or is not what it must be.
+        The file is missing, or is not what it must be, or its network never ends.
     """
 
     def __init__(
@@ -85,6 +85,9 @@ class Refiner:
         self._subject = f"refiner {path}, which the card beside it names"
         self._network = open_network(path, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject, len(classes))
+        views = np.zeros((1, 2, VIEW_PX, VIEW_PX, 3), np.uint8)
+        inputs = {"views": views, "about": np.zeros((1, 3), np.float32)}
+        require_end(self._network, inputs, self._subject, VisionError)
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:
         """Return the findings of the first network that are looked at, by falling score.

@@ -15,7 +15,7 @@ import numpy as np
 
 from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
-from airhilt.onnx import FIRST_LOOK_S, first_look, open_network
+from airhilt.onnx import first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import (
     LEVEL_RMS,
@@ -37,7 +37,7 @@ class LearnedChannel:
     Parameters
     ----------
     limit_s
-        Wall time within which each trial of the model must end.
+        Wall time within which each trial of the model must end; None: that of `first_look`.
 
     Raises
     ------
@@ -45,7 +45,7 @@ class LearnedChannel:
         The file is not a model of this kind, or never ends.
     """
 
-    def __init__(self, path: Path, limit_s: float = FIRST_LOOK_S) -> None:
+    def __init__(self, path: Path, limit_s: float | None = None) -> None:
         self.name = path.stem
         self._path = path
         self._session = open_network(path, f"learned channel {path}", EXPECTED)

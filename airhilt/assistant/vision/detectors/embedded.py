@@ -25,7 +25,7 @@ from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.files import sha256
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
-from airhilt.onnx import open_network
+from airhilt.onnx import open_network, require_end
 
 MODEL = Path(__file__).parents[1] / "model" / "detector.onnx"
 CARD = "card.json"
@@ -110,7 +110,7 @@ class EmbeddedDetector:
     Raises
     ------
     VisionError
-        A file is missing, or is not what it must be.
+        A file is missing, or is not what it must be, or a network never ends.
     """
 
     name = "embedded"
@@ -132,6 +132,8 @@ class EmbeddedDetector:
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
         _require_shapes(self._network, self._subject)
+        empty = np.zeros((1, SMALLEST_PX, SMALLEST_PX, 3), np.uint8)
+        require_end(self._network, {"picture": empty}, self._subject, VisionError)
         self._refiner = (
             None
             if card.refiner is None

@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import onnxruntime
 
 from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.assistant.vision.detectors.embedded import has_card
 from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
 from airhilt.messages import VisibleClass
-from airhilt.onnx import open_network
+from airhilt.onnx import first_look, open_network
 
 LABELS: Mapping[str, VisibleClass] = {
     "airplane": "airplane",
@@ -40,6 +41,8 @@ THRESHOLD = 0.25
 """Findings with less only continue tracks (``conf`` of ultralytics' predictions)."""
 MOST_FOUND = 300
 STRIDE_PX = 32
+TRIAL_PX = 320
+"""Side of the picture with which a network that takes any is tried, in pixels."""
 EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
 """Variables with which ultralytics neither loads nor installs nor prints anything.
@@ -168,11 +171,36 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
             ) from None
     match session.get_inputs()[0].shape:
         case [_, _, int(rows), int(columns)]:
-            return rows, columns
+            sides = rows, columns
         case [_, _, _, _]:
-            return None
+            sides = None
         case shape:
             raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
+    _require_end(session, path, sides or (TRIAL_PX, TRIAL_PX))
+    return sides
+
+
+def _require_end(
+    session: onnxruntime.InferenceSession, path: Path, sides: tuple[int, int]
+) -> None:
+    """Complain about a network that never ends; ultralytics says what else is wrong with it.
+
+    Raises
+    ------
+    VisionError
+        It does not end.
+    """
+    port = session.get_inputs()[0]
+    channels = port.shape[1] if isinstance(port.shape[1], int) else 3
+    number = np.float16 if port.type == "tensor(float16)" else np.float32
+    try:
+        first_look(session, {port.name: np.zeros((1, channels, *sides), number)})
+    except TimeoutError as error:
+        raise VisionError(
+            f"detector yolo: {path}: the network {error}; expected {EXPECTED}"
+        ) from None
+    except Exception:  # onnxruntime raises classes of its own that share no base
+        return
 
 
 def _is_model(path: Path) -> bool:
