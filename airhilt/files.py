@@ -1,7 +1,8 @@
-"""Files: written all or nothing, and their SHA-256."""
+"""Files: written all or nothing, read where they have an end, and their SHA-256."""
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 from contextlib import suppress
@@ -41,6 +42,19 @@ def write_new(path: Path, data: bytes, mode: int) -> None:
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
     with open(descriptor, "wb") as stream:  # noqa: PTH123
         stream.write(data)
+
+
+def regular(path: Path) -> Path:
+    """Return a path, unless it leads to something that may be read without an end.
+
+    Raises
+    ------
+    OSError
+        It is a pipe, a device, a folder or the like.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "no regular file", str(path))
+    return path
 
 
 def sha256(path: Path) -> str:

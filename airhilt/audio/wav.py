@@ -12,7 +12,7 @@ from pathlib import Path
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
-from airhilt.files import replace_file
+from airhilt.files import regular, replace_file
 
 
 def encode_wav(audio: Audio) -> bytes:
@@ -84,7 +84,7 @@ def read_wav(path: Path) -> Audio:
         It cannot be read, or as `decode_wav`.
     """
     try:
-        data = path.read_bytes()
+        data = regular(path).read_bytes()
     except OSError as error:
         raise SpeechError(f"{path}: cannot be read: {error.strerror}") from None
     return decode_wav(data, str(path))

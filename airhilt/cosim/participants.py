@@ -11,6 +11,7 @@ from airhilt.assistant.reference import (
     NO_DETECTOR,
     NO_ENHANCER,
     Engines,
+    is_remote,
     reference_workers,
     speak_min_level,
 )
@@ -94,7 +95,8 @@ def connect(
         An engine cannot be loaded.
     WorkerError
         A worker has no description or no method `step`, two have the same name, or one decides
-        though the options name another assistant, or reads nothing that the options give it.
+        though the options name another assistant, or reads nothing that the options give it. Or
+        one would ask a service in a replay.
     """
     workers = list(recorded.workers)
     workers += [_participant(worker, "caller") for worker in given]
@@ -120,14 +122,39 @@ def connect(
     reference = reference_workers(
         assistant, scenario.radio, taken, engines, people_speak=bool(options.seat)
     )
-    if not recorded.is_replay:
+    made = [_participant(worker, "in process") for worker in reference]
+    if recorded.is_replay:
+        _require_no_service(made, assistant, engines)
+    else:
         for sentence in other_machines(assistant, engines):
             notice(sentence)
-    workers += [_participant(worker, "in process") for worker in reference]
+    workers += made
     workers = [limited(worker, options.given_modalities) for worker in workers]
     workers += equipment_of(scenario, [worker.description.name for worker in workers])
     _require_different_names(workers, programs)
     return Participants(assistant, tuple(workers), tuple(programs))
+
+
+def _require_no_service(
+    workers: Sequence[Participant], assistant: str, engines: Engines
+) -> None:
+    """Complain about a worker of a replay that would ask a service.
+
+    A run records what each service answers, so that its replay sends nothing, and no key, to the
+    addresses in a record that may be somebody else's.
+
+    Raises
+    ------
+    WorkerError
+        The record names a service, and has not the worker that asked it.
+    """
+    for worker in workers:
+        description = worker.description
+        if is_remote(description.modality, assistant, engines):
+            raise WorkerError(
+                f"worker {description.name!r}: the record names a service for it, and has none of "
+                "its answers; expected a record that was not changed: a replay asks no service"
+            )
 
 
 def _external_assistant(options: Options) -> str:

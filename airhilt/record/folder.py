@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
-from airhilt.files import replace_file
+from airhilt.files import regular, replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
@@ -282,7 +282,7 @@ class RunFolder:
             It cannot be read, or is no JSON object.
         """
         try:
-            loaded = json.loads(self.summary_path.read_bytes())
+            loaded = json.loads(regular(self.summary_path).read_bytes())
         except FileNotFoundError:
             return None
         except OSError as error:

@@ -22,6 +22,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Statistics
 
 from airhilt.errors import RunFolderError
+from airhilt.files import regular
 from airhilt.units import SECOND_NS
 
 BROKEN = (McapError, struct.error, zstandard.ZstdError, ValueError, LookupError, MemoryError)
@@ -127,7 +128,7 @@ class LogReader:
             The file cannot be opened or read, or holds no message that anybody could read.
         """
         try:
-            with self.path.open("rb") as stream:
+            with regular(self.path).open("rb") as stream:
                 yield from self._messages(stream)
         except OSError as error:
             raise RunFolderError(f"{self.path}: cannot be read: {error.strerror}") from None

@@ -54,9 +54,9 @@ def problem_of(folder: Path, name: str, record: FileRecord) -> str:
     if place.is_absolute() or ".." in place.parts:
         return f"{name}: outside of the run folder; the manifest was not written by AIRHILT"
     path = folder / place
-    if not path.is_file():
-        return f"{name}: missing"
     try:
+        if not path.is_file():
+            return f"{name}: missing"
         size_bytes, found = path.stat().st_size, sha256(path)
     except OSError as error:
         return f"{name}: cannot be read: {error.strerror}"

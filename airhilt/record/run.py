@@ -10,6 +10,7 @@ import json
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from airhilt.errors import RunFolderError
 from airhilt.record.folder import RunFolder, RunInfo
@@ -82,6 +83,24 @@ class Run:
                 f"{self.folder.path}: {problem}; expected the latencies that the run had"
             )
         return read_latencies(self.folder.latency_path)
+
+    def summary(self) -> dict[str, Any]:
+        """Return the numbers of the run.
+
+        Raises
+        ------
+        RunFolderError
+            There are none, they cannot be read, or they are not those that the run wrote.
+        """
+        path = self.folder.summary_path
+        problem = self._problem(path)
+        numbers = None if problem else self.folder.summary()
+        if numbers is None:
+            raise RunFolderError(
+                f"{self.folder.path}: {problem or f'{path.name}: missing'}; expected the numbers "
+                "of the run"
+            )
+        return numbers
 
     def _problem(self, path: Path) -> str:
         record = self.info.files.get(path.name)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -13,7 +14,7 @@ from urllib.parse import quote
 import numpy as np
 from pydantic import ValidationError
 
-from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.errors import AirhiltError, RunFolderError, first_line
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, Run, RunFolder, RunInfo
@@ -29,7 +30,7 @@ from airhilt.report.tracks import (
     Track,
     parse_state,
 )
-from airhilt.report.unread import UnreadMessages
+from airhilt.report.unread import CANNOT_READ, UnreadMessages
 from airhilt.shapes.sizes import Size
 from airhilt.text import readable
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
@@ -99,7 +100,17 @@ class RunData:
         return quote(os.path.relpath(path, self.page.parent).replace(os.sep, "/"))
 
     def as_json(self) -> Json:
-        """Return what all sections share."""
+        """Return what all sections share.
+
+        Raises
+        ------
+        RunFolderError
+            What ``run.json`` says of the scenario has another shape than a run writes.
+        """
+        with _of_record(self.folder):
+            return self._shared()
+
+    def _shared(self) -> Json:
         info, realised = self.info, self.info.realised
         files = realised.get("files", {})
         actors = {actor["callsign"]: actor for actor in realised.get("actors", ())}
@@ -141,7 +152,38 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
         File that the page is written to.
     contents
         Receivers of messages: each gets those with the keys of its section.
+
+    Raises
+    ------
+    RunFolderError
+        The log cannot be read, or what ``run.json`` says of the scenario has another shape than a
+        run writes.
     """
+    with _of_record(recorded.folder):
+        return _read_run(recorded, page, contents)
+
+
+@contextmanager
+def _of_record(folder: RunFolder) -> Iterator[None]:
+    """Name ``run.json`` where what it says of the scenario is not what a run writes.
+
+    Raises
+    ------
+    RunFolderError
+        A part of it is missing, or of another kind.
+    """
+    try:
+        yield
+    except AirhiltError:
+        raise
+    except CANNOT_READ as error:
+        raise RunFolderError(
+            f"{folder.info_path}: what it says of the scenario cannot be shown "
+            f"({first_line(error)}); expected it as a run writes it"
+        ) from error
+
+
+def _read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
     info, folder = recorded.info, recorded.folder
     notes = [f"Damaged: {readable(line)}." for line in recorded.damage]
     log = _Log(_points_a_track(info), contents)

@@ -11,7 +11,7 @@ from airhilt.record import Logged
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
-CANNOT_READ = (ValueError, LookupError, TypeError, AttributeError)
+CANNOT_READ = (ValueError, LookupError, TypeError, AttributeError, RecursionError)
 """Exceptions of a reader whose message has other content than it expects."""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 import threading
@@ -10,7 +9,8 @@ from collections import OrderedDict
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import StationError
+from airhilt.errors import RunFolderError, StationError
+from airhilt.record import RunFolder
 from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
@@ -43,18 +43,18 @@ class Debriefs:
         key = path, changed_ns
         if key not in self._read:
             try:
-                info = json.loads(path.read_bytes())
-                self._read[key] = {
-                    "name": path.parent.name,
-                    "scenario": readable(str(info["scenario"]["name"])),
-                    "seed": int(info["options"]["seed"]),
-                    "assistant": readable(str(info["assistant"])),
-                    "phase": readable(str(info["phase"])),
-                    "started_at": readable(str(info["started_at"])),
-                    "seats": [readable(str(seat)) for seat in info["options"].get("seat", ())],
-                }
-            except (OSError, ValueError, LookupError, TypeError):
+                info = RunFolder.open(path.parent).info()
+            except RunFolderError:
                 return None
+            self._read[key] = {
+                "name": path.parent.name,
+                "scenario": readable(str(info.scenario.get("name", ""))),
+                "seed": info.options.seed,
+                "assistant": readable(info.assistant),
+                "phase": info.phase,
+                "started_at": readable(info.started_at),
+                "seats": [readable(seat) for seat in info.options.seat],
+            }
         return self._read[key]
 
     def open(self, names: tuple[str, ...]) -> str:

@@ -17,10 +17,12 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-from airhilt.errors import StationError
+from airhilt.errors import RunFolderError, StationError
 from airhilt.files import replace_file
 from airhilt.metrics.columns import metric_columns, metrics_of
 from airhilt.options import options_of
+from airhilt.record import RunFolder, open_run
+from airhilt.record.run import untold
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import NasaTlx
@@ -60,9 +62,9 @@ class Progress:
             if not folder.exists():
                 return None
             try:
-                if json.loads((folder / "run.json").read_bytes())["phase"] == "finished":
+                if RunFolder.open(folder).info().phase == "finished":
                     return name
-            except (OSError, ValueError, LookupError):
+            except RunFolderError:
                 continue
         return None
 
@@ -190,6 +192,11 @@ def write_tables(plan: Plan, folder: Path) -> int:
     Returns
     -------
     The number of rows.
+
+    Raises
+    ------
+    RunFolderError
+        The numbers of a trial are missing, or are not those that its run wrote.
     """
     rows = [row for name in plan.participants for row in _rows(Progress(plan, folder, name))]
     ratings = [*NasaTlx.model_fields, "raw_tlx"]
@@ -210,7 +217,7 @@ def _rows(progress: Progress) -> Iterator[dict[str, Any]]:
         name = progress.finished_run(trial)
         if name is None:
             continue
-        summary = json.loads((progress.folder / name / "summary.json").read_bytes())
+        summary = open_run(progress.folder / name, untold).summary()
         answers = progress.answers(name)
         rated: dict[str, Any] = {} if answers is None else answers.model_dump()
         rated |= {} if answers is None else {"raw_tlx": answers.raw_tlx}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import subprocess
 from collections.abc import Callable
@@ -12,7 +13,9 @@ from typing import Any
 import pytest
 
 import airhilt
+from airhilt.messages import Event
 from airhilt.record import RunFolder
+from airhilt.record.log import LogWriter
 from damage import flip
 from radio_folder import busy_radio
 
@@ -154,3 +157,56 @@ def test_a_run_is_left_as_it_was_by_those_who_read_it(
         assert airhilt_command(command, run_copy).returncode == 0
     assert json.loads((run_copy / "run.json").read_text()) == before
     assert airhilt.open_run(run_copy).damage == ()
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"actors": "AAL123"},
+        {"actors": [{}]},
+        {"radio": {"lines": [1]}},
+        {"conflict": {"t_s": 3}},
+        {"scene": {"airport": "mine.json"}, "files": {"mine.json": None}},
+        {"files": None},
+    ],
+)
+def test_a_record_of_another_scenario_than_a_run_writes_is_a_named_mistake(
+    airhilt_command: Any, run_copy: Path, changed: dict[str, Any]
+) -> None:
+    folder = RunFolder(run_copy)
+    info = folder.info()
+    folder.write_info(info.model_copy(update={"realised": info.realised | changed}))
+    done = airhilt_command("report", run_copy)
+    assert "Traceback" not in done.stderr
+    assert done.returncode == 0 or (done.returncode == 2 and "run.json: " in done.stderr)
+
+
+@pytest.mark.parametrize("data", [NESTED, NOT_UTF_8, b"[]", b"null", b'{"t_ns": true}'])
+def test_a_report_leaves_out_a_message_that_no_run_writes(
+    airhilt_command: Any, run_copy: Path, data: bytes
+) -> None:
+    folder = RunFolder(run_copy)
+    messages = list(airhilt.open_run(run_copy).messages())
+    log = LogWriter(folder.log_path)
+    for logged in messages:
+        written = data if logged.key in ("truth/event", "status/decision") else logged.data
+        log.write(logged.key, logged.publisher, Event, logged.t_ns, written)
+    log.write("truth/event", "run", Event, messages[-1].t_ns, data)
+    log.close()
+    folder.write_info(folder.info().model_copy(update={"files": folder.manifest()}))
+    done = airhilt_command("report", run_copy)
+    assert done.returncode == 0, done.stderr
+    assert "left out" in (run_copy / "report.html").read_text()
+
+
+@pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json"])
+@pytest.mark.parametrize("command", ["report", "replay", "compare", "verify"])
+def test_a_file_that_never_ends_is_not_read(
+    airhilt_command: Any, run_copy: Path, command: str, name: str
+) -> None:
+    (run_copy / name).unlink()
+    os.mkfifo(run_copy / name)
+    second = [run_copy] if command == "compare" else []
+    done = airhilt_command(command, run_copy, *second)
+    assert done.returncode in (0, 1, 2)
+    assert name in done.stdout + done.stderr

@@ -14,7 +14,7 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
-from airhilt.errors import AirhiltError, StationError
+from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.station.experiment import Conductor, Progress, write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
 from airhilt.station.questionnaires import NasaTlx
@@ -90,6 +90,32 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert row["nasa_tlx.raw_tlx"] == 25.0
     assert row["duration_s"] == pytest.approx(8.0)
     assert (tmp_path / "experiment.csv").read_text().startswith('"participant"')
+
+
+def test_numbers_that_a_run_did_not_write_do_not_enter_the_table(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    name = f"01-{progress.trials[0].name}"
+    numbers = shutil.copytree(recorded_run, progress.folder / name) / "summary.json"
+    numbers.write_text(numbers.read_text().replace('"duration_s": 8.0', '"duration_s": 80.0'))
+    with pytest.raises(RunFolderError, match=r"summary\.json: damaged or changed"):
+        write_tables(experiment, tmp_path)
+    numbers.unlink()
+    with pytest.raises(RunFolderError, match=r"summary\.json: missing"):
+        write_tables(experiment, tmp_path)
+
+
+@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xff", b"[]", b"{}"])
+def test_a_trial_whose_record_cannot_be_read_is_begun_again(
+    recorded_run: Path, tmp_path: Path, content: bytes
+) -> None:
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    first = progress.trials[0]
+    folder = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}")
+    (folder / "run.json").write_bytes(content)
+    assert progress.finished_run(first) is None
 
 
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
