@@ -17,7 +17,9 @@ from airhilt.commands import (
     SideStepCommand,
     SpeedCommand,
     TakeOffCommand,
+    TaxiCommand,
     TrackCommand,
+    TurnCommand,
 )
 from airhilt.phraseology import Action, Call, Instruction, parse_call
 from airhilt.scenario.models import ReadbackWrong, Scenario, ScriptedCommand, WildlifeSpec
@@ -122,8 +124,16 @@ def _details(command: Command) -> Iterator[tuple[str, str | float, Detail]]:
         case TakeOffCommand(runway=runway, climb_to_ft=altitude_ft):
             yield "runway", runway, _runway
             yield "altitude_ft", altitude_ft, _altitude
-        case GoAroundCommand(climb_to_ft=altitude_ft) | AltitudeCommand(altitude_ft=altitude_ft):
+        case GoAroundCommand(climb_to_ft=altitude_ft):
             yield "altitude_ft", altitude_ft, _altitude
+        case AltitudeCommand(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm):
+            yield "altitude_ft", altitude_ft, _altitude
+            if rate_fpm is not None:
+                yield "rate_fpm", rate_fpm, lambda each: each.rate_fpm
+        case TaxiCommand(via=via) if via:
+            yield "via", ", ".join(via), lambda each: ", ".join(each.via) or None
+        case TurnCommand(degrees=degrees):
+            yield "turn_deg", degrees, _turn_deg
         case TrackCommand(track_deg=track_deg):
             yield "heading_deg", track_deg, lambda each: each.heading_deg
         case SpeedCommand(cas_kt=cas_kt):
@@ -136,6 +146,13 @@ def _runway(instruction: Instruction) -> str | None:
 
 def _altitude(instruction: Instruction) -> float | None:
     return instruction.altitude_ft
+
+
+def _turn_deg(instruction: Instruction) -> float | None:
+    """Return the angle of a turn, positive to the right."""
+    if instruction.turn_deg is None or instruction.turn is None:
+        return None
+    return instruction.turn_deg if instruction.turn == "right" else -instruction.turn_deg
 
 
 def _shown(value: str | float) -> str:

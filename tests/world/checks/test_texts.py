@@ -49,6 +49,36 @@ def test_words_that_mean_something_else_are_told(text: str, doubt: str) -> None:
     assert found == f"radio/lines/0/text: {doubt}: {text!r}"
 
 
+@pytest.mark.parametrize(
+    ("words", "command", "doubt"),
+    [
+        ("turn right thirty degrees", {"action": "turn", "degrees": 30.0}, ""),
+        ("turn left thirty degrees", {"action": "turn", "degrees": 30.0}, "says turn_deg -30"),
+        ("turn left thirty degrees", {"action": "turn", "degrees": -20.0}, "says turn_deg -30"),
+        ("taxi via bravo and kilo", {"action": "taxi", "via": ["B", "K"]}, ""),
+        ("taxi via bravo", {"action": "taxi", "via": ["K"]}, "says via B, where its command has K"),
+        ("taxi via bravo", {"action": "taxi"}, ""),
+        (
+            "climb flight level three five zero at two thousand feet per minute",
+            {"action": "altitude", "altitude_ft": 35_000.0, "vertical_rate_fpm": 1500.0},
+            "says rate_fpm 2000, where its command has 1500",
+        ),
+    ],
+)
+def test_details_of_turns_routes_and_climbs_are_compared(
+    words: str, command: dict[str, Any], doubt: str
+) -> None:
+    if command["action"] == "taxi":
+        command = command | {"to": {"type": "node", "node": "gate"}}
+    line = VERTICAL["radio"]["lines"][0]
+    commands = [{"actor": "AAL123", "command": command}]
+    found = doubts(
+        VERTICAL, line["id"], text=f"American one two three, {words}.", commands=commands
+    )
+    assert len(found) == bool(doubt)
+    assert all(doubt in each for each in found)
+
+
 def test_a_level_that_is_not_the_one_flown_to_is_told() -> None:
     text = "Climb and maintain flight level three three zero, American one two three."
     (found,) = doubts(VERTICAL, "readback", text=text)
