@@ -111,7 +111,7 @@ class LiveRun:
             elif family in self._makers:
                 self._makers[family](logged)
             self._event(logged)
-        except (ValidationError, ValueError, LookupError, TypeError) as error:
+        except (ValidationError, ValueError, LookupError, TypeError, RecursionError) as error:
             if family not in self._unread:
                 self._unread.add(family)
                 why = readable(f"{type(error).__name__}: {error}".partition("\n")[0])

@@ -22,9 +22,11 @@ from airhilt.commands import Command
 from airhilt.messages import (
     ActorCommand,
     AdvisoryPerceived,
+    Message,
     MicrophoneAudio,
     PaceCommand,
     SpokenWords,
+    worker_output,
 )
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
@@ -46,10 +48,18 @@ ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
+HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
+"""Messages of programs besides what workers publish, by the first part of their key."""
+UNREADABLE = (ValueError, LookupError, TypeError, RecursionError)
+"""Exceptions of a message that somebody else than a run has written."""
 MOST_WAITING = 20_000
 """Largest number of messages that wait for the station."""
+MOST_WAITING_BYTES = 32_000_000
+"""Largest size of the messages that wait, in bytes."""
 MOST_SOUNDS = 60
 """Largest number of transmissions and spoken advisories whose sound is kept."""
+MOST_SOUND_BYTES = 64_000_000
+"""Largest size of these sounds, in bytes: half an hour."""
 MOST_PICTURES = 48
 """Largest number of pictures of a camera that are kept: about three seconds."""
 
@@ -78,7 +88,8 @@ class Subscription:
     run
         Name of the run.
     dropped
-        Number of messages for which there was no room.
+        Number of messages for which there was no room, or that are larger than their limit or not
+        as a run writes them.
 
     Raises
     ------
@@ -106,6 +117,7 @@ class Subscription:
         self._prefix = find_run(self._session, patience_s)
         self.run = self._prefix.rpartition("/")[2]
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
+        self._waiting_bytes = 0
         self._sounds: OrderedDict[str, bytes] = OrderedDict()
         self._pictures: dict[str, OrderedDict[int, Picture]] = {}
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
@@ -202,26 +214,56 @@ class Subscription:
     def _hear(self, sample: zenoh.Sample) -> None:
         """Receive a message on a thread of Zenoh."""
         key = str(sample.key_expr)[len(self._prefix) + 1 :]
+        attachment = sample.attachment
+        header_size = 0 if attachment is None else len(attachment)
+        model = worker_output(key) or HEARD.get(key.partition("/")[0])
+        limit = None if model is None else model.limit
+        if limit is not None and len(sample.payload) + header_size > limit.size_bytes:
+            self.dropped += 1
+            return
         data = sample.payload.to_bytes()
-        if sample.attachment is not None:
-            header = sample.attachment.to_bytes()
-            self._keep_sound(key, header, data)
+        if attachment is not None:
+            header = attachment.to_bytes()
+            if not self._keep_sound(key, header, data):
+                self.dropped += 1
+                return
             data = header
         self._post(Logged(key, "", 0, data))
 
-    def _post(self, logged: Logged | None) -> None:
-        try:
-            self._waiting.put_nowait(logged)
-        except queue.Full:
-            self.dropped += 1
-
-    def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> None:
-        if not pcm or key.partition("/")[0] not in ("radio", "tts"):
-            return
+    def _post(self, logged: Logged) -> None:
         with self._lock:
-            self._sounds[sound_name(json.loads(header))] = pcm
-            while len(self._sounds) > MOST_SOUNDS:
+            has_room = self._waiting_bytes + len(logged.data) <= MOST_WAITING_BYTES
+            if has_room:
+                self._waiting_bytes += len(logged.data)
+        try:
+            if has_room:
+                self._waiting.put_nowait(logged)
+                return
+        except queue.Full:
+            self._taken(logged)
+        self.dropped += 1
+
+    def _taken(self, logged: Logged) -> None:
+        """Take note that a message does not wait any more."""
+        with self._lock:
+            self._waiting_bytes -= len(logged.data)
+
+    def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> bool:
+        """Keep the sound of a message, if it has one; return false if nobody can name it."""
+        if not pcm or key.partition("/")[0] not in ("radio", "tts"):
+            return True
+        try:
+            name = sound_name(json.loads(header))
+        except UNREADABLE:
+            return False
+        with self._lock:
+            self._sounds[name] = pcm
+            while (
+                len(self._sounds) > MOST_SOUNDS
+                or sum(map(len, self._sounds.values())) > MOST_SOUND_BYTES
+            ):
                 self._sounds.popitem(last=False)
+        return True
 
     def _stream(self, sample: zenoh.Sample) -> None:
         """Receive a piece of a transmission, its beginning or its end, on a thread of Zenoh."""
@@ -253,6 +295,7 @@ class Subscription:
 
     def _work(self) -> None:
         while (logged := self._waiting.get()) is not None:
+            self._taken(logged)
             if logged.key:
                 self._take(logged._replace(t_ns=_time_ns(logged.data)))
             else:
@@ -280,6 +323,6 @@ def _time_ns(data: bytes) -> int:
     """Return when a message was published, 0 if it does not say so."""
     try:
         t_ns = json.loads(data)["t_ns"]
-    except (ValueError, LookupError, TypeError):
+    except UNREADABLE:
         return 0
     return t_ns if isinstance(t_ns, int) else 0

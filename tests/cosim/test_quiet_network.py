@@ -22,6 +22,12 @@ with socket.socket() as any_socket:
     fcntl.ioctl(any_socket, 0x8914, struct.pack("16sh", b"lo", 1))  # SIOCSIFFLAGS, IFF_UP
 os.execvp(sys.argv[1], sys.argv[1:])
 """
+OTHER_ENGINES = (
+    "--no-cameras", "--snr", "10", "--topology", "asr_first", "--enhancer", "spectral",
+    "--partial-transcripts", "--assistant", "paper", "--equipment", "tcas",
+)  # fmt: skip
+"""Engines that ship, and that a run does not have unless it is told so."""
+NEEDS_FLITE = pytest.mark.skipif(shutil.which("flite") is None, reason="needs flite")
 SPEAKS_TO = re.compile(
     r'(?:connect|sendto|sendmsg)\(.*(?:inet_addr\(|inet_pton\(AF_INET6, )"([^"]+)"'
 )
@@ -76,6 +82,8 @@ def kept_by_others(home: Path) -> list[str]:
     [
         ("--no-cameras", "--snr", "10"),
         pytest.param((), marks=pytest.mark.slow),
+        pytest.param(OTHER_ENGINES, marks=pytest.mark.slow),
+        pytest.param(("--no-cameras", "--tts", "flite"), marks=[pytest.mark.slow, NEEDS_FLITE]),
     ],
 )
 def test_a_run_connects_to_nobody_and_leaves_nothing_for_others_to_send(

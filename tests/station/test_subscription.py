@@ -1,0 +1,104 @@
+"""A page that follows a run does not trust what other programs publish to it."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Iterator
+
+import pytest
+import zenoh
+
+from airhilt.bus.session import Bus, configuration
+from airhilt.messages import Advisory
+from airhilt.record import Logged
+from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
+
+NESTED = b"[" * 30_000
+PATIENCE_S = 10.0
+
+
+class Followed:
+    """A run that a page follows, and a program that publishes to it."""
+
+    def __init__(self) -> None:
+        self.bus = Bus("run")
+        self.bus.keep("clock", b"{}")
+        self.taken: list[Logged] = []
+        self.is_lost = threading.Event()
+        self._has_come = threading.Event()
+        self.page = Subscription(self.bus.endpoint, self._take, self.is_lost.set)
+        self._program = zenoh.open(configuration("client", "connect", self.bus.endpoint))
+
+    def _take(self, logged: Logged) -> None:
+        self.taken.append(logged)
+        if logged.data == b'{"last": 1}':
+            self._has_come.set()
+
+    def publish(self, key: str, data: bytes, attachment: bytes | None = None) -> None:
+        block = zenoh.CongestionControl.BLOCK
+        self._program.put(
+            f"{self.bus.prefix}/{key}", data, attachment=attachment, congestion_control=block
+        )
+
+    def publish_last(self) -> None:
+        """Publish one more, and wait until the page has it and all before it."""
+        self.publish("advisory/ATC", b'{"last": 1}')
+        assert self._has_come.wait(PATIENCE_S)
+
+    def close(self) -> None:
+        self._program.close()  # type: ignore[no-untyped-call]
+        self.page.close()
+
+
+@pytest.fixture
+def followed() -> Iterator[Followed]:
+    run = Followed()
+    yield run
+    run.bus.close()
+    run.close()
+
+
+@pytest.mark.parametrize(
+    ("key", "data", "header"),
+    [
+        ("advisory/ATC", NESTED, None),
+        ("asr/134325", b'{"t_ns": ' + NESTED, None),
+        ("tts/a", b"\0\0", b"garbage"),
+        ("tts/a", b"\0\0", b"[1]"),
+        ("tts/a", b"\0\0", NESTED),
+    ],
+)
+def test_a_malformed_message_says_nothing_on_the_terminal_and_ends_nothing(
+    followed: Followed,
+    capfd: pytest.CaptureFixture[str],
+    key: str,
+    data: bytes,
+    header: bytes | None,
+) -> None:
+    followed.publish(key, data, header)
+    followed.publish_last()
+    assert capfd.readouterr().err == ""
+    followed.bus.close()
+    assert followed.is_lost.wait(PATIENCE_S)
+    followed.bus = Bus("another")
+
+
+def test_a_message_above_its_limit_is_dropped_and_counted(followed: Followed) -> None:
+    assert Advisory.limit is not None
+    fits = json.dumps({"message": "x" * (Advisory.limit.size_bytes - 20)}).encode()
+    for data in (fits, b"x" * (Advisory.limit.size_bytes + 1)):
+        followed.publish("advisory/ATC", data)
+        followed.publish("command/AAL123", b"x" * 1_000_000)
+    followed.publish_last()
+    assert [logged.data for logged in followed.taken if logged.key == "advisory/ATC"][0] == fits
+    assert followed.page.dropped == 3
+
+
+def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
+    size = 7_000_000
+    for number in range(12):
+        followed.publish("tts/a", bytes(size), json.dumps({"id": f"call-{number}"}).encode())
+    followed.publish_last()
+    kept = [number for number in range(12) if followed.page.sound(f"call-{number}")]
+    assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
