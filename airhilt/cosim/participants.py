@@ -135,9 +135,7 @@ def connect(
     return Participants(assistant, tuple(workers), tuple(programs))
 
 
-def _require_no_service(
-    workers: Sequence[Participant], assistant: str, engines: Engines
-) -> None:
+def _require_no_service(workers: Sequence[Participant], assistant: str, engines: Engines) -> None:
     """Complain about a worker of a replay that would ask a service.
 
     A run records what each service answers, so that its replay sends nothing, and no key, to the

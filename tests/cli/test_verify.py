@@ -135,7 +135,9 @@ def test_a_manifest_with_a_name_that_no_file_can_have_is_named(
     folder.write_info(folder.info().model_copy(update={"files": files}))
     done = airhilt_command("verify", run_copy)
     assert done.returncode == 1
-    assert "cannot be read: File name too long" in airhilt_command("verify", "--json", run_copy).stdout
+    assert (
+        "cannot be read: File name too long" in airhilt_command("verify", "--json", run_copy).stdout
+    )
 
 
 def test_a_folder_without_a_run_is_a_mistake(airhilt_command: Any, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ os.execvp(sys.argv[1], sys.argv[1:])
 """
 OTHER_ENGINES = (
     "--no-cameras", "--snr", "10", "--topology", "asr_first", "--enhancer", "spectral",
-    "--partial-transcripts", "--assistant", "paper", "--equipment", "tcas",
+    "--assistant", "paper", "--equipment", "conflict_alert",
 )  # fmt: skip
 """Engines that ship, and that a run does not have unless it is told so."""
 NEEDS_FLITE = pytest.mark.skipif(shutil.which("flite") is None, reason="needs flite")

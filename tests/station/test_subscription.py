@@ -91,7 +91,7 @@ def test_a_message_above_its_limit_is_dropped_and_counted(followed: Followed) ->
         followed.publish("advisory/ATC", data)
         followed.publish("command/AAL123", b"x" * 1_000_000)
     followed.publish_last()
-    assert [logged.data for logged in followed.taken if logged.key == "advisory/ATC"][0] == fits
+    assert next(each.data for each in followed.taken if each.key == "advisory/ATC") == fits
     assert followed.page.dropped == 3
 
 

@@ -169,20 +169,19 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
                 f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
                 f"expected {EXPECTED}"
             ) from None
+    sides: tuple[int, int] | None = None
     match session.get_inputs()[0].shape:
         case [_, _, int(rows), int(columns)]:
             sides = rows, columns
         case [_, _, _, _]:
-            sides = None
+            pass
         case shape:
             raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
     _require_end(session, path, sides or (TRIAL_PX, TRIAL_PX))
     return sides
 
 
-def _require_end(
-    session: onnxruntime.InferenceSession, path: Path, sides: tuple[int, int]
-) -> None:
+def _require_end(session: onnxruntime.InferenceSession, path: Path, sides: tuple[int, int]) -> None:
     """Complain about a network that never ends; ultralytics says what else is wrong with it.
 
     Raises
