@@ -13,7 +13,7 @@ from shapely import Polygon, affinity, union_all
 from airhilt.units import FOOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.aircraft_type import AircraftType
-from airhilt.world.truth.gaps import gap, radius_m
+from airhilt.world.truth.gaps import corners, gap, radius_m
 from straight import Rolling, Straight
 
 LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
@@ -69,6 +69,19 @@ def test_a_moment_ago_they_touched() -> None:
     first, second = plane(heading_deg=90.0), plane(east_m=-60.0, heading_deg=270.0)
     assert not gap(first, second).touches
     assert gap(first, second, at_s=-0.6).touches
+
+
+@pytest.mark.parametrize("heading_deg", [0.0, 90.0, 225.0])
+def test_the_corners_are_nose_tail_sides_and_centre(heading_deg: float) -> None:
+    heading = math.radians(heading_deg)
+    ahead = math.sin(heading), math.cos(heading)
+    right = math.cos(heading), -math.sin(heading)
+    nose, tail, starboard, port, centre = corners(plane(heading_deg=heading_deg)).tolist()
+    assert nose == pytest.approx([part * LENGTH_M / 2.0 for part in ahead], abs=0.01)
+    assert tail == pytest.approx([-part * LENGTH_M / 2.0 for part in ahead], abs=0.01)
+    assert starboard == pytest.approx([part * SPAN_M / 2.0 for part in right], abs=0.01)
+    assert port == pytest.approx([-part * SPAN_M / 2.0 for part in right], abs=0.01)
+    assert centre == [0.0, 0.0]
 
 
 poses = st.tuples(st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(0.0, 359.0))
