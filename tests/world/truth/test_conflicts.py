@@ -49,6 +49,21 @@ def test_tcas_speaks_at_its_thresholds() -> None:
     assert watch.told["tcas_ra"] == pytest.approx(80.0 - 35.0, abs=1.5)
 
 
+@pytest.mark.parametrize("levels_ft", [(20_200.0, 19_800.0), (19_800.0, 20_200.0)])
+def test_of_two_tcas_with_different_thresholds_the_first_to_speak_counts(
+    levels_ft: tuple[float, float],
+) -> None:
+    """Above 20,000 ft the thresholds are 48 s and 35 s, below 45 s and 30 s."""
+    first, second = levels_ft
+    far = 250.0 * 80.0
+    watch = Watch(
+        Straight(-far, east_m_s=250.0, altitude_ft=first),
+        Straight(far, east_m_s=-250.0, altitude_ft=second),
+    ).fly(60.0)
+    assert watch.told["tcas_ta"] == pytest.approx(80.0 - 48.0, abs=1.5)
+    assert watch.told["tcas_ra"] == pytest.approx(80.0 - 35.0, abs=1.5)
+
+
 def test_tcas_says_nothing_of_who_carries_no_transponder() -> None:
     watch = Watch(*head_on(80.0), transponders=frozenset({"A"})).fly(81.0)
     assert not {"tcas_ta", "tcas_ra"} & set(watch.told)
