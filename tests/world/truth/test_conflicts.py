@@ -36,6 +36,17 @@ def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision() -> 
     assert watch.told["collision"] == pytest.approx(60.0, abs=0.15)
 
 
+@pytest.mark.parametrize("above_ft", [0.0, 500.0, 990.0])
+def test_a_pair_that_no_scenario_names_is_watched_at_every_tick_when_it_is_near(
+    above_ft: float,
+) -> None:
+    watch = Watch(*head_on(60.0, altitude_ft=35_000.0 + above_ft), always=False).fly(70.0)
+    lost_s = 60.0 - MINIMA.horizontal_m / 500
+    assert watch.told["loss_of_separation"] == pytest.approx(lost_s, abs=0.1)
+    assert watch.truth.closest.vertical_m == pytest.approx(above_ft * FOOT, abs=1.0)
+    assert watch.truth.closest.horizontal_m < 15.0
+
+
 @pytest.mark.parametrize("grounded", [(True, True), (True, False)])
 def test_near_mid_air_collisions_are_of_two_aircraft_in_flight(grounded: tuple[bool, bool]) -> None:
     first, second = head_on(10.0)
