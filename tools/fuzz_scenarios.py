@@ -192,7 +192,7 @@ def _run(scenario: Scenario) -> str | None:
 
 
 def main() -> int:
-    """Judge mutants, and print how many came to what, and how much CPU time the slowest check took."""
+    """Judge mutants, and print how many came to what, and the CPU time of the slowest check."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

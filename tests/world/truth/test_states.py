@@ -1,0 +1,32 @@
+"""The true state of an actor as a message."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from airhilt.scenario import Scenario
+from airhilt.units import FOOT
+from airhilt.world.actors import build_actors
+from airhilt.world.loading import draw
+from airhilt.world.site import ScenarioSite
+from airhilt.world.truth.states import truth_of
+
+
+def test_the_truth_is_the_state_in_degrees_and_metres(encounter: Scenario) -> None:
+    realised, _ = draw(encounter, 0)
+    actor = build_actors(realised, ScenarioSite.of(realised), 0, 0.05)["AAL123"]
+    truth, state = truth_of(actor, 3), actor.body.state
+    assert truth.t_ns == 3
+    assert truth.actor == "AAL123"
+    assert truth.latitude_deg == pytest.approx(math.degrees(state.latitude_rad))
+    assert truth.longitude_deg == pytest.approx(math.degrees(state.longitude_rad))
+    assert not truth.longitude_deg.is_integer()
+    assert truth.heading_deg == pytest.approx(math.degrees(state.heading_rad) % 360.0)
+    assert truth.roll_deg == pytest.approx(math.degrees(state.roll_rad))
+    assert truth.pitch_deg == pytest.approx(math.degrees(state.pitch_rad))
+    assert truth.altitude_m == pytest.approx(35_000.0 * FOOT, abs=1.0)
+    assert truth.velocity_north_m_s == state.velocity_north_m_s
+    assert truth.velocity_east_m_s == state.velocity_east_m_s
+    assert truth.velocity_down_m_s == state.velocity_down_m_s
