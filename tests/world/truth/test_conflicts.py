@@ -36,6 +36,15 @@ def test_head_on_separation_is_lost_then_it_is_a_near_miss_and_a_collision() -> 
     assert watch.told["collision"] == pytest.approx(60.0, abs=0.15)
 
 
+@pytest.mark.parametrize("mover", ["A", "B"])
+def test_the_motion_of_a_pair_is_that_of_now_though_one_of_them_stands(mover: str) -> None:
+    watch = Watch(Straight(east_m_s=10.0), Straight(1_000.0, east_m_s=10.0))
+    before = watch.monitor.motion(("A", "B")).distance_m
+    watch.aircraft[mover].advance(5.0)
+    changed = watch.monitor.motion(("A", "B")).distance_m - before
+    assert changed == pytest.approx(50.0 if mover == "B" else -50.0, abs=1.0)
+
+
 @pytest.mark.parametrize("above_ft", [0.0, 500.0, 990.0])
 def test_a_pair_that_no_scenario_names_is_watched_at_every_tick_when_it_is_near(
     above_ft: float,
