@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import pytest
 
@@ -17,7 +18,8 @@ from airhilt.world.truth.states import truth_of
 def test_the_truth_is_the_state_in_degrees_and_metres(encounter: Scenario) -> None:
     realised, _ = draw(encounter, 0)
     actor = build_actors(realised, ScenarioSite.of(realised), 0, 0.05)["AAL123"]
-    truth, state = truth_of(actor, 3), actor.body.state
+    body: Any = actor.body
+    truth, state = truth_of(actor, 3), body.state
     assert truth.t_ns == 3
     assert truth.actor == "AAL123"
     assert truth.latitude_deg == pytest.approx(math.degrees(state.latitude_rad))
