@@ -21,6 +21,7 @@ from pydantic import (
     Field,
     TypeAdapter,
     field_validator,
+    model_validator,
 )
 
 from airhilt.commands import Command
@@ -937,6 +938,56 @@ class PaceCommand(Message):
         return factor if factor == 0.0 else max(factor, 0.1)
 
 
+class NasaTlx(Part):
+    """Ratings of the NASA Task Load Index (Hart & Staveland 1988), from 0 to 100 in steps of 5.
+
+    Performance is 0 for perfect and 100 for failure.
+    """
+
+    mental_demand: int = Field(ge=0, le=100, multiple_of=5)
+    physical_demand: int = Field(ge=0, le=100, multiple_of=5)
+    temporal_demand: int = Field(ge=0, le=100, multiple_of=5)
+    performance: int = Field(ge=0, le=100, multiple_of=5)
+    effort: int = Field(ge=0, le=100, multiple_of=5)
+    frustration: int = Field(ge=0, le=100, multiple_of=5)
+
+    @property
+    def raw_tlx(self) -> float:
+        """Mean of the six ratings (Hart 2006)."""
+        ratings: list[int] = list(self.model_dump().values())
+        return sum(ratings) / len(ratings)
+
+
+class WorkloadQuestion(Message):
+    """``question/<seat>``: the person at a seat is asked how high the workload is.
+
+    ISA (Tattersall & Foord 1996) is one number for now, asked while the run goes on; NASA-TLX is
+    asked when it has come to its end, and time stands still.
+    """
+
+    seat: str
+    number: int = Field(ge=1, description="of the question at this seat")
+    scale: Literal["isa", "nasa_tlx"]
+
+
+class WorkloadAnswer(Message):
+    """``workload/<seat>``: answer of the person at a seat to a question; without a rating, none."""
+
+    limit = Limit(size_bytes=1_000, rate_hz=5)
+    question: int = Field(ge=1, description="its number")
+    isa: int | None = Field(
+        default=None, ge=1, le=5, description="1 under-utilised, 2 relaxed, 3 comfortable, "
+        "4 high, 5 excessive",
+    )
+    nasa_tlx: NasaTlx | None = None
+
+    @model_validator(mode="after")
+    def _has_one_scale(self) -> WorkloadAnswer:
+        if self.isa is not None and self.nasa_tlx is not None:
+            raise ValueError("isa and nasa_tlx; expected one of the two")
+        return self
+
+
 class SeatPresence(Message):
     """``seat/<seat>``: a person has taken a seat, or has left it.
 
@@ -1263,6 +1314,8 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "seat/{seat}": SeatPresence,
     "seat/{seat}/info": SeatInfo,
     "notice/{seat}": SeatNotice,
+    "question/{seat}": WorkloadQuestion,
+    "workload/{seat}": WorkloadAnswer,
     "task/{seat}": TaskCard,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,

@@ -239,6 +239,26 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = True
+    isa_minutes: Annotated[
+        Annotated[float, Field(gt=0.0, le=60.0, allow_inf_nan=False)] | None,
+        Flag(
+            "--isa",
+            "Ask people at seats every so many minutes how high their workload is (ISA, 1 to 5).",
+            "MINUTES",
+            default="not asked",
+            needs=("seat",),
+            in_sweeps=False,
+        ),
+    ] = None
+    nasa_tlx: Annotated[
+        bool,
+        Flag(
+            "--nasa-tlx",
+            "Ask people at seats for the NASA-TLX ratings when the run has come to its end.",
+            needs=("seat",),
+            in_sweeps=False,
+        ),
+    ] = False
     attach: Annotated[
         tuple[str, ...],
         Flag(

@@ -34,6 +34,7 @@ from airhilt.messages import (
     Transcript,
     Turn,
     WorkerDescription,
+    WorkloadAnswer,
     json_schemas,
 )
 
@@ -159,6 +160,8 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "id": "s-1", "revision": 2, "recipient": "AAL1", "way": "heard", "after_s": 0.02,
     },
     "PaceCommand": {"factor": 0.5},
+    "WorkloadQuestion": {"seat": "TOWER", "number": 1, "scale": "isa"},
+    "WorkloadAnswer": {"question": 1, "isa": 3},
     "SeatPresence": {"is_taken": True},
     "SeatInfo": {
         "seat": "TOWER", "frequencies_khz": [118_300], "has_sound": True, "is_recognised": True,
@@ -332,7 +335,7 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
         *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, SpokenWords, MicrophoneAudio,
-        AdvisoryPerceived, PaceCommand,
+        AdvisoryPerceived, PaceCommand, WorkloadAnswer,
     }  # fmt: skip
 
 

@@ -32,6 +32,7 @@ from airhilt.messages import (
     SeatPresence,
     SpokenWords,
     Transcript,
+    WorkloadAnswer,
 )
 from airhilt.sensors.radio.conversation import FromSeat
 from airhilt.sim import Director, RealTime, Virtual
@@ -48,10 +49,11 @@ HEARD: Mapping[str, type[Message]] = {
     "microphone/*": MicrophoneAudio,
     "perceived/*": AdvisoryPerceived,
     "pace": PaceCommand,
+    "workload/*": WorkloadAnswer,
     "tts/*": AdvisoryAudio,
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
-AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence)
+AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence, WorkloadAnswer)
 """Messages of people at seats."""
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
@@ -91,6 +93,8 @@ class ExternalPrograms:
         Called with a seat, as a part of keys, and true if a person has taken it, false if left.
     set_pace
         Lets the time pass at a part of real time.
+    answer
+        Takes what the person at a seat, a part of keys, answers to a question about workload.
     workers
         Names of the workers that take grants: their advisories are not those of a program.
     is_strict
@@ -111,6 +115,7 @@ class ExternalPrograms:
         keeps_voices: bool,
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
+        answer: Callable[[str, WorkloadAnswer], None],
         workers: Collection[str],
         has_decision: bool,
         is_strict: bool,
@@ -129,6 +134,7 @@ class ExternalPrograms:
         self._keeps_voices = keeps_voices
         self._occupy = occupy
         self._set_pace = set_pace
+        self._answer = answer
         self._workers = workers
         self._is_strict = is_strict
         self._intake = Intake(LIMITS | {ANSWERS: ANSWERS_LIMIT}, self._dropping)
@@ -207,6 +213,8 @@ class ExternalPrograms:
             self._occupy(key.split("/")[1], stamped.is_taken)
         elif isinstance(stamped, PaceCommand):
             self._set_pace(stamped.factor)
+        elif isinstance(stamped, WorkloadAnswer):
+            self._answer(key.split("/")[1], stamped)
 
     def _logged(self, message: Message) -> Message:
         """Return a message as the log is to have it."""

@@ -35,6 +35,7 @@ from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.seat_notices import SeatNotices
 from airhilt.cosim.setup import Setup, set_up
+from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.messages import Clock, Phase, WorkerDescription
@@ -215,6 +216,7 @@ class Simulation:
         self._pace_control = PaceControl(
             self._director, self._event, pausing=self._radio.pause, changed=self._publish_clock
         )
+        self._questions = self._make_questions()
         self._router.listen(self._advisories.take)
         self._connect_notices()
         self._sensors: list[Sensor] = [self._radio, vision]
@@ -278,12 +280,36 @@ class Simulation:
             take_from_seat=lambda seat, said: self._radio.take_from_seat(seat, said),
             seats=[key_chunk(name) for name in self._setup.seats],
             keeps_voices=self._setup.options.voice_recording,
-            occupy=lambda seat, is_taken: self._radio.occupy(seat, is_taken),
-            set_pace=lambda factor: self._pace_control.set(factor),
+            occupy=self._occupy,
+            set_pace=self._set_pace,
+            answer=lambda seat, answer: self._questions.answer(seat, answer),
             workers=[worker.description.name for worker in participants.workers],
             has_decision=bool(participants.programs) or participants.does("decision"),
             is_strict=self._setup.options.strict,
         )
+
+    def _make_questions(self) -> WorkloadQuestions:
+        options = self._setup.options
+        return WorkloadQuestions(
+            self._director,
+            self._setup.seats,
+            self._router.publish,
+            isa_minutes=options.isa_minutes,
+            has_tlx=options.nasa_tlx,
+            is_replay=self._setup.recorded.is_replay,
+            hold=lambda: self._pace_control.set(0.0),
+            take=self._programs.take,
+        )
+
+    def _occupy(self, seat: str, is_taken: bool) -> None:
+        """Take in that a person has taken a seat, a part of keys, or has left it."""
+        self._radio.occupy(seat, is_taken)
+        self._questions.occupy(seat, is_taken=is_taken)
+
+    def _set_pace(self, factor: float) -> None:
+        """Let the time pass as a person asks for; it stands still once the run is at its end."""
+        if not self._questions.is_closing:
+            self._pace_control.set(factor)
 
     def _connect_notices(self) -> None:
         """Tell people at seats, and the user, what they would not see otherwise."""
@@ -365,7 +391,7 @@ class Simulation:
         every(SECOND_NS, self._flush_logs, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
         duration_ns = seconds_to_ns(self._setup.scenario.duration_s)
-        director.at(duration_ns, director.stop, Priority.OBSERVE)
+        director.at(duration_ns, self._questions.end, Priority.OBSERVE)
         self._world.schedule_occurrences()
         self._schedule_recorded(self._setup.recorded)
 
@@ -490,7 +516,7 @@ class Simulation:
 
     def _end_if_due(self) -> None:
         if self._world.has_ended():
-            self._director.stop()
+            self._questions.end()
 
     # --- workers ----------------------------------------------------------------------------
 

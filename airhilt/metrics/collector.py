@@ -115,7 +115,7 @@ class Collector:
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
-        self._people = PeopleRecords(seats)
+        self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors])
         new_records = partial(
             AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
         )

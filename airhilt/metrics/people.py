@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from statistics import median
+from statistics import fmean, median
 from typing import NamedTuple
 
 from airhilt.messages import (
@@ -16,8 +16,11 @@ from airhilt.messages import (
     MicrophoneAudio,
     SpokenTruth,
     SpokenWords,
+    WorkloadAnswer,
+    WorkloadQuestion,
 )
-from airhilt.metrics.summary import PersonReaction, PersonSummary
+from airhilt.metrics.readbacks import Readbacks
+from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.units import SECOND_NS
 
@@ -44,6 +47,10 @@ class _Person:
     seen_ns: dict[Advised, int] = field(default_factory=dict)
     heard_ns: dict[Advised, int] = field(default_factory=dict)
     asked_again: int = 0
+    readback_errors: int = 0
+    readback_errors_heard: int = 0
+    questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
+    answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
 
     def first_action(self, since_ns: int) -> _Action | None:
         return next((one for one in self.actions if one.t_ns >= since_ns), None)
@@ -59,9 +66,12 @@ class PeopleRecords:
     ----------
     seats
         Units and callsigns that are left to people.
+    callsigns
+        Callsigns of the run.
     """
 
-    def __init__(self, seats: Collection[str]) -> None:
+    def __init__(self, seats: Collection[str], callsigns: Collection[str] = ()) -> None:
+        self._readbacks = Readbacks(callsigns)
         self._names = {key_chunk(seat): seat for seat in seats}
         self._people = {seat: _Person() for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
@@ -69,6 +79,11 @@ class PeopleRecords:
 
     def take(self, key: str, message: Message) -> None:
         """Receive a published message."""
+        if self._people and (error := self._readbacks.take(message)) is not None:
+            if error.reader in self._people:
+                self._people[error.reader].readback_errors += 1
+            if error.giver in self._people:
+                self._people[error.giver].readback_errors_heard += 1
         match message:
             case Advisory():
                 name = message.id, message.revision, message.recipient
@@ -78,7 +93,15 @@ class PeopleRecords:
                 self._voices_ns[name] = message.t_ns
             case SpokenTruth(addressed=seat, id=call) if seat in self._people:
                 self._people[seat].asked_again += ".say-again-" in call
-            case ActorCommand() | SpokenWords() | MicrophoneAudio() | AdvisoryPerceived():
+            case WorkloadQuestion(seat=seat, number=number) if seat in self._people:
+                self._people[seat].questions[number] = message
+            case (
+                ActorCommand()
+                | SpokenWords()
+                | MicrophoneAudio()
+                | AdvisoryPerceived()
+                | WorkloadAnswer()
+            ):
                 seat = self._names.get(key.split("/")[1])
                 if seat is not None:
                     self._take_of(self._people[seat], message)
@@ -93,6 +116,8 @@ class PeopleRecords:
             case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
                 person.actions.append(_Action(t_ns, "spoken call"))
                 person.delays_s.append(delay_s)
+            case WorkloadAnswer(question=number):
+                person.answers.setdefault(number, message)
             case AdvisoryPerceived(t_ns=t_ns):
                 times = person.heard_ns if message.way == "heard" else person.seen_ns
                 name = message.id, message.revision, message.recipient
@@ -113,9 +138,12 @@ class PeopleRecords:
             typed_calls=typed,
             commands=len(person.actions) - spoken - typed,
             asked_to_say_again=person.asked_again,
+            readback_errors=person.readback_errors,
+            readback_errors_heard=person.readback_errors_heard,
             press_to_transmit_s=median(person.delays_s) if person.delays_s else None,
             reaction_time_s=median(times_s) if times_s else None,
             reactions=reactions,
+            workload=_workload(person) if person.questions else None,
         )
 
     def _reaction(self, name: Advised, person: _Person) -> PersonReaction:
@@ -140,6 +168,26 @@ class PeopleRecords:
             reaction_time_s=None if first is None else (first.t_ns - since_ns) / SECOND_NS,
             followed=_is_followed(advisory, since_ns, person.actions),
         )
+
+
+def _workload(person: _Person) -> WorkloadSummary:
+    ratings, tlx = [], None
+    for number, question in sorted(person.questions.items()):
+        answer = person.answers.get(number)
+        if question.scale == "nasa_tlx":
+            tlx = None if answer is None else answer.nasa_tlx
+            continue
+        rating = None if answer is None else answer.isa
+        after_ns = None if answer is None or rating is None else answer.t_ns - question.t_ns
+        asked_s = question.t_ns / SECOND_NS
+        ratings.append(IsaRating(t_s=asked_s, rating=rating, answered_after_s=_seconds(after_ns)))
+    given = [one.rating for one in ratings if one.rating is not None]
+    return WorkloadSummary(
+        isa_mean=fmean(given) if given else None,
+        isa=ratings,
+        nasa_tlx=tlx,
+        raw_tlx=None if tlx is None else tlx.raw_tlx,
+    )
 
 
 def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> bool | None:

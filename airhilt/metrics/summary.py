@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from airhilt.messages import FORMER_MODALITIES, ModalityState, Severity
+from airhilt.messages import FORMER_MODALITIES, ModalityState, NasaTlx, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
 Stage = str
@@ -129,6 +129,25 @@ class PersonReaction(BaseModel):
     followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
 
 
+class IsaRating(BaseModel):
+    """An ISA question at a seat, and what was answered; null: nothing was."""
+
+    model_config = ConfigDict(frozen=True)
+    t_s: float = Field(description="it was asked")
+    rating: int | None = Field(description="1 under-utilised to 5 excessive")
+    answered_after_s: float | None
+
+
+class WorkloadSummary(BaseModel):
+    """The workload of the person at one seat, as the person says; null: not asked or answered."""
+
+    model_config = ConfigDict(frozen=True)
+    isa_mean: float | None = Field(description="over the questions that were answered")
+    isa: list[IsaRating]
+    nasa_tlx: NasaTlx | None = Field(description="0 to 100; performance: 100 is failure")
+    raw_tlx: float | None = Field(description="mean of the six ratings")
+
+
 class PersonSummary(BaseModel):
     """Words and actions of the person at one seat."""
 
@@ -138,11 +157,20 @@ class PersonSummary(BaseModel):
     typed_calls: int
     commands: int
     asked_to_say_again: int = Field(description="answers to the person that ask to say again")
+    readback_errors: int = Field(
+        default=0,
+        description="readbacks of the person with another runway, level or other detail than the "
+        "instruction; what was spoken counts as it was recognised",
+    )
+    readback_errors_heard: int = Field(
+        default=0, description="likewise, in answer to instructions of the person"
+    )
     press_to_transmit_s: float | None = Field(
         description="median time from pressing the button until the station had it"
     )
     reaction_time_s: float | None = Field(description="median over the advisories")
     reactions: list[PersonReaction]
+    workload: WorkloadSummary | None = Field(default=None, description="null: nothing was asked")
 
 
 class RecognitionStatistics(BaseModel):

@@ -1,19 +1,31 @@
-"""The reactions of the people of a run as a table: one row for each advisory at each seat."""
+"""The people of a run as a table: what each did and said, their reactions, and their workload."""
 
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed
-from airhilt.metrics.summary import PersonReaction
+from airhilt.messages import NasaTlx
+from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary
 from airhilt.record import RunFolder
 
-COLUMNS = ("run", "seat", *PersonReaction.model_fields)
+PARTS = ("seat", "reactions", "workload")
+"""Fields of a person that are no totals: other rows, or columns of their own, have them."""
+TOTALS = tuple(name for name in PersonSummary.model_fields if name not in PARTS)
+COLUMNS = (
+    "run", "seat", "row", *TOTALS, "isa_mean", "raw_tlx", *NasaTlx.model_fields,
+    *(name for name in PersonReaction.model_fields if name not in TOTALS), *IsaRating.model_fields,
+)  # fmt: skip
 
 
 def write_people_csv(folder: RunFolder, path: Path) -> None:
-    """Write the reactions of a run; without any, the file has its head alone.
+    """Write the people of a run; without any, the file has its head alone.
+
+    Each seat has a row ``total``, a row ``reaction`` for each advisory, and a row ``isa`` for each
+    question.
 
     Raises
     ------
@@ -28,7 +40,16 @@ def write_people_csv(folder: RunFolder, path: Path) -> None:
             writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore")
             writer.writeheader()
             for person in summary.get("people", ()):
-                for reaction in person["reactions"]:
-                    writer.writerow({"run": folder.path.name, "seat": person["seat"], **reaction})
+                for row in _rows(person):
+                    writer.writerow({"run": folder.path.name, "seat": person["seat"], **row})
     except OSError as error:
         raise disk_failed(str(path), error) from None
+
+
+def _rows(person: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    workload = person.get("workload") or {}
+    yield {"row": "total", **person, **workload, **(workload.get("nasa_tlx") or {})}
+    for reaction in person["reactions"]:
+        yield {"row": "reaction", **reaction}
+    for question in workload.get("isa", ()):
+        yield {"row": "isa", **question}

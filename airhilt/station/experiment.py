@@ -25,7 +25,7 @@ from airhilt.record import RunFolder, open_run
 from airhilt.record.run import untold
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
-from airhilt.station.questionnaires import NasaTlx
+from airhilt.messages import NasaTlx
 from airhilt.station.started_runs import StartedRun, StartedRuns
 from airhilt.text import readable
 

@@ -9,7 +9,7 @@ from fastapi import FastAPI
 from airhilt.station.app import page_app
 from airhilt.station.experiment import Conductor
 from airhilt.station.home import refuse_in_words
-from airhilt.station.questionnaires import NasaTlx
+from airhilt.messages import NasaTlx
 
 
 def experiment_app(conductor: Conductor) -> FastAPI:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,7 +19,12 @@ from airhilt.messages import (
     GoAround,
     Message,
     MicrophoneAudio,
+    NasaTlx,
     Severity,
+    SpokenTruth,
+    Transcript,
+    WorkloadAnswer,
+    WorkloadQuestion,
 )
 from airhilt.metrics.people import FOLLOWED_WITHIN_S, PeopleRecords
 from airhilt.metrics.summary import PersonReaction, PersonSummary
@@ -105,6 +111,65 @@ def test_commands_to_other_aircraft_are_of_nobody_at_a_seat() -> None:
     assert person((1.0, "command/DAL2", GO_AROUND)).commands == 0
 
 
+def call(
+    speaker: str, text: str, t_s: float, addressed: str | None = None, **more: Any
+) -> tuple[float, str, Message]:
+    t_ns = round(t_s * SECOND)
+    said = SpokenTruth(
+        id=f"{speaker} {t_s}", speaker=speaker, addressed=addressed, frequency_khz=119_100,
+        text=text, t_tx_ns=t_ns, t_end_ns=t_ns, **more,
+    )  # fmt: skip
+    return t_s, "truth/radio/x", said
+
+
+CLEARED = call("Tower", "American one two three, runway zero one, cleared to land", 1.0, "AAL123")
+RIGHT = "Cleared to land runway zero one, American one two three"
+WRONG = "Cleared to land runway one niner, American one two three"
+
+
+@pytest.mark.parametrize(
+    ("text", "t_s", "errors"), [(RIGHT, 5.0, 0), (WRONG, 5.0, 1), (WRONG, 50.0, 0)]
+)
+def test_a_readback_with_another_runway_is_an_error_of_who_reads_it_back(
+    text: str, t_s: float, errors: int
+) -> None:
+    records = PeopleRecords(["Tower", "AAL123"], ["AAL123"])
+    for _, key, message in (CLEARED, call("AAL123", text, t_s)):
+        records.take(key, message)
+    tower, pilot = records.summaries()
+    assert (tower.readback_errors, tower.readback_errors_heard) == (0, errors)
+    assert (pilot.readback_errors, pilot.readback_errors_heard) == (errors, 0)
+
+
+def test_a_spoken_readback_counts_as_it_was_recognised() -> None:
+    records = PeopleRecords(["AAL123"], ["AAL123"])
+    _, _, spoken = call("AAL123", "", 5.0, is_from_microphone=True)
+    heard = Transcript(
+        id="AAL123 5.0", frequency_khz=119_100, text=WRONG, confidence=0.9, engine="ctc",
+        t_tx_ns=5 * SECOND, t_end_ns=5 * SECOND,
+    )  # fmt: skip
+    for message in (CLEARED[2], spoken, heard):
+        records.take("", message)
+    assert records.summaries()[0].readback_errors == 1
+
+
+def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
+    def asked(number: int, scale: str) -> WorkloadQuestion:
+        return WorkloadQuestion.model_validate({"seat": "AAL1", "number": number, "scale": scale})
+
+    ratings = dict.fromkeys(NasaTlx.model_fields, 50)
+    found = person(
+        (60.0, "question/AAL1", asked(1, "isa")),
+        (64.0, "workload/AAL1", WorkloadAnswer(question=1, isa=4)),
+        (120.0, "question/AAL1", asked(2, "isa")),
+        (150.0, "question/AAL1", asked(3, "nasa_tlx")),
+        (150.0, "workload/AAL1", WorkloadAnswer(question=3, nasa_tlx=NasaTlx(**ratings))),
+    ).workload
+    assert found is not None
+    assert [(one.rating, one.answered_after_s) for one in found.isa] == [(4, 4.0), (None, None)]
+    assert (found.isa_mean, found.raw_tlx) == (4.0, 50.0)
+
+
 def test_reactions_are_written_as_a_table(tmp_path: Path) -> None:
     summary = person(
         (10.0, "advisory/AAL1", advisory()),
@@ -115,6 +180,7 @@ def test_reactions_are_written_as_a_table(tmp_path: Path) -> None:
     )
     table = tmp_path / "reactions.csv"
     write_people_csv(RunFolder(tmp_path), table)
-    (row,) = csv.DictReader(table.read_text().splitlines())
+    total, row = csv.DictReader(table.read_text().splitlines())
+    assert (total["row"], total["commands"], row["row"]) == ("total", "0", "reaction")
     assert (row["seat"], row["severity"], row["t_seen_s"]) == ("AAL1", "WARNING", "10.1")
     assert row["reaction_time_s"] == ""

@@ -17,7 +17,7 @@ import pytest
 from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.station.experiment import Conductor, Progress, write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
-from airhilt.station.questionnaires import NasaTlx
+from airhilt.messages import NasaTlx
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS = NasaTlx(

@@ -28,7 +28,7 @@ Examples:
   airhilt report RUN --out headon.html
   airhilt report SWEEP
   airhilt report SWEEP --csv runs.csv
-  airhilt report RUN --csv reactions.csv
+  airhilt report RUN --csv people.csv
 """
 )
 @click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
@@ -42,7 +42,7 @@ Examples:
     "--csv",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write the table of a sweep, or the reactions of the people of a run, as CSV instead.",
+    help="Write the table of a sweep, or of the people of a run, as CSV instead.",
 )
 def report(folder: Path, out: Path | None, csv: Path | None) -> None:
     """Make the report of a run or of a sweep: one HTML file that opens offline.
