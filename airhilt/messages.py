@@ -1008,6 +1008,7 @@ class SeatInfo(Message):
     )
     voice_is_recorded: bool
     longest_call_s: float = Field(description="a call is cut after this time")
+    phraseology: Literal["faa", "icao"] = "faa"
 
 
 class SeatNotice(Message):

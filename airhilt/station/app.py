@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Annotated, Any
 
 from fastapi import FastAPI, Query, Request, Response, WebSocket
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse
 
 from airhilt.audio.pcm import from_pcm
@@ -17,7 +18,8 @@ from airhilt.audio.wav import encode_wav
 from airhilt.errors import AirhiltError
 from airhilt.station.browsers import Browsers
 from airhilt.station.debrief import Debrief
-from airhilt.station.page_files import media_type, page_files
+from airhilt.station.page_files import media_type, page_files, page_version
+from airhilt.station.phrases import Situation, offered
 from airhilt.station.pictures import jpeg
 from airhilt.station.subscription import Subscription
 from airhilt.text import LONGEST_LINE, readable
@@ -61,7 +63,7 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
 
     @app.get("/api/run")
     def run() -> Response:
-        own = {"run": subscription.run, "seats": browsers.seats}
+        own = {"run": subscription.run, "seats": browsers.seats, "version": page_version()}
         return Response(_json(LIVE | own), media_type="application/json")
 
     @app.get("/api/cameras/{name}/{seq}.jpg")
@@ -83,10 +85,31 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         socket: WebSocket,
         begin: Annotated[int, Query(alias="from", ge=0)] = 0,
         browser: Annotated[str, Query(max_length=64)] = "",
+        version: Annotated[str, Query(max_length=64)] = "",
     ) -> None:
-        await browsers.serve(socket, begin, browser)
+        await browsers.serve(socket, begin, browser, version)
+
+    @app.post("/api/phrases")
+    def phrases(situation: Situation) -> list[dict[str, str]]:
+        return offered(situation)
+
+    refuse_in_words(app)
 
     return app
+
+
+def refuse_in_words(app: FastAPI) -> None:
+    """Let an application answer what it refuses with the reason."""
+
+    @app.exception_handler(AirhiltError)
+    def failed(_: Request, error: AirhiltError) -> Response:
+        return _refusal(str(error))
+
+    @app.exception_handler(RequestValidationError)
+    def garbage(_: Request, error: RequestValidationError) -> Response:
+        problem = error.errors()[0]
+        place = "/".join(str(part) for part in problem["loc"][1:])
+        return _refusal(f"{place or 'request'}: {problem['msg']}")
 
 
 def page_app(first: str = "index.html") -> FastAPI:
@@ -132,6 +155,7 @@ LIVE = {
     "spoken": [],
     "advisories": [],
     "cameras": [],
+    "latencies": [],
     "sounds": [],
 }
 """Document with which the page of a run that goes on begins."""
@@ -139,3 +163,7 @@ LIVE = {
 
 def _json(document: Any) -> bytes:
     return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+
+
+def _refusal(text: str) -> JSONResponse:
+    return JSONResponse({"error": readable(text, LONGEST_LINE)}, status_code=400)

@@ -7,7 +7,7 @@ import json
 import time
 from base64 import b64encode
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from types import MappingProxyType
 from typing import Any
@@ -18,6 +18,7 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.changes import Changes
+from airhilt.station.page_files import page_version
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.wishes import Pressed, RunLink, Wish
 from airhilt.text import readable
@@ -30,6 +31,10 @@ HOLD_S = 5.0
 """Time for which the seat of a browser that is gone is kept for it, in s."""
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
+OLD_PAGE = 4426
+"""Likewise, of those that applications choose: the page is of another version."""
+MOST_NOTICES = 50
+"""Largest number of refusals that are told."""
 LONGEST_REASON = 100
 """Greatest length of a reason for closing, in characters; the protocol has 123 bytes."""
 
@@ -45,6 +50,8 @@ class _Browser:
         self.seat: str | None = None
         self.seen_of_seat = 0
         """Number of the first change of the seat that it has not seen."""
+        self.tuned: frozenset[int] = frozenset()
+        """Frequencies in kHz that are heard at its seat."""
         self.heard = 0
         """Number of the first piece of sound that it has not got."""
         self.button: HeldButton | None = None
@@ -69,6 +76,8 @@ class Browsers:
         sees.
     sounds
         What is heard on the frequencies, piece by piece; None: nothing is heard.
+    notice
+        Is told of what is refused, the first `MOST_NOTICES`.
     """
 
     def __init__(
@@ -77,8 +86,11 @@ class Browsers:
         run: RunLink,
         seats: Mapping[str, Changes] = MappingProxyType({}),
         sounds: Changes | None = None,
+        notice: Callable[[str], None] = lambda _: None,
     ) -> None:
         self.seats = tuple(seats)
+        self._notice = notice
+        self._notices = 0
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
@@ -94,7 +106,9 @@ class Browsers:
         since_s = self._empty_since_s
         return since_s is not None and time.monotonic() - since_s >= seconds
 
-    async def serve(self, socket: WebSocket, begin: int = 0, identity: str = "") -> None:
+    async def serve(
+        self, socket: WebSocket, begin: int = 0, identity: str = "", version: str = ""
+    ) -> None:
         """Send the changes to a browser, and do what it wishes, until it leaves.
 
         Parameters
@@ -103,8 +117,14 @@ class Browsers:
             Number of the first change that the browser has not seen.
         identity
             Name that it keeps: with it, it has its seat again after a short loss of connection.
+        version
+            Version of its page, empty if it is none.
         """
         await socket.accept()
+        if version not in ("", page_version()):
+            self._refused("a page of another version")
+            await socket.close(OLD_PAGE, "This page is of another version. Load it again.")
+            return
         if len(self._browsers) >= MOST_BROWSERS:
             await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
             return
@@ -147,6 +167,7 @@ class Browsers:
             except ValidationError as error:
                 wrong = first_problem(error)
             if wrong is not None:
+                self._refused(f"a message of a browser: {readable(wrong, LONGEST_REASON)}")
                 await socket.close(POLICY_VIOLATION, readable(wrong, LONGEST_REASON))
                 return
 
@@ -163,7 +184,7 @@ class Browsers:
             await self._leave(browser)
             self._tell_seats()
         elif browser.seat is None:
-            browser.tell("refused", "You have no seat. Take one first.")
+            self._refuse(browser, "You have no seat. Take one first.")
         else:
             await self._do_at_seat(browser, browser.seat, wish)
 
@@ -178,8 +199,21 @@ class Browsers:
             await self._press(browser, seat, wish.press)
         elif wish.release is not None:
             await self._release(browser)
+        elif wish.answer is not None:
+            await asyncio.to_thread(self._run.answer, seat, wish.answer)
+        elif wish.tune is not None:
+            browser.tuned = frozenset(wish.tune)
         elif wish.pace is not None:
             await asyncio.to_thread(self._run.set_pace, wish.pace)
+
+    def _refuse(self, browser: _Browser, why: str) -> None:
+        browser.tell("refused", why)
+        self._refused(f"a wish of a browser: {why}")
+
+    def _refused(self, what: str) -> None:
+        self._notices += 1
+        if self._notices <= MOST_NOTICES:
+            self._notice(f"refused {what}")
 
     # --- the microphone ---------------------------------------------------------------------
 
@@ -196,7 +230,7 @@ class Browsers:
             return
         if not browser.button.admits(pcm):
             await self._release(browser)
-            browser.tell("refused", "Your call was cut: more sound came than anybody can speak.")
+            self._refuse(browser, "Your call was cut: more sound came than anybody can speak.")
             return
         encoded = {"phase": "samples", "pcm": b64encode(pcm)}
         audio = MicrophoneAudio.model_validate(encoded)
@@ -212,14 +246,14 @@ class Browsers:
 
     async def _take(self, browser: _Browser, seat: str) -> None:
         if seat not in self.seats:
-            browser.tell("refused", f"{readable(seat)} is no seat of this run.")
+            self._refuse(browser, f"{readable(seat)} is no seat of this run.")
         elif any(other.seat == seat for other in self._browsers if other is not browser):
-            browser.tell("refused", f"Somebody has the seat {readable(seat)} already.")
+            self._refuse(browser, f"Somebody has the seat {readable(seat)} already.")
         elif self._held.get(seat, browser.identity) != browser.identity:
-            browser.tell("refused", f"{readable(seat)} is kept for {HOLD_S:g} s for who had it.")
+            self._refuse(browser, f"{readable(seat)} is kept for {HOLD_S:g} s for who had it.")
         else:
             self._held.pop(seat, None)
-            browser.seat, browser.seen_of_seat = seat, 0
+            browser.seat, browser.seen_of_seat, browser.tuned = seat, 0, frozenset()
             self._tell_seats()
             await asyncio.to_thread(self._run.occupy, seat, is_taken=True)
 
@@ -275,7 +309,8 @@ class Browsers:
             sounds = self._sounds.since(browser.heard)
             if sounds is not None:
                 browser.heard = sounds.next_number
-                await socket.send_text(f'{{"sounds":{sounds.changes}}}')
+                if heard := _on(browser.tuned, sounds.changes):
+                    await socket.send_text(json.dumps({"sounds": heard}))
             batch = self._changes.since(number)
             if batch is None:
                 await asyncio.sleep(PERIOD_S)
@@ -283,3 +318,8 @@ class Browsers:
             number = batch.next_number
             await socket.send_text(f'{{"next":{number},"changes":{batch.changes}}}')
             await asyncio.sleep(0)
+
+
+def _on(tuned: Collection[int], changes: str) -> list[Any]:
+    """Return the pieces of sound, as JSON, that are on the frequencies that are tuned to."""
+    return [piece for piece in json.loads(changes) if piece[1]["frequency_khz"] in tuned]

@@ -8,7 +8,7 @@ from airhilt.errors import StationError
 from airhilt.record import Run
 from airhilt.report.data import read_run
 from airhilt.report.sections import Content, GuardedContent, Section
-from airhilt.station import advisories, calls, cameras, redrawing
+from airhilt.station import advisories, calls, cameras, latencies, redrawing
 from airhilt.station.sounds import Sounds
 from airhilt.text import readable
 
@@ -45,6 +45,7 @@ class Debrief:
             _content("advisories", advised, advisories.KEYS),
             _content("cameras", self._cameras, cameras.KEYS),
             _content("states", states, redrawing.KEYS),
+            _content("latencies", latencies.Latencies(folder), latencies.KEYS),
         ]
         data = read_run(run, folder.report_path, contents)
         self._locate = data.locate
@@ -61,6 +62,7 @@ class Debrief:
             "spoken": (parts["calls"] or {}).get("spoken", []),
             "advisories": parts["advisories"] or [],
             "cameras": parts["cameras"] or [],
+            "latencies": parts["latencies"] or [],
             "sounds": self.sounds.names,
         }
 

@@ -6,9 +6,8 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from airhilt.station.app import page_app
+from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.experiment import Conductor
-from airhilt.station.home import refuse_in_words
 from airhilt.messages import NasaTlx
 
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, options_of
-from airhilt.station.app import page_app
+from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.debriefs import Debriefs
 from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
@@ -72,20 +72,6 @@ def home_app(
     return app
 
 
-def refuse_in_words(app: FastAPI) -> None:
-    """Let an application answer what it refuses with the reason."""
-
-    @app.exception_handler(AirhiltError)
-    def failed(_: Request, error: AirhiltError) -> Response:
-        return _refusal(str(error))
-
-    @app.exception_handler(RequestValidationError)
-    def garbage(_: Request, error: RequestValidationError) -> Response:
-        problem = error.errors()[0]
-        place = "/".join(str(part) for part in problem["loc"][1:])
-        return _refusal(f"{place or 'request'}: {problem['msg']}")
-
-
 def options_of_page(given: dict[str, Any]) -> Options:
     """Return the options that a page gives.
 
@@ -98,7 +84,3 @@ def options_of_page(given: dict[str, Any]) -> Options:
         if name not in OFFERED:
             raise AirhiltError(f"option {readable(name)!r}: the page does not offer it")
     return options_of(given)
-
-
-def _refusal(text: str) -> JSONResponse:
-    return JSONResponse({"error": readable(text, LONGEST_LINE)}, status_code=400)

@@ -23,6 +23,7 @@ from airhilt.messages import (
     SeatNotice,
     SurfaceTrack,
     TaskCard,
+    WorkloadQuestion,
 )
 from airhilt.metrics.calls import CallRecords, call_message
 from airhilt.record import Logged
@@ -33,6 +34,7 @@ from airhilt.station.advisories import AdvisoryRows
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes
+from airhilt.station.latencies import LatencyBars
 from airhilt.station.subscription import sound_name
 from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
@@ -45,8 +47,8 @@ class LiveRun:
     """Makes changes of the messages of a run; called on one thread.
 
     The changes are ``[kind, ...]``: ``clock``, ``briefing``, ``state``, ``name`` (an actor has
-    another one from now on), ``call``, ``spoken``, ``advisory``, ``event``, ``camera`` and
-    ``picture``. Positions come from the truth where it is shared, else from ADS-B
+    another one from now on), ``call``, ``spoken``, ``advisory``, ``event``, ``camera``,
+    ``picture`` and ``latency``. Positions come from the truth where it is shared, else from ADS-B
     and surface surveillance.
 
     Parameters
@@ -54,8 +56,8 @@ class LiveRun:
     changes
         Gets the changes.
     seats
-        Gets the changes that only the person at a seat sees: ``task``, ``cockpit``, ``info`` and
-        ``notice``.
+        Gets the changes that only the person at a seat sees: ``task``, ``cockpit``, ``info``,
+        ``notice`` and ``question``.
     notice
         Is told of the first message of a kind that cannot be read.
 
@@ -78,6 +80,7 @@ class LiveRun:
         self._seats = seats
         self._changes = changes
         self._calls = CallRecords()
+        self._bars = LatencyBars()
         self._advisories = AdvisoryRows()
         self._locate: Locate | None = None
         self._types: dict[str, str] = {}
@@ -98,6 +101,7 @@ class LiveRun:
             "seat": self._seat_info,
             "notice": self._notice_of_seat,
             "cockpit": self._cockpit,
+            "question": self._question,
         }
 
     def take(self, logged: Logged) -> None:
@@ -111,6 +115,8 @@ class LiveRun:
             elif family in self._makers:
                 self._makers[family](logged)
             self._event(logged)
+            if (bar := self._bars.bar(logged)) is not None:
+                self._changes.add("latency", bar)
         except (ValidationError, ValueError, LookupError, TypeError, RecursionError) as error:
             if family not in self._unread:
                 self._unread.add(family)
@@ -274,6 +280,10 @@ class LiveRun:
     def _notice_of_seat(self, logged: Logged) -> None:
         notice = SeatNotice.model_validate_json(logged.data)
         self._seats[notice.seat].add("notice", _seconds(notice.t_ns), readable(notice.text))
+
+    def _question(self, logged: Logged) -> None:
+        question = WorkloadQuestion.model_validate_json(logged.data)
+        self._seats[question.seat].add("question", question.number, question.scale)
 
     def _cockpit(self, logged: Logged) -> None:
         shown = CockpitInstruments.model_validate_json(logged.data)

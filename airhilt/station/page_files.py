@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+from functools import cache
 from importlib import resources
 
 MEDIA_TYPES = {
@@ -24,6 +26,13 @@ SHARED = {
 def media_type(name: str) -> str:
     """Return the media type of a file."""
     return MEDIA_TYPES[name.rpartition(".")[2]]
+
+
+@cache
+def page_version() -> str:
+    """Return a name for the files of the page, which is another one if any of them changes."""
+    content = b"".join(name.encode() + body for name, body in sorted(page_files().items()))
+    return hashlib.sha256(content).hexdigest()[:12]
 
 
 def page_files() -> dict[str, bytes]:

@@ -26,6 +26,7 @@ from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
     SpokenWords,
+    WorkloadAnswer,
     worker_output,
 )
 from airhilt.record import Logged
@@ -40,7 +41,9 @@ SUBSCRIBED = (
 """Keys below the run of what everybody may see."""
 TRUTH = ("truth/**",)
 """Keys of the truth, for observers alone; of it comes what the run shares."""
-OF_SEATS = ("cockpit/{seat}", "task/{seat}", "seat/{seat}/info", "notice/{seat}")
+OF_SEATS = (
+    "cockpit/{seat}", "task/{seat}", "seat/{seat}/info", "notice/{seat}", "question/{seat}",
+)  # fmt: skip
 """Keys of what only the person at a seat sees."""
 ASKED = ("briefing", "clock")
 """Keys that the run answers, for who comes late."""
@@ -180,6 +183,10 @@ class Subscription:
         """Tell that an advisory has reached the person at a seat."""
         key = f"{self._prefix}/perceived/{key_chunk(seat)}"
         self._session.put(key, perceived.model_dump_json())
+
+    def answer(self, seat: str, answer: WorkloadAnswer) -> None:
+        """Answer a question about workload."""
+        self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it; so does the end of this process."""

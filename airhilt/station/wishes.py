@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Annotated, Protocol
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from airhilt.commands import Command
-from airhilt.messages import AdvisoryPerceived, MicrophoneAudio, PaceCommand, SpokenWords
+from airhilt.messages import (
+    AdvisoryPerceived,
+    MicrophoneAudio,
+    PaceCommand,
+    SpokenWords,
+    WorkloadAnswer,
+)
+
+
+Frequency = Annotated[int, Field(ge=118_000, le=137_000)]
 
 
 class Pressed(BaseModel):
     """The transmit button was pressed."""
 
     model_config = ConfigDict(extra="forbid")
-    frequency_khz: int | None = Field(default=None, ge=118_000, le=137_000)
+    frequency_khz: Frequency | None = None
     delay_s: float = Field(
         default=0.0, ge=0.0, le=60.0, description="from pressing it until the message was here"
     )
@@ -40,6 +49,12 @@ class Wish(BaseModel):
     release: bool | None = Field(default=None, description="the transmit button is held no more")
     perceived: AdvisoryPerceived | None = Field(
         default=None, description="an advisory to the own seat was drawn or is audible"
+    )
+    answer: WorkloadAnswer | None = Field(
+        default=None, description="to a question about workload at the own seat"
+    )
+    tune: tuple[Frequency, ...] | None = Field(
+        default=None, max_length=20, description="frequencies in kHz that are heard at the own seat"
     )
     pace: PaceCommand | None = Field(
         default=None, description="how fast the time is to pass, from a seat"
@@ -70,6 +85,9 @@ class RunLink(Protocol):
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Tell that an advisory has reached the person at a seat."""
+
+    def answer(self, seat: str, answer: WorkloadAnswer) -> None:
+        """Answer a question about workload."""
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it."""

@@ -116,7 +116,7 @@ def _show_live(
     subscription = Subscription(
         connect, run.take, run.lost, tls=tls, seats=seats, sounds=sounds if seats else None
     )
-    browsers = Browsers(changes, subscription, of_seats, sounds)
+    browsers = Browsers(changes, subscription, of_seats, sounds, tell)
     try:
         serve(
             live_app(subscription, browsers),

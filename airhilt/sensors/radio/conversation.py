@@ -271,6 +271,7 @@ class RadioConversation:
                 is_recognised=is_recognised,
                 voice_is_recorded=voice_is_recorded,
                 longest_call_s=LONGEST_CALL_S,
+                phraseology=self._scenario.radio.phraseology,
             )
             for seat in sorted(self._seats.names)
         ]

@@ -51,6 +51,7 @@ export class Cameras {
     const offered = this.#offered;
     this.#choice.replaceChildren(...offered.map((camera) => html("option", { value: camera.name }, camera.name)));
     this.#choice.hidden = !offered.length;
+    document.body.dataset.camera = offered.length ? "some" : "none";
     if (offered.some(({ name }) => name === chosen)) this.#choice.value = chosen;
     else if (offered.length) this.#open();
     else byId("camera-none").textContent = this.#carrier ? "This aircraft has no camera." : this.#clock.live ? "No pictures so far." : "This run has no pictures.";

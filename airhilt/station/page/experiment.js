@@ -2,18 +2,10 @@
 
 import { byId, html } from "./dom.js";
 import { connectTheme } from "./theme.js";
+import { Tlx } from "./tlx.js";
 
 const PERIOD_MS = 1000;
-/** Scales of NASA-TLX: name in the answers, name on the page, question, and both ends (Hart & Staveland 1988). */
-const SCALES = [
-  ["mental_demand", "Mental demand", "How mentally demanding was the task?", "Very low", "Very high"],
-  ["physical_demand", "Physical demand", "How physically demanding was the task?", "Very low", "Very high"],
-  ["temporal_demand", "Temporal demand", "How hurried or rushed was the pace of the task?", "Very low", "Very high"],
-  ["performance", "Performance", "How successful were you in doing what you were asked to do?", "Perfect", "Failure"],
-  ["effort", "Effort", "How hard did you have to work to reach your level of performance?", "Very low", "Very high"],
-  ["frustration", "Frustration", "How insecure, discouraged, irritated, stressed and annoyed were you?", "Very low", "Very high"],
-];
-const touched = new Set();
+const tlx = new Tlx();
 
 async function ask(path, wish) {
   const how = wish === undefined ? {} : { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(wish) };
@@ -43,15 +35,8 @@ function show(state) {
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
   byId("open").href = url || "#";
-  if (byId("tlx").hidden && step === "questions") byId("scales").replaceChildren(...SCALES.map(scale));
+  if (byId("tlx").hidden && step === "questions") tlx.begin();
   byId("tlx").hidden = step !== "questions";
-}
-
-function scale([id, name, question, low, high]) {
-  touched.delete(id);
-  const input = html("input", { type: "range", min: 0, max: 100, step: 5, value: 50, id: `tlx-${id}`, "aria-label": `${name}. ${question}` });
-  for (const event of ["input", "click"]) input.addEventListener(event, () => touched.add(id));
-  return html("label", { class: "scale" }, html("span", { class: "name" }, html("strong", {}, name), ` ${question}`), html("span", { class: "end" }, low), input, html("span", { class: "end" }, high));
 }
 
 async function act(path, wish) {
@@ -64,9 +49,8 @@ async function act(path, wish) {
 }
 
 function answer() {
-  const missing = SCALES.filter(([id]) => !touched.has(id));
-  if (missing.length) { note(`Please move or click every slider: ${missing.map(([, name]) => name).join(", ")}.`); return; }
-  act("api/answers", Object.fromEntries(SCALES.map(([id]) => [id, Number(byId(`tlx-${id}`).value)])));
+  const { missing } = tlx;
+  if (missing.length) note(`Please move or click every slider: ${missing.join(", ")}.`); else act("api/answers", tlx.answers);
 }
 
 async function follow() {

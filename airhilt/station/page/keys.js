@@ -3,7 +3,10 @@
 import { byId, html } from "./dom.js";
 
 /** Returns the keys of the time. */
-export const timeKeys = (clock, transport) => [
+/** Keys that do nothing at a seat: who has one cannot go back in time. */
+const watching = (keys) => keys.map(({ act, ...key }) => ({ ...key, act: () => { if (!document.body.dataset.seat) act(); } }));
+
+export const timeKeys = (clock, transport) => watching([
   { names: [" ", "k"], shown: ["Space", "K"], text: "play or pause; at a seat, Space is held to talk", act: () => clock.toggle() },
   { names: ["ArrowLeft"], shown: ["Left"], text: "1 s back", act: () => clock.set(clock.t - 1) },
   { names: ["ArrowRight"], shown: ["Right"], text: "1 s on", act: () => clock.set(clock.t + 1) },
@@ -18,18 +21,18 @@ export const timeKeys = (clock, transport) => [
   { names: ["["], shown: ["["], text: "loop from here", act: () => clock.mark("from") },
   { names: ["]"], shown: ["]"], text: "loop to here", act: () => clock.mark("to") },
   { names: ["o"], shown: ["O"], text: "loop on or off", act: () => clock.toggleLoop() },
-];
+]);
 
 /** Connects keys: each has a name, what it does in words, and a function. */
 export function connectKeys(keys) {
   const byName = new Map(keys.flatMap(({ names, act }) => names.map((name) => [name, act])));
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || byId("help").open) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
     if (isTaken(event)) return;
     const act = byName.get(event.key);
     if (!act) return;
     event.preventDefault();
-    act();
+    act(event);
   });
   byId("help-keys").replaceChildren(...keys.flatMap(({ shown, text }) => [html("dt", {}, shown.flatMap((key, i) => (i ? [" ", html("kbd", {}, key)] : [html("kbd", {}, key)]))), html("dd", {}, text)]));
   byId("help-button").addEventListener("click", () => byId("help").showModal());

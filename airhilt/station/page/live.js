@@ -3,6 +3,9 @@
 import { byId } from "./dom.js";
 
 const RETRY_MS = 1000;
+const OLD_PAGE = 4426; // code with which the server closes: the page is of another version
+const PHASES = { waiting: "waiting for the run", finished: "finished", stopped: "stopped", gone: "the run is not there any more" };
+const PACES = { realtime: "real time", virtual: "as fast as it can" };
 const SLOWLY_MS = 1000; // between two drawings of what takes long
 
 /** The name of this browser tab, which it keeps when its connection is lost or the page is loaded again. */
@@ -44,21 +47,36 @@ export class Live {
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
     url.searchParams.set("browser", identity());
+    url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
-    this.#socket.onopen = () => { this.#tell(); this.watch(this.#watched); };
+    this.#socket.onopen = () => { this.#tell(); this.watch(this.#watched); this.#panes.talk.reconnected(); };
     this.#socket.onmessage = (event) => this.#take(JSON.parse(event.data));
     this.#socket.onclose = (event) => {
-      const isOver = ["finished", "stopped", "gone"].includes(this.#run.phase);
-      byId("state").textContent = isOver ? this.#phase() : event.reason || "connection lost, trying again";
-      if (!isOver) setTimeout(() => this.#open(), RETRY_MS);
+      if (this.#isOver) { this.#tell(); return; }
+      const isOld = event.code === OLD_PAGE;
+      this.#warn(event.reason || (this.#panes.seat.own ? "Connection lost, trying again. Your seat is kept for 5 s; then its script goes on." : "Connection lost, trying again."), isOld);
+      if (!isOld) setTimeout(() => this.#open(), RETRY_MS);
     };
+    byId("link-reload").onclick = () => location.reload();
   }
 
-  #phase() { return this.#run.phase === "gone" ? "the run is not there any more" : this.#run.phase; }
+  get #isOver() { return ["finished", "stopped", "gone"].includes(this.#run.phase); }
+
+  /** Shows large what keeps the page from following the run; nothing if it does. */
+  #warn(text, isOld = false) {
+    byId("link").hidden = !text;
+    byId("link-text").textContent = text;
+    byId("link-reload").hidden = !isOld;
+    if (text) byId("state").textContent = isOld ? "not connected" : "connection lost";
+  }
 
   #tell() {
     const { phase, pace } = this.#run;
-    byId("state").textContent = phase !== "running" ? this.#phase() : pace === "paused" ? "paused" : `running, pace ${pace}`;
+    this.#warn("");
+    byId("state").textContent = PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
+    if (!this.#isOver) return;
+    byId("link").hidden = false;
+    byId("link-text").textContent = phase === "gone" ? "The run has ended without saying so. What is shown is how far it came." : `The run ${phase === "finished" ? "is over" : "was stopped"}. Its debrief is on the first page of the station, or at “airhilt view” with its folder.`;
   }
 
   /** Sends what somebody at a seat wishes. */

@@ -1,7 +1,6 @@
 // What the person at a seat hears: the frequencies while somebody speaks there, and the assistant.
 
 import { byId, html } from "./dom.js";
-import { megahertz } from "./words.js";
 
 const RATE_HZ = 16000;
 const AHEAD_S = 0.08; // between the coming of a piece of sound and its playing, against gaps
@@ -12,15 +11,12 @@ export class Loudspeaker {
   #context = null;
   #gain = null;
   #due = new Map(); // when the next piece of each transmission is to be played
-  #open = new Map(); // frequencies of the transmissions on the air
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
-  #lamp = html("span", { class: "lamp", role: "status" });
 
   constructor() {
     this.#volume.addEventListener("input", () => this.#setVolume());
-    this.#drawLamp();
-    byId("hearing").append(this.#lamp, html("label", {}, "Volume", this.#volume));
+    byId("hearing").append(html("label", {}, "Volume", this.#volume));
   }
 
   /** Begins to give out sound; a browser allows that after a click alone. */
@@ -38,21 +34,18 @@ export class Loudspeaker {
   end() {
     this.#context?.suspend();
     this.#due.clear();
-    this.#open.clear();
     this.#waiting.clear();
     byId("hearing").hidden = true;
   }
 
   /** Takes in pieces of transmissions. `isOwn(id)` says which are one's own; `isDeaf`, that one transmits; `isSlow`, that time passes slowly. */
   take(pieces, { isOwn, isDeaf, isSlow }) {
-    for (const [phase, { id, frequency_khz: khz, pcm }] of pieces) {
-      if (phase === "opened") this.#open.set(id, khz);
+    for (const [phase, { id, pcm }] of pieces) {
       if (phase === "closed") this.#close(id);
       if (pcm && !isOwn(id) && !isDeaf && this.#context) {
         if (isSlow) this.#waiting.set(id, [...(this.#waiting.get(id) ?? []), pcm]); else this.#play(id, pcm);
       }
     }
-    this.#drawLamp();
   }
 
   /** Plays the tone of a severity and then the voice, and returns when the first sample is audible, in s from now; null if nothing is played. */
@@ -101,17 +94,10 @@ export class Loudspeaker {
   }
 
   #close(id) {
-    this.#open.delete(id);
     for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm);
     this.#waiting.delete(id);
     this.#due.delete(id);
   }
 
   #setVolume() { if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2; }
-
-  #drawLamp() {
-    const busy = [...new Set(this.#open.values())].map(megahertz).join(", ");
-    this.#lamp.classList.toggle("on", Boolean(busy));
-    this.#lamp.textContent = busy ? `${busy} busy` : "Frequency free";
-  }
 }

@@ -5,6 +5,7 @@ import { Cameras } from "./cameras.js";
 import { Clock, FollowingClock } from "./clock.js";
 import { byId, html } from "./dom.js";
 import { connectKeys, timeKeys } from "./keys.js";
+import { Latencies } from "./latencies.js";
 import { Live } from "./live.js";
 import { Marks } from "./marks.js";
 import { Run } from "./model.js";
@@ -34,24 +35,26 @@ async function begin() {
   byId("state").textContent = run.phase;
   run.notes.forEach(note);
 
-  const plan = new Plan(run, clock), profile = new Profile(run, clock), marks = new Marks(run, clock);
+  const plan = new Plan(run, clock), profile = new Profile(run, clock), marks = new Marks(run, clock), latencies = new Latencies(run, clock);
   const live = run.live ? new Live(run, clock) : null, sounds = live ? new LiveSounds() : new Sounds(run, clock);
   const transcript = new Transcript(run, clock), cameras = new Cameras(run, clock, plan, (name) => live?.watch(name));
   const advisories = new Advisories(run, clock, { call: (id) => transcript.goTo(id), camera: (name) => cameras.choose(name) });
   const traffic = new Traffic(run, clock), transport = new Transport(run, clock);
-  const panes = [plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport];
+  const panes = [plan, profile, latencies, marks, transcript, advisories, traffic, cameras, sounds, transport];
   noteReading(byId("calls"), byId("advisories"));
-  connectTheme(() => { profile.redraw(); plan.draw(); marks.draw(); });
+  connectTheme(() => { profile.redraw(); latencies.draw(); plan.draw(); marks.draw(); });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   const seat = live ? new Seat(run, live, clock, cameras) : null;
-  live?.connect({ plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport, seat, talk: new Talk(run, live) });
+  const talk = live ? new Talk(run, live) : null;
+  if (live) transcript.hearOnly(() => talk.heard);
+  live?.connect({ plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport, seat, talk });
   connectKeys([
     ...timeKeys(clock, transport),
     { names: ["m"], shown: ["M"], text: "sound off or on", act: () => sounds.mute() },
     { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },
     { names: ["+", "="], shown: ["+"], text: "zoom in", act: () => plan.zoom(1.5) },
     { names: ["-"], shown: ["-"], text: "zoom out", act: () => plan.zoom(1 / 1.5) },
-    ...(run.seats?.length ? seat.keys : []),
+    ...(run.seats?.length ? [...seat.keys, ...talk.keys] : []),
     { names: ["?"], shown: ["?"], text: "this list", act: () => byId("help").showModal() },
   ]);
   if (together && !together.join(window, run)) sounds.mute();

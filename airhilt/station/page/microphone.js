@@ -1,7 +1,7 @@
 // The microphone of the person at a seat: opened after consent, transmitted while the button is held.
 
-import { byId, html } from "./dom.js";
-import { megahertz } from "./words.js";
+import { byId } from "./dom.js";
+import { GamepadButton } from "./gamepad.js";
 
 const MOST_UNSENT_BYTES = 64000; // two seconds of sound
 const WHY = {
@@ -20,7 +20,7 @@ export class Microphone {
   #held = false;
   #delay = 0;
 
-  /** `link` has send(wish), sendSound(buffer), unsent() and delay(event), the time since an event in s. */
+  /** `link` has send(wish), sendSound(buffer), unsent(), frequency(), and delay(event), the time since an event in s. */
   constructor(link) {
     this.#link = link;
     const button = byId("talk-button");
@@ -30,6 +30,7 @@ export class Microphone {
     window.addEventListener("blur", () => this.release());
     window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
     window.addEventListener("keyup", (event) => this.#key(event, false), { capture: true });
+    new GamepadButton((event, isDown) => this.#use(event, isDown));
     byId("consent-open").addEventListener("click", () => { byId("consent").close(); this.#open(); });
     byId("consent-type").addEventListener("click", () => { byId("consent").close(); this.#tell("The microphone is closed."); });
     this.#draw();
@@ -45,17 +46,13 @@ export class Microphone {
     byId("talk-button").disabled = !info?.has_sound;
     if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
     else if (info && !info.is_recognised) this.#tell("No recogniser takes part: only people understand you.");
-    const frequencies = info?.frequencies_khz ?? [];
-    byId("talk-frequency").replaceChildren(...frequencies.map((khz) => html("option", { value: khz }, megahertz(khz))));
-    byId("talk-frequency").parentElement.hidden = frequencies.length < 2;
   }
 
   /** Begins to transmit. */
   press(event) {
     if (this.#held || !this.#node) return;
     this.#held = true;
-    const khz = Number(byId("talk-frequency").value) || null;
-    this.#link.send({ press: { frequency_khz: khz, delay_s: this.#link.delay(event) } });
+    this.#link.send({ press: { frequency_khz: this.#link.frequency(), delay_s: this.#link.delay(event) } });
     this.#node.port.postMessage({ isOn: true });
     this.#draw();
   }
@@ -73,8 +70,13 @@ export class Microphone {
     if (event.key !== " " || !this.#info?.has_sound || isTyping || document.querySelector("dialog[open]")) return;
     event.preventDefault();
     event.stopPropagation();
-    if (isDown && !event.repeat) { if (this.#node) this.press(event); else this.#ask(); }
-    if (!isDown) this.release();
+    if (!event.repeat) this.#use(event, isDown);
+  }
+
+  /** Takes in that the space bar, or the button of a gamepad, goes down or up. */
+  #use(event, isDown) {
+    if (!this.#info?.has_sound || (isDown && document.querySelector("dialog[open]"))) return;
+    if (!isDown) this.release(); else if (this.#node) this.press(event); else this.#ask();
   }
 
   #ask() {

@@ -5,6 +5,8 @@ import { instruction, known, words } from "./words.js";
 
 export const METRE_PER_NM = 1852;
 const COLOURS = 8;
+const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
+const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
 /** The track of one actor. */
@@ -56,6 +58,7 @@ export class Track {
 export class LiveTrack extends Track {
   patience = 15;
   #velocities = [];
+  #thinAt = 2000;
 
   constructor(callsign, category, type, index) {
     super({ callsign, category, type, t: [], east_nm: [], north_nm: [], altitude_ft: [], heading_deg: [], on_ground: [], phases: [] }, index);
@@ -73,6 +76,17 @@ export class LiveTrack extends Track {
     this.altitude_ft.push(altitude);
     this.heading_deg.push(heading);
     this.#velocities.push(velocity);
+    if (this.t.length > this.#thinAt) this.#thin();
+  }
+
+  /** Keeps of what is long ago one state in two seconds, so that a long run needs little memory. */
+  #thin() {
+    const kept = [], full = this.last - FULL_S;
+    let last = -Infinity;
+    this.t.forEach((t, i) => { if (t >= full || t - last >= OLD_STEP_S) { kept.push(i); last = t; } });
+    for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"]) this[name] = kept.map((i) => this[name][i]);
+    this.#velocities = kept.map((i) => this.#velocities[i]);
+    this.#thinAt = kept.length + 1000;
   }
 
   velocity(t) {
@@ -127,9 +141,11 @@ export class Run {
         case "advisory": put(this.advisories, rest[0], (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment); break;
         case "event": this.events.push(rest[0]); break;
         case "camera": this.cameras.push(rest[0]); break;
+        case "latency": this.latencies.push(rest[0]); break;
         default: break;
       }
     }
+    if (this.latencies.length > 2 * MOST_LATENCIES) this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
     if (changed.has("call") || changed.has("event")) this.moments = momentsOf(this);
     return changed;

@@ -7,6 +7,7 @@ import { fixed, metres, whole } from "./words.js";
 const HISTORY_DOTS = 8;
 const FONT_SMALL = FONT.replace("12px", "11px");
 const LEADERS_S = [0, 10, 30, 60, 120];
+const MOST_POINTS = 1500; // of a track that are drawn
 const LONGEST_SHOWN_M = 900_000;
 const AIRCRAFT = [[0, -1], [0.12, -0.7], [0.12, -0.25], [1, 0.2], [1, 0.36], [0.12, 0.14], [0.08, 0.66], [0.4, 0.86], [0.4, 1], [0, 0.9], [-0.4, 1], [-0.4, 0.86], [-0.08, 0.66], [-0.12, 0.14], [-1, 0.36], [-1, 0.2], [-0.12, -0.25], [-0.12, -0.7]];
 const VEHICLE = [[-0.6, 1], [-0.6, -0.5], [-0.3, -1], [0.3, -1], [0.6, -0.5], [0.6, 1]];
@@ -25,6 +26,7 @@ export class Plan {
   #fitted = "all";
   #camera = null;
   #dragged = null;
+  #names = []; // boxes of the names of the runways, which data blocks are not to cover
 
   constructor(run, clock) {
     this.#run = run;
@@ -204,6 +206,7 @@ export class Plan {
 
   #nameRunways(airport) {
     const { pen } = this.#size;
+    this.#names = [];
     pen.font = BOLD;
     pen.textAlign = "center";
     for (const runway of airport.runways) {
@@ -211,7 +214,9 @@ export class Plan {
       if (length < 40) continue;
       runway.ends.forEach((end, i) => {
         const [from, to] = i ? [b, a] : [a, b];
-        write(pen, end.ident, from[0] - (to[0] - from[0]) / length * 14, from[1] - (to[1] - from[1]) / length * 14 + 4, colour("--ink"), colour("--map"));
+        const x = from[0] - (to[0] - from[0]) / length * 14, y = from[1] - (to[1] - from[1]) / length * 14;
+        this.#names.push([x - 11, y - 8, x + 11, y + 8]);
+        write(pen, end.ident, x, y + 4, colour("--ink"), colour("--map"));
       });
     }
   }
@@ -263,7 +268,9 @@ export class Plan {
     pen.lineWidth = 1;
     pen.setLineDash([2, 3]);
     for (const track of this.#run.tracks) {
-      this.#path(track.east.map((east, i) => [east, track.north[i]]));
+      const step = Math.ceil(track.t.length / MOST_POINTS) || 1, points = [];
+      for (let i = track.t.length - 1; i >= 0; i -= step) points.push([track.east[i], track.north[i]]);
+      this.#path(points);
       pen.strokeStyle = colour(track.colour);
       pen.stroke();
     }
@@ -338,6 +345,7 @@ export class Plan {
   #drawBlocks(states, t) {
     const { pen, width, height } = this.#size;
     const taken = states.map(({ state }) => { const [x, y] = this.#pixel([state.east, state.north]); return [x - 9, y - 9, x + 9, y + 9]; });
+    taken.push(...this.#names);
     pen.textAlign = "left";
     for (const { track, state } of states) {
       const [x, y] = this.#pixel([state.east, state.north]);

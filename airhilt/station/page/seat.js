@@ -10,9 +10,11 @@ export class Seat {
   #own = null;
   #tasks = [];
   #displays;
+  #clock;
 
   constructor(run, live, clock, cameras) {
     this.#run = run;
+    this.#clock = clock;
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
     byId("seat-name").replaceChildren(...(run.seats ?? []).map((name) => html("option", { value: name }, name)));
@@ -30,9 +32,11 @@ export class Seat {
     byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(this.#own);
     if (this.#own) byId("seat-name").value = this.#own;
-    byId("seat-state").textContent = this.#own ? "Yours." : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
+    byId("seat-state").textContent = this.#own ? "" : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
+    byId("seat-hint").textContent = this.#own ? "" : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
     byId("say").hidden = !this.#own;
     this.#displays.setSeat(this.#own);
+    if (this.#own && !this.#clock.following) this.#clock.follow(); // Nobody at a seat goes back in time.
     this.#drawTasks();
   }
 

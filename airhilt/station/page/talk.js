@@ -1,10 +1,13 @@
 // What the person at a seat says, hears, and is warned of.
 
 import { byId } from "./dom.js";
+import { Frequencies } from "./frequencies.js";
 import { Loudspeaker } from "./loudspeaker.js";
 import { Microphone } from "./microphone.js";
 import { RunPace } from "./run-pace.js";
 import { OwnAdvisories } from "./own-advisories.js";
+import { Phrases } from "./phrases.js";
+import { Workload } from "./workload.js";
 
 const ECHO_MS = 2000;
 
@@ -16,30 +19,49 @@ export class Talk {
   #loudspeaker = new Loudspeaker();
   #advisories;
   #pace;
+  #frequencies;
+  #phrases;
+  #workload;
   #roundTrip = 0; // s
 
   constructor(run, live) {
     this.#run = run;
     this.#live = live;
     this.#microphone = new Microphone({
-      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), delay: (event) => this.#delay(event),
+      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), frequency: () => this.#frequencies.transmit, delay: (event) => this.#delay(event),
     });
     this.#advisories = new OwnAdvisories(run, (perceived) => live.send({ perceived: { ...perceived, after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)) } }), (severity, url) => this.#loudspeaker.warn(severity, url));
     this.#pace = new RunPace(run, (factor) => live.send({ pace: { factor } }));
+    this.#frequencies = new Frequencies((tune) => live.send({ tune }));
+    this.#phrases = new Phrases(run);
+    this.#workload = new Workload((answer) => live.send({ answer }));
     this.#microphone.setInfo(null);
+    byId("strips").addEventListener("focusin", ({ target }) => this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign));
     byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
     setInterval(() => { if (this.#own) live.send({ echo: performance.now() }); }, ECHO_MS);
   }
 
+  /** Keys of a seat, for the list of keys. */
+  get keys() {
+    return [{ names: ["1", "2", "3", "4", "5"], shown: ["1", "5"], text: "workload, when it is asked", act: ({ key }) => this.#workload.rate(Number(key)) }];
+  }
+
+  /** Frequencies that the person at the seat listens to, in kHz; null without a seat. */
+  get heard() { return this.#own ? this.#frequencies.heard : null; }
+
+  /** Takes in that the connection is there again. */
+  reconnected() { if (this.#own) this.#frequencies.tell(); }
+
   /** Takes in one's own seat, null for none. */
   setSeat(own) {
     this.#pace.show(Boolean(own));
-    if (own === this.#own) return;
+    if (own === this.#own) { if (own) this.#frequencies.tell(); return; }
     this.#own = own;
     if (own) {
       this.#loudspeaker.begin();
       this.#takeActive();
-    } else { this.#microphone.setInfo(null); this.#loudspeaker.end(); this.#advisories.clear(); }
+    } else { this.#microphone.setInfo(null); this.#loudspeaker.end(); this.#advisories.clear(); this.#frequencies.show([]); this.#workload.clear(); }
+    this.#phrases.setSeat(own);
     this.#live.send({ echo: performance.now() });
   }
 
@@ -57,7 +79,11 @@ export class Talk {
     }
     for (const [kind, ...rest] of own ?? []) {
       if (kind === "info") this.#prepare(rest[0]);
+      if (kind === "question") this.#workload.ask(...rest);
     }
+    if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
+    if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase)) this.#workload.clear();
+    if (sounds && this.#own) this.#frequencies.take(sounds);
     if (sounds && this.#own) this.#loudspeaker.take(sounds, { isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`), isDeaf: this.#microphone.isHeld, isSlow: Number.parseFloat(this.#run.pace) < 1 });
     if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
   }
@@ -65,6 +91,8 @@ export class Talk {
   /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */
   #prepare(info) {
     this.#microphone.setInfo(info);
+    this.#frequencies.show(info.frequencies_khz);
+    this.#phrases.setSeat(this.#own, info.phraseology);
     if (document.activeElement === byId("seat-take")) byId(info.has_sound ? "talk-button" : "words").focus();
   }
 

@@ -6,6 +6,7 @@ import { capital, decibels, fixed, known, megahertz, percent, seconds, words } f
 
 /** Confidence below which a word is marked: the paper's tau_ASR. */
 const SURE = 0.8;
+const MOST_LIVE = 200; // calls of a live run that are listed, the newest
 
 export class Transcript {
   #list = byId("calls");
@@ -13,6 +14,7 @@ export class Transcript {
   #clock;
   #items = [];
   #current = "";
+  #tuned = () => null;
 
   constructor(run, clock) {
     this.#run = run;
@@ -20,10 +22,14 @@ export class Transcript {
     this.redraw();
   }
 
+  /** Shows only the calls on the frequencies in kHz that a function returns; null: all. */
+  hearOnly(tuned) { this.#tuned = tuned; }
+
   /** Makes the rows again, because there are new calls. */
   redraw() {
-    const several = new Set(this.#run.calls.map((call) => call.frequency_khz)).size > 1;
-    this.#items = this.#run.calls.map((call) => ({ call, item: this.#item(call, several) }));
+    const heard = this.#tuned(), calls = this.#run.calls.filter((call) => !heard || heard.includes(call.frequency_khz)).slice(this.#clock.live ? -MOST_LIVE : 0);
+    const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
+    this.#items = calls.map((call) => ({ call, item: this.#item(call, several) }));
     this.#list.replaceChildren(...this.#items.map(({ item }) => item));
     if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, this.#clock.live ? "Nobody has said anything so far." : "Nobody says anything in this run."));
     this.#current = "";

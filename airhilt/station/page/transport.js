@@ -51,7 +51,7 @@ export class Transport {
     byId("slider").max = end;
     byId("slider").value = t;
     byId("slider").setAttribute("aria-valuetext", seconds(t));
-    byId("time").textContent = `${seconds(t)} of ${seconds(end)}`;
+    byId("time").textContent = following ? seconds(t) : `${seconds(t)} of ${seconds(end)}`;
     byId("rate").value = rate;
     byId("loop").setAttribute("aria-pressed", loop.on);
     byId("loop-text").textContent = loop.from === null && loop.to === null ? "" : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;

@@ -1,0 +1,60 @@
+// The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are busy.
+
+import { byId, html } from "./dom.js";
+import { megahertz } from "./words.js";
+
+export class Frequencies {
+  #tune;
+  #rows = new Map();
+  #open = new Map(); // frequencies of the transmissions on the air
+
+  /** `tune(frequencies)` tells the server which frequencies in kHz are heard. */
+  constructor(tune) { this.#tune = tune; }
+
+  /** Shows the frequencies of the seat, all of them heard; none without a seat. */
+  show(frequencies) {
+    const isSame = frequencies.length === this.#rows.size && frequencies.every((khz) => this.#rows.has(khz));
+    if (!isSame) {
+      this.#rows = new Map(frequencies.map((khz, i) => [khz, this.#row(khz, !i)]));
+      byId("frequencies").replaceChildren(...[...this.#rows.values()].map(({ item }) => item));
+      this.#open.clear();
+    }
+    byId("frequencies").hidden = !frequencies.length;
+    this.tell();
+    this.#draw();
+  }
+
+  /** Tells the server again what is heard: the connection is another one. */
+  tell() { if (this.#rows.size) this.#tune(this.heard); }
+
+  /** Frequencies that are heard, in kHz. */
+  get heard() { return [...this.#rows].filter(([, { listen }]) => listen.checked).map(([khz]) => khz); }
+
+  /** The frequency on which the person speaks, in kHz; null if there is none. */
+  get transmit() { return [...this.#rows].find(([, { speak }]) => speak.checked)?.[0] ?? null; }
+
+  /** Takes in beginnings and ends of transmissions. */
+  take(pieces) {
+    for (const [phase, { id, frequency_khz: khz }] of pieces) {
+      if (phase === "opened") this.#open.set(id, khz);
+      if (phase === "closed") this.#open.delete(id);
+    }
+    this.#draw();
+  }
+
+  #row(khz, isFirst) {
+    const listen = html("input", { type: "checkbox", checked: true }), speak = html("input", { type: "radio", name: "transmit", checked: isFirst }), lamp = html("span", { class: "lamp", role: "status" });
+    listen.addEventListener("change", () => { this.#open.clear(); this.#tune(this.heard); this.#draw(); });
+    speak.addEventListener("change", () => { if (!listen.checked) listen.click(); }); // as on a radio: who speaks there listens there
+    return { listen, speak, lamp, item: html("li", {}, html("strong", {}, megahertz(khz)), lamp, html("label", {}, listen, "Listen"), html("label", {}, speak, "Transmit")) };
+  }
+
+  #draw() {
+    const busy = new Set(this.#open.values());
+    for (const [khz, { lamp, listen }] of this.#rows) {
+      lamp.classList.toggle("on", busy.has(khz));
+      const text = busy.has(khz) ? "busy" : listen.checked ? "free" : "off";
+      if (lamp.textContent !== text) lamp.textContent = text;
+    }
+  }
+}

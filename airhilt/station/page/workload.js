@@ -1,0 +1,72 @@
+// Questions about workload: ISA while the run goes on, NASA-TLX at its end.
+
+import { byId, html } from "./dom.js";
+import { Tlx } from "./tlx.js";
+
+/** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
+const RATINGS = ["Under-used", "Relaxed", "Comfortable", "High", "Excessive"];
+const PATIENCE_MS = 30_000; // for which ISA is asked
+
+export class Workload {
+  #answer;
+  #question = null;
+  #timer = null;
+  #tlx = new Tlx();
+
+  /** `answer(answer)` gives an answer to the run. */
+  constructor(answer) {
+    this.#answer = answer;
+    byId("isa-ratings").replaceChildren(...RATINGS.map((name, i) => {
+      const button = html("button", { type: "button", title: `${name}: key ${i + 1}` }, `${i + 1} ${name}`);
+      button.addEventListener("click", () => this.rate(i + 1));
+      return button;
+    }));
+    byId("tlx").addEventListener("submit", (event) => { event.preventDefault(); this.#give(); });
+    byId("tlx-skip").addEventListener("click", () => this.#close({}));
+    byId("tlx-dialog").addEventListener("cancel", (event) => event.preventDefault());
+  }
+
+  /** Takes in a question to the own seat. */
+  ask(number, scale) {
+    this.#question = number;
+    if (scale === "isa") {
+      byId("isa").hidden = false;
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
+    } else {
+      this.#hideIsa();
+      this.#tlx.begin();
+      byId("tlx-state").textContent = "";
+      if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
+    }
+  }
+
+  /** Rates the workload from 1 to 5, if that is asked. */
+  rate(rating) {
+    if (byId("isa").hidden) return;
+    this.#answer({ question: this.#question, isa: rating });
+    this.#hideIsa();
+  }
+
+  /** Takes the questions away: the seat is another person's, or the run is over. */
+  clear() {
+    this.#hideIsa();
+    byId("tlx-dialog").close();
+  }
+
+  #hideIsa() {
+    clearTimeout(this.#timer);
+    byId("isa").hidden = true;
+  }
+
+  #give() {
+    const { missing } = this.#tlx;
+    if (missing.length) byId("tlx-state").textContent = `Move or click these as well: ${missing.join(", ")}.`;
+    else this.#close({ nasa_tlx: this.#tlx.answers });
+  }
+
+  #close(answers) {
+    this.#answer({ question: this.#question, ...answers });
+    byId("tlx-dialog").close();
+  }
+}
