@@ -442,6 +442,19 @@ class CockpitInstruments(Message):
     selected_airspeed_kt: int = Field(description="calibrated airspeed that is flown to, or held")
 
 
+class VehiclePosition(Message):
+    """``cockpit/<callsign>/position``: where a vehicle is, as its own moving map shows it to the driver.
+
+    Errors of the receiver are not simulated.
+    """
+
+    callsign: str
+    latitude_deg: float = Field(ge=-90.0, le=90.0)
+    longitude_deg: float = Field(ge=-180.0, le=180.0)
+    heading_deg: float = Field(ge=0.0, lt=360.0, description="true")
+    ground_speed_kt: float = Field(ge=0.0)
+
+
 TransponderMode = Literal["S", "C"]
 """Mode S, or Modes A and C alone."""
 
@@ -1299,6 +1312,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "radar/{site}": RadarPlot,
     "surface/{airport}": SurfaceTrack,
     "cockpit/{callsign}": CockpitInstruments,
+    "cockpit/{callsign}/position": VehiclePosition,
     "tcas/{callsign}": TcasReply,
     "asr/{frequency_khz}": Transcript,
     "asr/{frequency_khz}/partial": PartialTranscript,

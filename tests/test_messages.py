@@ -110,6 +110,10 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "on_ground": False, "mode": "en_route", "selected_altitude_ft": 33000,
         "selected_airspeed_kt": 280,
     },
+    "VehiclePosition": {
+        "callsign": "OPS1", "latitude_deg": 38.9, "longitude_deg": -77.0, "heading_deg": 85.0,
+        "ground_speed_kt": 14.0,
+    },
     "TcasReply": {
         "callsign": "AAL1", "own_icao24": "a1b2c3", "mode": "S", "icao24": "a4d5e6",
         "range_m": 9260.5, "bearing_deg": 359.9, "altitude_ft": 35025, "has_tcas": True,

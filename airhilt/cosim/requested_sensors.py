@@ -9,7 +9,7 @@ from airhilt.errors import AirhiltError
 from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import RadarKind
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import AircraftSpec, AirportScene, Radar, SurfaceSurveillance
+from airhilt.scenario.models import AircraftSpec, AirportScene, Radar, SurfaceSurveillance, VehicleSpec
 
 AWAY_NM = 40.0
 """Distance of a requested radar west of the scene's centre, in NM, if it is not an airport's own.
@@ -31,7 +31,7 @@ def with_requested_sensors(
         by that name; None for no radar but the scenario's own. At an airport, a terminal radar
         stands at the airport.
     cockpit
-        True if all aircraft publish their instruments.
+        True if all aircraft publish their instruments, and vehicles their positions.
     surface
         True if the airport has surface surveillance.
 
@@ -51,7 +51,9 @@ def with_requested_sensors(
         changes["radars"] = (*scenario.radars, Radar(name=name, kind=radar, position=position))
     if cockpit:
         changes["cockpits"] = tuple(
-            actor.callsign for actor in scenario.actors if isinstance(actor, AircraftSpec)
+            actor.callsign
+            for actor in scenario.actors
+            if isinstance(actor, (AircraftSpec, VehicleSpec))
         )
     if surface and not isinstance(scenario.scene, AirportScene):
         raise AirhiltError(

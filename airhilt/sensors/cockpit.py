@@ -1,5 +1,7 @@
 """Cockpit instruments in a run: what an aircraft shows its own crew, and nothing of others.
 
+A vehicle shows its driver where it is, on a moving map.
+
 They are published five times a second, as often as the truth that a viewer compares them with. They
 are there for the aircraft that the scenario names, and for all if a worker subscribes to them: two
 airliners for five minutes are 3,000 messages, as many as everything else together, and few
@@ -10,12 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from airhilt.messages import CockpitInstruments, Message
+from airhilt.messages import CockpitInstruments, Message, VehiclePosition
 from airhilt.sensors.base import SensorContext
 from airhilt.sim import Priority, StepRecord
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.vehicle import Vehicle
 
 PERIOD_NS = SECOND_NS // 5
 """Period of the messages, in ns."""
@@ -24,13 +27,16 @@ RADIO_ALTIMETER_FT = 2500
 
 
 class CockpitType:
-    """The instruments of the aircraft that a scenario lists in ``cockpits``.
+    """The instruments of the aircraft and vehicles that a scenario lists in ``cockpits``.
 
     All aircraft show them if a worker subscribes to instruments.
     """
 
     name = "cockpit"
-    messages: Mapping[str, type[Message]] = {"cockpit/{callsign}": CockpitInstruments}
+    messages: Mapping[str, type[Message]] = {
+        "cockpit/{callsign}": CockpitInstruments,
+        "cockpit/{callsign}/position": VehiclePosition,
+    }
 
     def create(self, context: SensorContext) -> Cockpits | None:
         """Return the instruments of a run; None if nobody asks for any."""
@@ -48,7 +54,7 @@ class Cockpits:
     Parameters
     ----------
     callsigns
-        Callsigns of the actors that show them if they are aircraft.
+        Callsigns of the actors that show them if they are aircraft or vehicles.
     context
         Parts of the run that the sensor uses.
     """
@@ -60,6 +66,9 @@ class Cockpits:
         bodies = {name: context.actors[name].body for name in callsigns}
         self._aircraft = {
             callsign: body for callsign, body in bodies.items() if isinstance(body, Aircraft)
+        }
+        self._vehicles = {
+            callsign: body for callsign, body in bodies.items() if isinstance(body, Vehicle)
         }
 
     def start(self) -> None:
@@ -76,6 +85,20 @@ class Cockpits:
                 instruments = instruments_of(callsign, aircraft, self._variation_deg)
                 stamped = instruments.model_copy(update={"t_ns": self._director.now_ns})
                 self._publish(f"cockpit/{callsign}", stamped)
+        for callsign, vehicle in self._vehicles.items():
+            if vehicle.ended is None:
+                self._publish(f"cockpit/{callsign}/position", self._position(callsign, vehicle))
+
+    def _position(self, callsign: str, vehicle: Vehicle) -> VehiclePosition:
+        state = vehicle.state
+        return VehiclePosition(
+            t_ns=self._director.now_ns,
+            callsign=callsign,
+            latitude_deg=round(state.latitude_rad / DEGREE, 7),
+            longitude_deg=round(state.longitude_rad / DEGREE, 7),
+            heading_deg=_bearing_deg(state.heading_rad, 0.0),
+            ground_speed_kt=round(state.ground_speed_m_s / KNOT, 1),
+        )
 
 
 def instruments_of(

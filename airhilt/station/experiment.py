@@ -82,10 +82,18 @@ class Progress:
         raise StationError(f"trial {trial.name}: begun {MOST_ATTEMPTS} times; look at its folders")
 
     def answers(self, name: str) -> NasaTlx | None:
-        """Return what was answered after a run, None if nothing was yet."""
+        """Return what was answered at the end of a run or after it, None if nothing was yet."""
         try:
             return NasaTlx.model_validate_json(self._answers_path(name).read_bytes())
         except (OSError, ValueError):
+            return self._answers_in_run(name)
+
+    def _answers_in_run(self, name: str) -> NasaTlx | None:
+        try:
+            summary = json.loads((self.folder / name / "summary.json").read_bytes())
+            (person,) = summary["people"]
+            return NasaTlx.model_validate(person["workload"]["nasa_tlx"])
+        except (OSError, ValueError, LookupError, TypeError):
             return None
 
     def answer(self, name: str, answers: NasaTlx) -> None:
@@ -108,6 +116,7 @@ class Conductor:
         self._progress = progress
         self._started = StartedRuns(progress.folder)
         self._rested_since_s: float | None = None
+        self._done = sum(map(progress.is_done, progress.trials))
         self._lock = threading.Lock()
 
     def state(self) -> dict[str, Any]:
@@ -129,6 +138,7 @@ class Conductor:
                 raise StationError("it is not time for a trial")
             plan = self._progress.plan
             given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
+            given["nasa_tlx"] = plan.nasa_tlx
             name = self._progress.new_run(trial)
             self._started.start(loading.find(trial.scenario), options_of(given), name)
 
@@ -146,10 +156,12 @@ class Conductor:
             if name is None or self._progress.answers(name) is not None:
                 raise StationError("no question is open")
             self._progress.answer(name, answers)
-            self._rested_since_s = time.monotonic()
 
     def _state(self) -> dict[str, Any]:
         trials, trial = self._progress.trials, self._next()
+        done = len(trials) if trial is None else trials.index(trial)
+        if done > self._done:
+            self._done, self._rested_since_s = done, time.monotonic()
         shown = {
             "participant": self._progress.participant,
             "seat": readable(self._progress.plan.seat),

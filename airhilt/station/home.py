@@ -17,7 +17,10 @@ from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
 from airhilt.text import LONGEST_LINE, readable
 
-OFFERED = ("seed", "seat", "assistant", "snr_db", "visibility_m", "cameras", "speech")
+OFFERED = (
+    "seed", "seat", "assistant", "snr_db", "visibility_m", "cameras", "speech", "isa_minutes",
+    "nasa_tlx",
+)  # fmt: skip
 """Options of a run that the page offers."""
 Name = Field(min_length=1, max_length=200)
 

@@ -23,10 +23,13 @@ from airhilt.messages import (
     SeatNotice,
     SurfaceTrack,
     TaskCard,
+    VehiclePosition,
+    WorkloadAnswer,
     WorkloadQuestion,
 )
 from airhilt.metrics.calls import CallRecords, call_message
 from airhilt.record import Logged
+from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.report.airport import ReportAirport
 from airhilt.report.events import Events
 from airhilt.report.tracks import Locate, Projection
@@ -57,7 +60,7 @@ class LiveRun:
         Gets the changes.
     seats
         Gets the changes that only the person at a seat sees: ``task``, ``cockpit``, ``info``,
-        ``notice`` and ``question``.
+        ``notice``, ``question`` and ``answered``.
     notice
         Is told of the first message of a kind that cannot be read.
 
@@ -85,6 +88,8 @@ class LiveRun:
         self._locate: Locate | None = None
         self._types: dict[str, str] = {}
         self._has_truth = False
+        self._ground_m = 0.0
+        """Height of the airport, in m."""
         self._callsigns: dict[str, str] = {}
         """Callsigns by icao24, as far as ADS-B has told."""
         self._cameras: set[str] = set()
@@ -102,6 +107,7 @@ class LiveRun:
             "notice": self._notice_of_seat,
             "cockpit": self._cockpit,
             "question": self._question,
+            "workload": self._answered,
         }
 
     def take(self, logged: Logged) -> None:
@@ -138,6 +144,8 @@ class LiveRun:
         briefing = Briefing.model_validate_json(logged.data)
         self._types = {one.callsign: one.type for one in briefing.roster}
         airport = None
+        if briefing.airport is not None:
+            self._ground_m = briefing.airport.elevation_ft * FOOT
         if briefing.airport is not None:
             try:
                 found = ReportAirport(briefing.airport.icao.lower())
@@ -215,12 +223,27 @@ class LiveRun:
         on_ground: bool,
         phase: str,
     ) -> None:
+        row = self._state_row(
+            name, category, t_ns, place, velocity_m_s, heading_deg, on_ground, phase
+        )
+        self._changes.add("state", *row)
+
+    def _state_row(
+        self,
+        name: str,
+        category: str,
+        t_ns: int,
+        place: tuple[float, float, float],
+        velocity_m_s: tuple[float, float],
+        heading_deg: float,
+        on_ground: bool,
+        phase: str,
+    ) -> tuple[Any, ...]:
         latitude_rad, longitude_rad = place[0] * DEGREE, place[1] * DEGREE
         if self._locate is None:
             self._locate = Projection(latitude_rad, longitude_rad).locate
         east_nm, north_nm = self._locate((latitude_rad, longitude_rad), place[2])
-        self._changes.add(
-            "state",
+        return (
             readable(name),
             category,
             readable(self._types.get(name, "")),
@@ -281,11 +304,40 @@ class LiveRun:
         notice = SeatNotice.model_validate_json(logged.data)
         self._seats[notice.seat].add("notice", _seconds(notice.t_ns), readable(notice.text))
 
+    def _own_position(self, logged: Logged) -> None:
+        """Tell a driver where the own vehicle is; nobody else learns it from this."""
+        shown = VehiclePosition.model_validate_json(logged.data)
+        heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
+        self._seats[shown.callsign].add(
+            "state",
+            *self._state_row(
+                shown.callsign,
+                "vehicle",
+                shown.t_ns,
+                (shown.latitude_deg, shown.longitude_deg, self._ground_m),
+                (speed_m_s * math.sin(heading_rad), speed_m_s * math.cos(heading_rad)),
+                shown.heading_deg,
+                True,
+                "",
+            ),
+        )
+
     def _question(self, logged: Logged) -> None:
         question = WorkloadQuestion.model_validate_json(logged.data)
-        self._seats[question.seat].add("question", question.number, question.scale)
+        self._seats[question.seat].add(
+            "question", question.number, question.scale, _seconds(question.t_ns)
+        )
+
+    def _answered(self, logged: Logged) -> None:
+        answer = WorkloadAnswer.model_validate_json(logged.data)
+        for seat, changes in self._seats.items():
+            if logged.key == f"workload/{key_chunk(seat)}":
+                changes.add("answered", answer.question)
 
     def _cockpit(self, logged: Logged) -> None:
+        if logged.key.endswith("/position"):
+            self._own_position(logged)
+            return
         shown = CockpitInstruments.model_validate_json(logged.data)
         self._seats[shown.callsign].add(
             "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}

@@ -14,7 +14,7 @@ from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
-SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach")
+SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach", "nasa_tlx")
 """Options that the experiment itself gives."""
 
 
@@ -49,7 +49,7 @@ class Plan(BaseModel):
     )
     break_after: int = Field(default=0, ge=0, description="trials between breaks; 0: no break")
     break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
-    nasa_tlx: bool = Field(default=True, description="ask NASA-TLX after each trial")
+    nasa_tlx: bool = Field(default=True, description="ask NASA-TLX at the end of each trial")
 
     @model_validator(mode="after")
     def _is_possible(self) -> Plan:

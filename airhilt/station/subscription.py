@@ -43,6 +43,8 @@ TRUTH = ("truth/**",)
 """Keys of the truth, for observers alone; of it comes what the run shares."""
 OF_SEATS = (
     "cockpit/{seat}", "task/{seat}", "seat/{seat}/info", "notice/{seat}", "question/{seat}",
+    "workload/{seat}",
+    "cockpit/{seat}/position",
 )  # fmt: skip
 """Keys of what only the person at a seat sees."""
 ASKED = ("briefing", "clock")

@@ -125,3 +125,16 @@ def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
     assert shown.radio_height_ft is None
     assert shown.selected_airspeed_kt == pytest.approx(kind.speeds.approach_kt, abs=1.0)
     assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)
+
+
+def test_a_vehicle_shows_its_driver_where_it_is(tmp_path: Path) -> None:
+    scenario = load("s01b_nominal").model_copy(update={"duration_s": 3.0, "cameras": ()})
+    run(scenario, Options(out=tmp_path / "run", latency="fixed", speech=False, cockpit=True))
+    log = list(read_log(tmp_path / "run" / "log.mcap"))
+    shown = [json.loads(m.data) for m in log if m.key == "cockpit/OPS1/position"]
+    true = {m.t_ns: json.loads(m.data) for m in log if m.key == "truth/state/OPS1"}
+    assert len(shown) >= 15
+    for one in shown:
+        there = true[one["t_ns"]]
+        assert one["latitude_deg"] == pytest.approx(there["latitude_deg"], abs=1e-6)
+        assert one["heading_deg"] == pytest.approx(there["heading_deg"], abs=0.1)

@@ -16,6 +16,7 @@ from airhilt.messages import (
     TaskCard,
     Transcript,
     Transmission,
+    VehiclePosition,
 )
 from airhilt.record import Logged
 from airhilt.station.changes import Changes
@@ -151,6 +152,20 @@ def test_the_oldest_changes_are_forgotten() -> None:
     assert 100 <= len(numbers) <= 110
     assert numbers[-1] == 999
     assert batch.next_number == 1_000
+
+
+def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
+    changes, own = Changes(), Changes()
+    run = LiveRun(changes, {"OPS1": own})
+    shown = VehiclePosition(
+        callsign="OPS1", latitude_deg=38.85, longitude_deg=-77.04, heading_deg=90.0,
+        ground_speed_kt=10.0, t_ns=SECOND,
+    )  # fmt: skip
+    run.take(Logged("cockpit/OPS1/position", "", SECOND, shown.model_dump_json().encode()))
+    assert changes.since(0) is None
+    batch = own.since(0)
+    assert batch is not None
+    assert json.loads(batch.changes)[0][:3] == ["state", "OPS1", "vehicle"]
 
 
 def test_task_cards_and_instruments_are_for_the_person_at_the_seat_alone() -> None:

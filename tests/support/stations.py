@@ -24,6 +24,7 @@ from airhilt.messages import (
     PaceCommand,
     SeatInfo,
     SpokenWords,
+    WorkloadAnswer,
 )
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
@@ -122,6 +123,8 @@ class PretendedRun:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.seat, self.sounds = Changes(), Changes(), Changes()
+        self.told: list[str] = []
+        """What the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
         self.seat.add("info", TOWER.model_dump(mode="json", exclude={"t_ns"}))
 
@@ -139,6 +142,10 @@ class PretendedRun:
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Note that an advisory was perceived."""
         self.done.put(perceived)
+
+    def answer(self, seat: str, answer: WorkloadAnswer) -> None:
+        """Note an answer to a question."""
+        self.done.put(answer)
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""
@@ -175,7 +182,7 @@ class PretendedRun:
 def seat_page() -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run, urls, is_over = PretendedRun(), queue.Queue[str](), threading.Event()
-    browsers = Browsers(run.changes, run, {"TOWER": run.seat}, run.sounds)
+    browsers = Browsers(run.changes, run, {"TOWER": run.seat}, run.sounds, run.told.append)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

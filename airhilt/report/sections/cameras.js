@@ -22,10 +22,32 @@ function drawCameras() {
     byId("vision-tables").hidden = false;
   }
   if (all.length) drawCameraFigures();
+  followVideos = drawVideos();
   const starts = pictures.filter((picture) => picture.occasion === "start");
   byId("h-starts").hidden = !starts.length;
   byId("starts").replaceChildren(...starts.map((picture) => html("figure", {}, picture.src ? html("img", { src: picture.src, alt: `View of ${picture.camera} at ${seconds(picture.t)}` }) : html("a", { href: picture.href }, "picture file"),
     html("figcaption", {}, html("b", {}, picture.camera), ` ${cameraText(picture.camera)}`))));
+}
+
+let followVideos = () => {};
+
+/** Shows the videos of the cameras, which go along with the time shown; one whose file is not there is left out. */
+function drawVideos() {
+  const found = data.timelines.filter((one) => one.video).map((one) => {
+    const video = html("video", { src: one.video, muted: "", playsinline: "", preload: "metadata", "aria-label": `Video of ${one.camera}` });
+    const figure = html("figure", { class: "panel picture" }, html("figcaption", {}, html("b", {}, one.camera), html("span", {}, " video, at the time shown")), video);
+    video.muted = true;
+    video.addEventListener("error", () => { figure.hidden = true; });
+    video.addEventListener("loadedmetadata", () => clock.set(clock.t));
+    return { video, figure };
+  });
+  byId("videos").replaceChildren(...found.map(({ figure }) => figure));
+  return (t) => {
+    for (const { video } of found) {
+      const isToBeSet = followMedia(video, 0, video.duration || 0, t) || clock.rate > FASTEST_MEDIA;
+      if (isToBeSet && !video.seeking && Math.abs(video.currentTime - t) > 0.02) video.currentTime = Math.min(t, video.duration || 0);
+    }
+  };
 }
 
 const cameraNamed = (name) => data.timelines.find((one) => one.camera === name);
@@ -140,7 +162,7 @@ function drawRecall() {
 /** Draws when an actor was in view of each camera, and when it was found. */
 function drawDetections() {
   const all = data.timelines.slice(0, MOST_ROWS);
-  if (!all.length) return () => {};
+  if (!all.length) return (t) => followVideos(t);
   byId("detections-figure").hidden = false;
   const frame = timelines(byId("detections"), all.map(({ camera, carrier }) => ({ text: camera.length > 18 ? `${camera.slice(0, 17)}…` : camera, colour: carrier ? colourOf(carrier) : "var(--ink)" })), "In view and found, over time");
   const { chart: { root }, area, x, middles } = frame;
@@ -159,7 +181,8 @@ function drawDetections() {
   const example = (style, y, height) => svg("rect", { class: style, x: 0, y, width: 20, height });
   byId("detections-key").replaceChildren(keyItem(example("in-view", 0, 14), "in view, large and clear enough to count"), keyItem(example("found", 2, 10), "found"), keyItem(example("confirmed", 2, 10), "confirmed"),
     ...(all.some((camera) => camera.false.length) ? [keyItem(example("false", 5, 5), "confirmed, about nothing")] : []), ...(pictures.some((picture) => picture.occasion !== "start") ? [keyItem(pictureSymbol(10, 10), "picture above")] : []));
-  return follow(line, x);
+  const followLine = follow(line, x);
+  return (t) => { followLine(t); followVideos(t); };
 }
 const pictureSymbol = (x, y) => svg("path", { class: "taken", d: `M${x - 5} ${y - 5}H${x + 5}L${x} ${y + 3}Z`, fill: "var(--ink)", stroke: "var(--panel)" });
 

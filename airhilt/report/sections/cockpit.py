@@ -39,8 +39,8 @@ class Cockpits(Content):
         self._due_ns: dict[str, int] = {}
 
     def take(self, logged: Logged) -> None:
-        """Receive a `CockpitInstruments`."""
-        if logged.t_ns < self._due_ns.get(logged.key, 0):
+        """Receive a `CockpitInstruments`; the positions of vehicles are left out."""
+        if logged.key.endswith("/position") or logged.t_ns < self._due_ns.get(logged.key, 0):
             return
         self._due_ns[logged.key] = logged.t_ns + PERIOD_NS
         instruments = CockpitInstruments.model_validate_json(logged.data)

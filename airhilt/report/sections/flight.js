@@ -17,12 +17,17 @@ function drawPlayer() {
   slider.max = endS;
   slider.addEventListener("input", () => clock.set(Number(slider.value)));
   let playing = false, lastFrame = 0, shown = 0;
-  const stop = () => { playing = false; play.textContent = "Play"; };
+  const stop = () => { playing = clock.playing = false; play.textContent = "Play"; clock.set(clock.t); };
+  const setRate = () => { clock.rate = Number(byId("speed").value); byId("media-note").textContent = clock.rate > FASTEST_MEDIA ? ` up to ${FASTEST_MEDIA}×` : ""; };
+  byId("speed").addEventListener("change", setRate);
+  byId("sound").addEventListener("change", (event) => { clock.sound = event.target.checked; clock.set(clock.t); });
+  requestAnimationFrame(() => { byId("media").hidden = !document.querySelector("audio, video"); }); // once all sections are drawn
+  setRate();
   const frame = (now) => {
     if (!playing) return;
     const wait = calm.matches ? 1000 : 0; // steps of a second where motion is not wanted
     if (now - lastFrame >= wait) {
-      shown = (now - lastFrame) / 1000 * Number(byId("speed").value);
+      shown = (now - lastFrame) / 1000 * clock.rate;
       lastFrame = now;
       clock.set(clock.t + shown);
     }
@@ -31,7 +36,7 @@ function drawPlayer() {
   play.addEventListener("click", () => {
     if (playing) { stop(); return; }
     if (clock.t >= endS) clock.set(0);
-    playing = true;
+    playing = clock.playing = true;
     play.textContent = "Pause";
     lastFrame = performance.now();
     requestAnimationFrame(frame);

@@ -114,9 +114,25 @@ function hoverPlan(event, chart, x, y) {
   showTip(event, [track.callsign, `t = ${seconds(track.t[i])}`, `${airport ? `${state.phase}, ` : ""}${feet(state.altitude)}, ${whole(state.speed)} kt`, `east ${where(state.east)}, north ${where(state.north)}`]);
 }
 
+const REACH_NM = 3000 / METRE_PER_NM; // of a field of view that is drawn
+const LONGEST_LOOK_S = 1; // for which a bearing is shown after its picture
+
+/** Returns the field of view of each camera at a time, and lines in the directions of what was found in it. */
+function camerasAt(t, x, y, perNm) {
+  return (data || []).flatMap((camera) => {
+    const pose = camera.poses.findLast(([from]) => from <= t + 1e-6) || camera.poses[0], [, east, north, heading] = pose;
+    const cx = x(east), cy = y(north), reach = Math.max(REACH_NM * perNm, 30), half = camera.fov_deg / 2;
+    const end = (degrees, far) => { const angle = degrees * Math.PI / 180; return [cx + far * Math.sin(angle), cy - far * Math.cos(angle)]; };
+    const [ax, ay] = end(heading - half, reach), [bx, by] = end(heading + half, reach), found = camera.found.findLast(([from]) => from <= t + 1e-6);
+    const lines = found && t - found[0] < LONGEST_LOOK_S ? found[1] : [];
+    return [svg("path", { class: "cone", d: `M${cx} ${cy}L${ax} ${ay}A${reach} ${reach} 0 ${camera.fov_deg > 180 ? 1 : 0} 1 ${bx} ${by}Z` }),
+      ...lines.map((degrees) => { const [ex, ey] = end(degrees, 1.5 * reach); return svg("line", { class: "bearing", x1: cx, y1: cy, x2: ex, y2: ey }); })];
+  });
+}
+
 /** Returns aircraft, their data blocks and the ring of the separation minimum at a time. */
 function planAt(t, x, y, perNm, area, reserved) {
-  const nodes = [], states = tracks.map((track) => ({ track, state: stateAt(track, t) }));
+  const nodes = camerasAt(t, x, y, perNm), states = tracks.map((track) => ({ track, state: stateAt(track, t) }));
   const taken = states.map(({ state }) => ({ left: x(state.east) - 8, right: x(state.east) + 8, top: y(state.north) - 8, bottom: y(state.north) + 8 })).concat(reserved);
   const focus = states.find(({ track, state }) => track.callsign === pair[0] && !state.ended);
   if (focus && !closeUp) {
@@ -202,6 +218,7 @@ function drawPlanKey() {
     keyItem(svg("circle", { cx: 10, cy: 7, r: 2.6, fill: "var(--dim)" }), `every ${view.markEveryS} s`),
     ...(closest && pair.length ? [keyItem(crossSymbol(10, 7), known(timeOf("collision")) ? "collision" : "closest approach")] : []),
     ...(pair.length && !closeUp ? [keyItem(keyLine({ class: "minimum" }), `${minimumNm} NM around ${pair[0]}`)] : []),
+    ...(data?.length ? [keyItem(svg("path", { class: "cone", d: "M1 7L19 1V13Z" }), "view of a camera"), keyItem(keyLine({ class: "bearing" }), "bearing of a detection")] : []),
     ...(airport ? [keyItem(svg("rect", { class: "protected", x: .5, y: .5, width: 19, height: 13, fill: "url(#hatch)" }), "protected area"), keyItem(keyLine({ class: "hold" }), "hold line")] : []));
 }
 

@@ -1,10 +1,10 @@
 /** What became of a call with a listener, in words. */
 const HEARD = { understood: ["understood", ""], misheard: ["took it for something else", "bad"], unsure: ["was not sure", "warn"], missed: ["missed it", "warn"] };
 /** An element that plays a sound, or a link to its file. */
-function player(sound, name) {
+function player(sound, name, from, to) {
   if (!sound) return null;
   if (sound.href) return html("a", { href: sound.href, "aria-label": `Sound of ${name}` }, "sound file");
-  return html("audio", { controls: "", preload: "none", src: sound.src, "aria-label": `Sound of ${name}` });
+  return html("audio", { controls: "", preload: "none", src: sound.src, "data-from": from, "data-to": to, "aria-label": `Sound of ${name}` });
 }
 
 /** The words recognised: those struck out were said and not recognised, those marked were recognised and not said. */
@@ -22,7 +22,7 @@ function callRows(call, oneFrequency, oneRatio) {
   const who = [html("div", {}, call.who), call.addressed ? html("div", { class: "dim" }, `to ${call.addressed}`) : null, oneFrequency ? null : html("div", { class: "dim" }, megahertz(call.frequency_khz))];
   const said = [html("div", {}, call.said || html("span", { class: "dim" }, "a carrier without words")), noise || tags.length ? html("div", {}, ...tags.flatMap((tag) => [tag, " "]), html("span", { class: "dim" }, noise)) : null];
   const heard = call.hearings.map((one) => html("div", { class: HEARD[one.outcome][1] }, `${one.who} ${HEARD[one.outcome][0]}${one.outcome === "misheard" ? `: “${one.text}”` : ""}`));
-  const first = (transcript) => [html("div", {}, timeButton(call.from)), who, said, ...(transcript || [[], [], []]), heard, player(call.sound, `the call at ${seconds(call.from)}`)];
+  const first = (transcript) => [html("div", {}, timeButton(call.from)), who, said, ...(transcript || [[], [], []]), heard, player(call.sound, `the call at ${seconds(call.from)}`, call.from, call.to)];
   const results = call.transcripts.map((one) => [[recognised(one.words), engines.length > 1 ? html("div", { class: "dim" }, one.engine) : null], html("div", {}, fixed(one.confidence, 2)), html("div", {}, duration(one.after_end_s))]);
   return [first(results[0]), ...results.slice(1).map((result) => [[], [], [], ...result, [], []])].map((cells) => ({ t: call.from, cells }));
 }
@@ -65,13 +65,18 @@ function drawRadio() {
   const table = fillTable(byId("calls"), heads.filter((_, i) => wanted[i]), found.map(({ t, cells }) => ({ t, cells: cells.filter((_, i) => wanted[i]) })));
   byId("radio-legend").replaceChildren(...(engines.length ? ["In what was recognised, ", html("span", { class: "calls" }, html("del", {}, "words struck out"), " were said and not recognised, ", html("ins", {}, "words marked"), " were recognised and not said.")] : []));
   const spoken = fillTable(byId("spoken"), [["Time (s)", "number"], ["To", ""], ["Said", "text"], ["After decision", "number"], ["Sound", ""]],
-    spokenAdvisories.map((one) => ({ t: one.from, cells: [html("div", {}, timeButton(one.from)), html("div", {}, one.recipient), html("div", {}, one.said), html("div", {}, duration(one.after_decision_s)), player(one.sound, `the advisory at ${seconds(one.from)}`)] })));
+    spokenAdvisories.map((one) => ({ t: one.from, cells: [html("div", {}, timeButton(one.from)), html("div", {}, one.recipient), html("div", {}, one.said), html("div", {}, duration(one.after_decision_s)), player(one.sound, `the advisory at ${seconds(one.from)}`, one.from, one.to)] })));
   const players = [...document.querySelectorAll("audio")];
-  for (const one of players) one.addEventListener("play", () => players.forEach((other) => { if (other !== one) other.pause(); }));
-  return (t) => [table, spoken].forEach((all) => {
+  for (const one of players) one.addEventListener("play", () => players.forEach((other) => { if (other !== one && !one.dataset.follows) other.pause(); }));
+  return (t) => {
+    for (const one of players) followMedia(one, Number(one.dataset.from), Math.min(Number(one.dataset.to), Number(one.dataset.from) + (one.duration || Infinity)), t, clock.sound);
+    showRows(t);
+  };
+
+  function showRows(t) { [table, spoken].forEach((all) => {
     const current = all.findLast((row) => Number(row.dataset.t) <= t + 1e-6);
     all.forEach((row) => row.classList.toggle("current", row === current));
-  });
+  }); }
 }
 
 return { draw: drawRadio };

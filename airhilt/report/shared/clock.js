@@ -47,8 +47,11 @@ function cursor(root, area) {
   return line;
 }
 
-/** The time shown. */
+/** The time shown; `playing` and `rate` say how it passes. */
 const clock = {
+  playing: false,
+  rate: 1,
+  sound: true,
   t: [summary && summary.t_first_warning_s, timeOf("opened"), 0].find(known),
   listeners: [],
   set(t) {
@@ -56,6 +59,25 @@ const clock = {
     this.listeners.forEach((listener) => listener(this.t));
   },
 };
+/** Fastest playing at which sound and video go along, in times real time. */
+const FASTEST_MEDIA = 5;
+const MOST_OFF_S = 0.25;
+
+/** Lets a sound or video that begins at a time go along with the clock; it is silent where the clock's sound is off. */
+function followMedia(media, from, to, t, isWanted = true) {
+  const within = from <= t && t < to;
+  if (!clock.playing || clock.rate > FASTEST_MEDIA || !within || !isWanted || media.error) {
+    if (media.dataset.follows && !media.paused) media.pause();
+    delete media.dataset.follows;
+    return within && !clock.playing;
+  }
+  media.playbackRate = clock.rate;
+  if (Math.abs(media.currentTime - (t - from)) > MOST_OFF_S * Math.max(clock.rate, 1) && !media.seeking) media.currentTime = t - from;
+  media.dataset.follows = "clock";
+  if (media.paused) media.play().catch(() => {}); // A browser plays nothing before the first click on the page.
+  return false;
+}
+
 page.shown = (listeners) => {
   clock.listeners = listeners;
   clock.set(clock.t);

@@ -86,7 +86,7 @@ export class Cameras {
       if (!answer.ok) { this.#fail((await answer.json()).error); return; }
       this.#records.set(name, await answer.json());
     }
-    if (this.#camera.name === name) this.draw();
+    if (this.#camera?.name === name) this.draw();
   }
 
   /** Shows the newest picture at the time shown; while one is on its way, none is asked for. */
@@ -114,7 +114,7 @@ export class Cameras {
     const arrived = new Image();
     arrived.onload = () => {
       this.#isLoading = false;
-      if (this.#camera.name === name) {
+      if (this.#camera?.name === name) {
         this.#image.src = arrived.src;
         this.#image.alt = `Camera ${name} at ${seconds(record.t[i])}`;
         this.#image.hidden = false;

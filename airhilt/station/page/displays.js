@@ -36,6 +36,7 @@ export class Displays {
       { names: ["h"], shown: ["H"], text: "cockpit: track", act: inCockpit(() => this.#panel.focus("track")) },
       { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: inCockpit(() => this.#panel.focus("altitude")) },
       { names: ["g"], shown: ["G"], text: "cockpit: go around", act: inCockpit(() => this.#panel.goAround()) },
+      { names: ["b"], shown: ["B"], text: "brake, hold position", act: inCockpit(() => this.#panel.brake()) },
       { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: inCockpit(() => this.#nd.step(1)) },
       { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: inCockpit(() => this.#nd.step(-1)) },
     ];

@@ -28,12 +28,16 @@ function showScenario() {
   byId("start").disabled = Boolean(scenario.problem);
   byId("scenario-text").textContent = scenario.problem ?? `${scenario.description} ${whole(scenario.duration_s)} s at most.`;
   const seats = (scenario.seats ?? []).map((seat) => html("label", {}, html("input", { type: "checkbox", value: seat }), seat === scenario.controller ? `${seat} (controller)` : seat));
-  byId("seats").replaceChildren(html("legend", {}, "Seats for people"), ...(seats.length ? seats : [html("span", { class: "dim" }, "This scenario has no radio: it can be watched.")]));
+  byId("seats").replaceChildren(html("legend", {}, "Seats for people"), ...(seats.length ? [...seats, html("p", { class: "hint" }, "Tick a seat to speak and act there yourself. Without one you watch the run.")] : [html("span", { class: "dim" }, "This scenario has no radio: it can be watched.")]));
   byId("cameras").disabled = !scenario.has_cameras;
   byId("snr").placeholder = scenario.snr_db === null ? "no noise" : `${scenario.snr_db}, as in the scenario`;
   byId("visibility").placeholder = `${whole(scenario.visibility_m ?? 0)}, as in the scenario`;
   showCameras();
+  showAsked();
 }
+
+/** Questions can be asked where somebody sits. */
+function showAsked() { byId("asked").disabled = !byId("seats").querySelector("input:checked"); }
 
 function showCameras() { byId("visibility").disabled = byId("cameras").disabled || !byId("cameras").checked; }
 
@@ -41,6 +45,8 @@ function optionsChosen() {
   const options = { seed: Number(byId("seed").value), assistant: byId("assistant").value };
   const seats = [...byId("seats").querySelectorAll("input:checked")].map((one) => one.value);
   if (seats.length) options.seat = seats;
+  if (seats.length && byId("isa-minutes").value !== "") options.isa_minutes = Number(byId("isa-minutes").value);
+  if (seats.length && byId("nasa-tlx").checked) options.nasa_tlx = true;
   if (byId("snr").value !== "") options.snr_db = Number(byId("snr").value);
   if (byId("visibility").value !== "" && !byId("visibility").disabled) options.visibility_m = Number(byId("visibility").value);
   if (!byId("cameras").checked) options.cameras = false;
@@ -98,16 +104,19 @@ function recordedRow(run) {
   box.addEventListener("change", () => { if (box.checked) chosen.add(run.name); else chosen.delete(run.name); showChosen(); });
   const button = html("button", { type: "button", "aria-label": `Debrief of ${run.name}` }, "Debrief");
   button.addEventListener("click", () => open(button, [run.name]));
-  return html("tr", {}, html("td", {}, box), html("th", { scope: "row" }, run.name), html("td", {}, run.assistant), html("td", {}, run.seats.join(", ")), html("td", {}, run.phase), html("td", {}, button));
+  return html("tr", {}, html("td", {}, box), html("th", { scope: "row" }, run.name), html("td", { class: "when" }, run.started_at ? new Date(run.started_at).toLocaleString([], { dateStyle: "short", timeStyle: "short" }) : ""), html("td", {}, run.assistant), html("td", {}, run.seats.join(", ")), html("td", {}, run.phase), html("td", {}, button));
 }
 
 function showRecorded() {
   const wanted = byId("find").value.trim().toLowerCase(), found = recorded.filter((run) => run.name.toLowerCase().includes(wanted));
-  const rows = found.length ? found.map(recordedRow) : [html("tr", {}, html("td", { colspan: 6, class: "dim" }, recorded.length ? "No run has this in its name." : "There is no run here yet."))];
+  const rows = found.length ? found.map(recordedRow) : [html("tr", {}, html("td", { colspan: 7, class: "dim" }, recorded.length ? "No run has this in its name." : "There is no run here yet. Start one on the left; it is listed here from its beginning on."))];
   byId("recorded").tBodies[0].replaceChildren(...rows);
 }
 
-function showChosen() { byId("compare").disabled = chosen.size !== 2; }
+function showChosen() {
+  byId("compare").disabled = chosen.size !== 2;
+  byId("compare").textContent = chosen.size === 2 ? "Compare the two chosen" : `Compare two (${chosen.size} chosen)`;
+}
 
 async function showRuns() {
   const runs = await ask("api/runs"), text = JSON.stringify(runs);
@@ -117,7 +126,7 @@ async function showRuns() {
   told = text;
   recorded = runs.recorded;
   const started = runs.started.map(startedRow);
-  byId("started").replaceChildren(...(started.length ? started : [html("li", { class: "empty" }, "No run was started here yet.")]));
+  byId("started").replaceChildren(...(started.length ? started : [html("li", { class: "empty" }, "Nothing was started yet. A run that is started on the left takes some seconds to get ready; then a link to its page is here.")]));
   for (const name of chosen) if (!recorded.some((run) => run.name === name)) chosen.delete(name);
   showRecorded();
   showChosen();
@@ -144,6 +153,7 @@ async function begin() {
   byId("assistant").replaceChildren(...station.assistants.map((name) => html("option", { value: name, selected: name === "reference" }, name)));
   byId("scenario").addEventListener("change", showScenario);
   byId("cameras").addEventListener("change", showCameras);
+  byId("seats").addEventListener("change", showAsked);
   byId("find").addEventListener("input", showRecorded);
   byId("compare").addEventListener("click", () => open(byId("compare"), recorded.map((run) => run.name).filter((name) => chosen.has(name))));
   byId("new").addEventListener("submit", (event) => { event.preventDefault(); start(); });

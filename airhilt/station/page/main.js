@@ -29,8 +29,9 @@ async function begin() {
   const clock = together ? new FollowingClock(run.end_s, together.clock) : new Clock(run.end_s, Boolean(run.live));
   if (together) document.body.dataset.together = "true";
   document.title = `${run.title || run.run} - AIRHILT`;
-  byId("title").textContent = run.title || run.run;
-  byId("subtitle").textContent = run.live ? "" : [run.run, run.scenario.description].filter((text) => text).join(": ");
+  const folder = run.folder?.split(/[\\/]/).at(-1), assistant = run.summary?.assistant, named = [folder ?? run.run, assistant ? `assistant ${assistant}` : ""].filter((text) => text).join(", ");
+  byId("title").textContent = together ? named : run.title || run.run;
+  byId("subtitle").textContent = run.live ? "" : together ? run.title : [named, run.scenario.description].filter((text) => text).join(": ");
   byId("subtitle").title = run.scenario.description;
   byId("state").textContent = run.phase;
   run.notes.forEach(note);

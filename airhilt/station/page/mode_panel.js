@@ -9,6 +9,7 @@ const FIELDS = [
 ];
 const OF_RUNWAYS = [["Line up", "line_up"], ["Take off", "take_off"], ["Approach", "land"]];
 const AT_ONCE = [["Hold position", "hold_position"], ["Continue", "continue"], ["Own route", "resume_route"]];
+const NAMES_IN_VEHICLE = { hold_position: "Brake, hold position", continue: "Drive on" };
 const OF_VEHICLES = ["hold_position", "continue"];
 
 export class ModePanel {
@@ -30,15 +31,21 @@ export class ModePanel {
   /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
   offer(category, airport) {
     const idents = (airport?.runways ?? []).flatMap((runway) => runway.ends.map((end) => end.ident)), isVehicle = category === "vehicle";
+    byId("panel-title").textContent = isVehicle ? "Vehicle" : "Mode panel";
     byId("panel-values").hidden = isVehicle;
     byId("panel-runways").hidden = isVehicle || !idents.length;
-    for (const button of byId("panel-actions").children) button.hidden = isVehicle && !OF_VEHICLES.includes(button.dataset.action);
+    for (const button of byId("panel-actions").children) {
+      button.hidden = isVehicle && !OF_VEHICLES.includes(button.dataset.action);
+      if (button.dataset.action in NAMES_IN_VEHICLE) button.textContent = isVehicle ? NAMES_IN_VEHICLE[button.dataset.action] : AT_ONCE.find(([, action]) => action === button.dataset.action)[0];
+    }
     const select = byId("panel-runway"), chosen = select.value;
     if (select.options.length !== idents.length) select.replaceChildren(...idents.map((ident) => html("option", { value: ident, selected: ident === chosen }, ident)));
   }
 
   /** Puts the cursor into the field of speed, track or altitude. */
   focus(id) { byId(`panel-${id}`).select(); }
+
+  brake() { byId("panel-actions").querySelector("[data-action=hold_position]").click(); }
 
   goAround() { byId("panel-go-around").click(); }
 

@@ -108,7 +108,7 @@ export class Run {
   #actors; // that have had a track so far
 
   constructor(given) {
-    Object.assign(this, given);
+    Object.assign(this, { latencies: [] }, given);
     const pair = given.pair ?? [];
     const order = [...given.tracks].sort((a, b) => pair.includes(b.callsign) - pair.includes(a.callsign));
     this.tracks = order.map((track, index) => new Track(track, index));

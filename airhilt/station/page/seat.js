@@ -47,6 +47,8 @@ export class Seat {
 
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
+    const own = changes.filter(([kind]) => kind === "state"); // where the own vehicle is
+    if (own.length) this.#run.apply(own);
     const instruments = changes.findLast(([kind]) => kind === "cockpit");
     if (instruments) {
       this.#displays.take(instruments[1]);

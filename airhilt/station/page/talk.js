@@ -79,7 +79,8 @@ export class Talk {
     }
     for (const [kind, ...rest] of own ?? []) {
       if (kind === "info") this.#prepare(rest[0]);
-      if (kind === "question") this.#workload.ask(...rest);
+      if (kind === "question") this.#workload.ask(...rest, this.#run.now ?? 0);
+      if (kind === "answered") this.#workload.answered(rest[0]);
     }
     if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
     if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase)) this.#workload.clear();

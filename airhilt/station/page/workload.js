@@ -26,8 +26,9 @@ export class Workload {
     byId("tlx-dialog").addEventListener("cancel", (event) => event.preventDefault());
   }
 
-  /** Takes in a question to the own seat. */
-  ask(number, scale) {
+  /** Takes in a question to the own seat, of a time in s; whoever has just taken the seat is not asked what is long ago. */
+  ask(number, scale, asked, now) {
+    if (scale === "isa" && (now - asked) * 1000 > PATIENCE_MS) return;
     this.#question = number;
     if (scale === "isa") {
       byId("isa").hidden = false;
@@ -40,6 +41,9 @@ export class Workload {
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }
   }
+
+  /** Takes in that the run has an answer. */
+  answered(number) { if (number === this.#question) this.clear(); }
 
   /** Rates the workload from 1 to 5, if that is asked. */
   rate(rating) {

@@ -134,3 +134,13 @@ def test_a_run_without_cameras_has_no_such_section(page: Page, tmp_path: Path) -
     page.open(write_report(cosim.run(short, options).folder))
     assert page.evaluate("document.getElementById('cameras').hidden") is True
     assert page.evaluate("document.getElementById('detections-figure').hidden") is True
+
+
+def test_the_plan_shows_where_cameras_look_and_the_bearings_of_what_they_have_found(
+    page: Page, report: Path
+) -> None:
+    page.open(report)
+    times = page.evaluate("given.sections.plan.map((one) => one.found.map(([t]) => t))")
+    page.evaluate(f"clock.set({next(found[0] for found in times if found)})")
+    assert count(page, "#plan .cone") == len(times)
+    assert count(page, "#plan .bearing") >= 1

@@ -385,6 +385,24 @@ def test_a_call_can_be_played(page: Page, radio: Path) -> None:
     assert length_s == pytest.approx(3.0)
 
 
+def test_playing_the_time_plays_the_calls_along(page: Page, radio: Path) -> None:
+    page.open(radio)
+    first = "document.querySelector('#calls audio')"
+    begin = float(page.evaluate(f"{first}.dataset.from"))
+    page.evaluate("speed.value = '1'; speed.dispatchEvent(new Event('change'))")
+    page.evaluate(f"clock.set({begin + 0.5})")
+    page.click("play")
+    page.wait_for(f"{first}.currentTime > 0.6 && !{first}.paused")
+    page.click("play")
+    assert page.evaluate(f"{first}.paused")
+    page.evaluate("document.getElementById('sound').click()")
+    page.evaluate(f"clock.set({begin})")
+    page.click("play")
+    page.wait_for(f"clock.t > {begin + 0.3}")
+    assert page.evaluate(f"{first}.paused")
+    page.click("play")
+
+
 def test_a_row_of_the_radio_shows_its_time_and_playing_it_does_not(page: Page, radio: Path) -> None:
     page.open(radio)
     page.evaluate("document.querySelector('#calls tbody tr:nth-child(2)').click()")

@@ -1,0 +1,65 @@
+"""Phrases that are offered for the situation of a seat."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from airhilt.phraseology import parse_call
+from airhilt.station.phrases import Situation, offered
+
+
+def phrases(**given: Any) -> dict[str, str]:
+    """Return words by label."""
+    return {one["label"]: one["text"] for one in offered(Situation(**given))}
+
+
+@pytest.mark.parametrize(
+    ("given", "label", "action"),
+    [
+        ({"runway": "01"}, "Cleared to land 01", "cleared_to_land"),
+        ({"runway": "01"}, "Go around", "go_around"),
+        ({"altitude_ft": 33_000.0}, "Climb FL340", "altitude"),
+        ({"altitude_ft": 2_300.0}, "Descend 1,000 ft", "altitude"),
+        ({"heading_deg": 10.0}, "Turn left 340", "heading"),
+        ({"on_ground": True, "runway": "01"}, "Cleared for takeoff 01", "cleared_for_takeoff"),
+        ({"category": "vehicle", "runway": "01"}, "Hold short of 01", "hold_short"),
+        ({"category": "vehicle"}, "Hold position", "hold_position"),
+    ],
+)
+@pytest.mark.parametrize("style", ["faa", "icao"])
+def test_a_controller_is_offered_instructions_that_crews_understand(
+    given: dict[str, Any], label: str, action: str, style: str
+) -> None:
+    text = phrases(speaker="unit", callsign="AAL123", style=style, **given)[label]
+    meant = parse_call(text, ["AAL123", "DAL456"])
+    assert (meant.callsign, [one.action for one in meant.instructions]) == ("AAL123", [action])
+
+
+def test_who_is_on_the_ground_is_not_cleared_to_land() -> None:
+    found = phrases(speaker="unit", callsign="AAL123", on_ground=True, runway="01")
+    assert "Cleared to land 01" not in found
+
+
+def test_a_crew_is_offered_the_readback_of_what_it_has_heard() -> None:
+    heard = "american one two three turn left heading two seven zero"
+    found = phrases(speaker="aircraft", callsign="AAL123", heard=heard)
+    (read,) = parse_call(found["Read back"], ["AAL123"]).instructions
+    assert (read.action, read.heading_deg) == ("heading", 270.0)
+    assert "Unable" in found
+
+
+def test_a_crew_that_was_told_nothing_is_offered_no_readback() -> None:
+    assert "Read back" not in phrases(speaker="vehicle", callsign="OPS1")
+
+
+def test_nobody_is_offered_words_to_nobody() -> None:
+    assert phrases(speaker="unit", callsign=None) == {}
+
+
+@pytest.mark.parametrize("callsign", ["<script>", "x" * 41, ""])
+def test_a_callsign_that_cannot_be_is_refused(callsign: str) -> None:
+    with pytest.raises(ValidationError):
+        Situation(speaker="unit", callsign=callsign)

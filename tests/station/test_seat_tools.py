@@ -1,0 +1,151 @@
+"""What a seat has besides the microphone: frequencies, phrases, questions, a gamepad."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+
+from airhilt.messages import NasaTlx, SpokenWords
+from airhilt.station import browsers
+from airhilt.station.page_files import page_version
+from microphone import (
+    BUTTON,
+    microphone_file,
+    open_microphone,
+    page_with_microphone,
+    playing,
+    sit_down,
+)
+from stations import PATIENCE_S, PretendedRun, seat_page
+
+ROSTER = {"AAL123": "aircraft", "OPS1": "vehicle"}
+GAMEPAD = """
+    window.pads = [{connected: true, timestamp: 0, buttons: Array.from({length: 4}, () => ({pressed: false}))}];
+    navigator.getGamepads = () => window.pads;
+    window.dispatchEvent(new Event('gamepadconnected'));
+"""
+
+
+@pytest.fixture(scope="module")
+def served() -> Iterator[tuple[PretendedRun, str]]:
+    with seat_page() as served:
+        yield served
+
+
+@pytest.fixture
+def seat(
+    served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
+) -> tuple[PretendedRun, str]:
+    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    return served
+
+
+def opened(url: str, version: str = "") -> ClientConnection:
+    place = f"{url.replace('http', 'ws')}api/live?version={version}"
+    return connect(place, proxy=None)
+
+
+def next_of(socket: ClientConnection, kind: str) -> list[list[object]]:
+    while kind not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
+        pass
+    found: list[list[object]] = message[kind]
+    return found
+
+
+def wait_for_seat(run: PretendedRun) -> None:
+    while not run.presence.get(timeout=PATIENCE_S)[1]:
+        pass
+
+
+def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    with opened(url) as socket:
+        for wish in ({"take": "TOWER"}, {"tune": [119_100]}, {"echo": 1.0}):
+            socket.send(json.dumps(wish))
+        next_of(socket, "echo")
+        for khz in (121_700, 119_100):
+            run.sounds.add("opened", {"id": f"call {khz}", "frequency_khz": khz})
+        assert next_of(socket, "sounds") == [
+            ["opened", {"id": "call 119100", "frequency_khz": 119_100}]
+        ]
+        wait_for_seat(run)
+
+
+def test_a_page_of_another_version_is_refused_in_words_and_told(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    with opened(url, "0123456789ab") as socket:
+        with pytest.raises(ConnectionClosed):
+            socket.recv(timeout=PATIENCE_S)
+        assert (socket.close_code, "Load it again" in (socket.close_reason or "")) == (4426, True)
+    assert "refused a page of another version" in run.told
+    with opened(url, page_version()) as socket:
+        assert next_of(socket, "seats") is not None
+
+
+def test_a_situation_that_cannot_be_is_refused_in_words(seat: tuple[PretendedRun, str]) -> None:
+    answer = httpx.post(f"{seat[1]}api/phrases", json={"speaker": "nobody"}, trust_env=False)
+    assert (answer.status_code, "speaker" in answer.json()["error"]) == (400, True)
+
+
+@pytest.mark.browser
+def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, str]) -> None:
+    run, url = seat
+    run.changes.add("briefing", "TOWER", None, ROSTER)
+    with page_with_microphone() as page:
+        sit_down(page, url)
+        page.evaluate("""
+            document.getElementById('phrase-to').value = 'OPS1';
+            document.getElementById('phrase-to').dispatchEvent(new Event('change'));
+        """)
+        hold = "[...document.querySelectorAll('#phrase-list button')]"
+        page.wait_for(f"{hold}.some((one) => one.title === 'Ops one, hold position.')")
+        page.evaluate(f"{hold}.find((one) => one.title === 'Ops one, hold position.').click()")
+        page.press("Enter", 13)
+        page.click("say-button")
+        assert run.next() == SpokenWords(text="Ops one, hold position.")
+        run.seat.add("question", 1, "isa", 0.0)
+        page.wait_for("!document.getElementById('isa').hidden")
+        page.press("4", 52)
+        rated = run.next()
+        assert (rated.question, rated.isa) == (1, 4)
+        page.wait_for("document.getElementById('isa').hidden")
+        run.seat.add("question", 2, "nasa_tlx", 0.0)
+        page.wait_for("document.getElementById('tlx-dialog').open")
+        page.evaluate("document.getElementById('tlx').requestSubmit()")
+        assert "Frustration" in page.evaluate("document.getElementById('tlx-state').textContent")
+        page.evaluate("document.querySelectorAll('#scales input').forEach((one) => one.click())")
+        page.evaluate("document.getElementById('tlx').requestSubmit()")
+        assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
+        page.wait_for("!document.getElementById('tlx-dialog').open")
+        run.seat.add("answered", 2)
+        wait_for_seat(run)
+
+
+@pytest.mark.browser
+def test_a_button_of_a_gamepad_talks_as_the_space_bar_does(
+    seat: tuple[PretendedRun, str], tmp_path: Path
+) -> None:
+    run, url = seat
+    with page_with_microphone(*playing(microphone_file(tmp_path / "said.wav", "hello"))) as page:
+        sit_down(page, url)
+        open_microphone(page)
+        page.evaluate(GAMEPAD)
+        page.click("gamepad-choose")
+        page.evaluate("window.pads[0].buttons[2].pressed = true")
+        page.wait_for("document.getElementById('gamepad-state').textContent.startsWith('Button 3')")
+        page.wait_for(f"{BUTTON} === 'On the air'")
+        page.evaluate("window.pads[0].buttons[2].pressed = false")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+        wait_for_seat(run)
+        pressed, _ = run.call()
+    assert pressed.frequency_khz == 119_100
