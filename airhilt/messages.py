@@ -443,7 +443,7 @@ class CockpitInstruments(Message):
 
 
 class VehiclePosition(Message):
-    """``cockpit/<callsign>/position``: where a vehicle is, as its own moving map shows it to the driver.
+    """``cockpit/<callsign>/position``: where a vehicle is, by its own moving map.
 
     Errors of the receiver are not simulated.
     """
@@ -989,8 +989,10 @@ class WorkloadAnswer(Message):
     limit = Limit(size_bytes=1_000, rate_hz=5)
     question: int = Field(ge=1, description="its number")
     isa: int | None = Field(
-        default=None, ge=1, le=5, description="1 under-utilised, 2 relaxed, 3 comfortable, "
-        "4 high, 5 excessive",
+        default=None,
+        ge=1,
+        le=5,
+        description="1 under-utilised, 2 relaxed, 3 comfortable, 4 high, 5 excessive",
     )
     nasa_tlx: NasaTlx | None = None
 

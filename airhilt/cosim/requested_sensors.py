@@ -9,7 +9,13 @@ from airhilt.errors import AirhiltError
 from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import RadarKind
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import AircraftSpec, AirportScene, Radar, SurfaceSurveillance, VehicleSpec
+from airhilt.scenario.models import (
+    AircraftSpec,
+    AirportScene,
+    Radar,
+    SurfaceSurveillance,
+    VehicleSpec,
+)
 
 AWAY_NM = 40.0
 """Distance of a requested radar west of the scene's centre, in NM, if it is not an airport's own.

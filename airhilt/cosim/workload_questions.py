@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections import Counter
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Literal
 
 from airhilt.messages import WorkloadAnswer, WorkloadQuestion
@@ -72,8 +71,7 @@ class WorkloadQuestions:
         """Questions for which the end waits, by seat."""
         if isa_minutes is not None:
             period_ns = seconds_to_ns(60.0 * isa_minutes)
-            ask = partial(self._ask_all, "isa")
-            director.every(period_ns, ask, Priority.OBSERVE, first_ns=period_ns)
+            director.every(period_ns, self._ask_isa, Priority.OBSERVE, first_ns=period_ns)
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Take in that a person has taken a seat, a part of keys, or has left it."""
@@ -103,6 +101,9 @@ class WorkloadQuestions:
             waiting = threading.Timer(PATIENCE_S, self._director.post, [self._give_up])
             waiting.daemon = True
             waiting.start()
+
+    def _ask_isa(self) -> None:
+        self._ask_all("isa")
 
     def _ask_all(self, scale: Literal["isa", "nasa_tlx"]) -> dict[str, int]:
         """Ask everybody, and return the numbers of the questions by seat."""

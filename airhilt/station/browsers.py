@@ -18,8 +18,8 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.changes import Changes
-from airhilt.station.page_files import page_version
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
+from airhilt.station.page_files import page_version
 from airhilt.station.wishes import Pressed, RunLink, Wish
 from airhilt.text import readable
 

@@ -19,13 +19,13 @@ import pyarrow.parquet
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.files import replace_file
+from airhilt.messages import NasaTlx
 from airhilt.metrics.columns import metric_columns, metrics_of
 from airhilt.options import options_of
 from airhilt.record import RunFolder, open_run
 from airhilt.record.run import untold
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
-from airhilt.messages import NasaTlx
 from airhilt.station.started_runs import StartedRun, StartedRuns
 from airhilt.text import readable
 

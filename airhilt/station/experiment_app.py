@@ -6,9 +6,9 @@ from typing import Any
 
 from fastapi import FastAPI
 
+from airhilt.messages import NasaTlx
 from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.experiment import Conductor
-from airhilt.messages import NasaTlx
 
 
 def experiment_app(conductor: Conductor) -> FastAPI:

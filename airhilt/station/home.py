@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from fastapi import FastAPI, Request, Response
-from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from fastapi import FastAPI
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.errors import AirhiltError
@@ -15,7 +13,7 @@ from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.debriefs import Debriefs
 from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
-from airhilt.text import LONGEST_LINE, readable
+from airhilt.text import readable
 
 OFFERED = (
     "seed", "seat", "assistant", "snr_db", "visibility_m", "cameras", "speech", "isa_minutes",

@@ -29,10 +29,10 @@ from airhilt.messages import (
 )
 from airhilt.metrics.calls import CallRecords, call_message
 from airhilt.record import Logged
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.report.airport import ReportAirport
 from airhilt.report.events import Events
 from airhilt.report.tracks import Locate, Projection
+from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json

@@ -15,7 +15,6 @@ from airhilt.messages import (
     WorkloadAnswer,
 )
 
-
 Frequency = Annotated[int, Field(ge=118_000, le=137_000)]
 
 

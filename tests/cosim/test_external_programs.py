@@ -37,6 +37,7 @@ def programs(notices: Notices, events: list[Any], *, is_strict: bool = False) ->
         keeps_voices=True,
         occupy=lambda *_: None,
         set_pace=lambda _: None,
+        answer=lambda *_: None,
         seats=(),
         workers=("decision",),
         has_decision=False,

@@ -42,7 +42,7 @@ class Ending:
         self.director.at(SECOND, self.questions.end, Priority.OBSERVE)
         self.director.every(SECOND // 10, lambda: None, Priority.PHYSICS)
 
-    def _publish(self, key: str, message: Message) -> None:
+    def _publish(self, key: str, message: Message, *, raw: bytes | None = None) -> None:
         assert isinstance(message, WorkloadQuestion)
         self.asked.append(message)
         self.when_asked()
@@ -69,7 +69,7 @@ def test_the_end_waits_for_the_ratings_and_the_time_stands_still() -> None:
 
 def test_who_leaves_the_seat_is_not_waited_for() -> None:
     ending = Ending()
-    ending.when_asked = lambda: ending.director.post(  # type: ignore[method-assign]
+    ending.when_asked = lambda: ending.director.post(
         lambda: ending.questions.occupy(SEAT, is_taken=False)
     )
     assert ending.run() < SECOND + 100
@@ -80,7 +80,7 @@ def test_who_does_not_answer_in_time_is_logged_as_giving_no_answer(
 ) -> None:
     monkeypatch.setattr(workload_questions, "PATIENCE_S", 0.01)
     ending = Ending()
-    ending.when_asked = lambda: None  # type: ignore[method-assign]
+    ending.when_asked = lambda: None
     assert ending.run() < SECOND + 100
     assert ending.taken == [f"workload/{SEAT}"]
 

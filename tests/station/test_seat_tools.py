@@ -26,7 +26,8 @@ from stations import PATIENCE_S, PretendedRun, seat_page
 
 ROSTER = {"AAL123": "aircraft", "OPS1": "vehicle"}
 GAMEPAD = """
-    window.pads = [{connected: true, timestamp: 0, buttons: Array.from({length: 4}, () => ({pressed: false}))}];
+    const buttons = Array.from({length: 4}, () => ({pressed: false}));
+    window.pads = [{connected: true, timestamp: 0, buttons}];
     navigator.getGamepads = () => window.pads;
     window.dispatchEvent(new Event('gamepadconnected'));
 """
