@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -150,3 +151,21 @@ def test_a_button_of_a_gamepad_talks_as_the_space_bar_does(
         wait_for_seat(run)
         pressed, _ = run.call()
     assert pressed.frequency_khz == 119_100
+
+
+@pytest.mark.browser
+def test_a_station_that_stands_still_is_told_on_the_page_and_so_is_the_end_of_the_run(
+    seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run, url = seat
+    told = "document.getElementById('link').hidden ? '' : link.textContent"
+    with page_with_microphone() as page:
+        page.open(url)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        assert page.evaluate(told) == ""
+        with monkeypatch.context() as patch:
+            patch.setattr(browsers.Browsers, "_do", lambda *_: asyncio.sleep(0))
+            page.wait_for(f"({told}).includes('What is shown is old')")
+        page.wait_for(f"!({told})")
+        run.changes.add("clock", 9.0, "finished", "realtime")
+        page.wait_for(f"({told}).includes('The run is over')")

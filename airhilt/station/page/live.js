@@ -3,6 +3,7 @@
 import { byId } from "./dom.js";
 
 const RETRY_MS = 1000;
+const SILENT_MS = 4000; // an answer to an echo comes every two seconds
 const OLD_PAGE = 4426; // code with which the server closes: the page is of another version
 const PHASES = { waiting: "waiting for the run", finished: "finished", stopped: "stopped", gone: "the run is not there any more" };
 const PACES = { realtime: "real time", virtual: "as fast as it can" };
@@ -24,6 +25,8 @@ export class Live {
   #drawing = null;
   #undrawn = new Set(); // kinds of changes that lists do not show yet
   #seen = 0;
+  #heard = 0; // when the last message came
+  #isSilent = false;
 
   constructor(run, clock) {
     this.#run = run;
@@ -34,6 +37,7 @@ export class Live {
   connect(panes) {
     this.#panes = panes;
     this.#open();
+    setInterval(() => this.#listen(), SILENT_MS / 4);
   }
 
   /** Lets the pictures of a camera come. */
@@ -49,8 +53,12 @@ export class Live {
     url.searchParams.set("browser", identity());
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
-    this.#socket.onopen = () => { this.#tell(); this.watch(this.#watched); this.#panes.talk.reconnected(); };
-    this.#socket.onmessage = (event) => this.#take(JSON.parse(event.data));
+    this.#socket.onopen = () => { this.#heard = performance.now(); this.#tell(); this.watch(this.#watched); this.#panes.talk.reconnected(); };
+    this.#socket.onmessage = (event) => {
+      this.#heard = performance.now();
+      if (this.#isSilent) { this.#isSilent = false; this.#tell(); }
+      this.#take(JSON.parse(event.data));
+    };
     this.#socket.onclose = (event) => {
       if (this.#isOver) { this.#tell(); return; }
       const isOld = event.code === OLD_PAGE;
@@ -58,6 +66,12 @@ export class Live {
       if (!isOld) setTimeout(() => this.#open(), RETRY_MS);
     };
     byId("link-reload").onclick = () => location.reload();
+  }
+
+  /** Tells if nothing comes although the connection is there: the network is cut, or the station stands still. */
+  #listen() {
+    this.#isSilent = this.#socket.readyState === WebSocket.OPEN && !this.#isOver && performance.now() - this.#heard > SILENT_MS;
+    if (this.#isSilent) this.#warn("Nothing comes from the station. What is shown is old.");
   }
 
   get #isOver() { return ["finished", "stopped", "gone"].includes(this.#run.phase); }

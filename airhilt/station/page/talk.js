@@ -38,7 +38,7 @@ export class Talk {
     this.#microphone.setInfo(null);
     byId("strips").addEventListener("focusin", ({ target }) => this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign));
     byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
-    setInterval(() => { if (this.#own) live.send({ echo: performance.now() }); }, ECHO_MS);
+    setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
   }
 
   /** Keys of a seat, for the list of keys. */
