@@ -90,6 +90,7 @@ def _transcript(transcript: Transcript) -> Json:
         "t": round(transcript.t_ns / SECOND_NS, 3),
         "engine": readable(transcript.engine),
         "speaker": None if transcript.speaker is None else readable(transcript.speaker),
+        "addressee": None if transcript.addressee is None else readable(transcript.addressee),
         "confidence": transcript.confidence,
         "text": readable(transcript.text),
         "words": [

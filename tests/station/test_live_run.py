@@ -93,8 +93,9 @@ def test_a_call_without_the_truth_is_what_was_recognised() -> None:
     times = {"t_tx_ns": SECOND, "t_end_ns": 2 * SECOND}
     followed.hear("radio/119100/tx", Transmission(id="one", frequency_khz=119_100, **times))
     heard = Transcript(
-        id="one", frequency_khz=119_100, text="hello", confidence=0.7, engine="ctc", **times
-    )
+        id="one", frequency_khz=119_100, text="hello", confidence=0.7, engine="ctc",
+        addressee="AAL123", **times,
+    )  # fmt: skip
     followed.hear("asr/119100", heard)
     assert followed.changes("call")[-1][0]["said"] is None
     said = SpokenTruth(
@@ -103,6 +104,7 @@ def test_a_call_without_the_truth_is_what_was_recognised() -> None:
     followed.hear("truth/radio/one", said)
     row = followed.changes("call")[-1][0]
     assert (row["said"], row["transcripts"][0]["text"]) == ("Hello.", "hello")
+    assert row["transcripts"][0]["addressee"] == "AAL123"
 
 
 def test_garbage_changes_nothing() -> None:
