@@ -15,7 +15,6 @@ import pyarrow.parquet as pq
 import pytest
 
 from airhilt.errors import AirhiltError, RunFolderError, StationError
-from airhilt.errors import AirhiltError, StationError
 from airhilt.messages import NasaTlx
 from airhilt.station.experiment import Conductor, Progress, write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
