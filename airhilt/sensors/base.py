@@ -35,6 +35,8 @@ RESERVED = frozenset(
         "pace",
         "notice",
         "task",
+        "question",
+        "workload",
         "truth",
         "status",
         "clock",

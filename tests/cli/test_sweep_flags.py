@@ -41,8 +41,8 @@ def with_file(tmp_path: Path) -> Callable[..., dict[str, Any]]:
 
 
 def flags(command: click.Command) -> set[str]:
-    context = click.Context(command)
-    return {flag for parameter in command.get_params(context) for flag in parameter.opts}
+    parameters = command.get_params(click.Context(command))
+    return {flag for each in parameters if each.name != "help" for flag in each.opts}
 
 
 def test_every_flag_of_a_run_that_changes_it_is_one_of_sweeps() -> None:

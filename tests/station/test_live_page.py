@@ -116,6 +116,12 @@ def answer(socket: ClientConnection, kind: str) -> Any:
             return message[kind]
 
 
+def selected_altitude_ft(own: Any) -> int | None:
+    """Return the selected altitude in what a seat is told; None if it has no instruments."""
+    shown = [rest[-1]["selected_altitude_ft"] for kind, *rest in own if kind == "cockpit"]
+    return shown[-1] if shown else None
+
+
 def send(socket: ClientConnection, **wish: Any) -> None:
     socket.send(json.dumps(wish))
 
@@ -136,6 +142,8 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
             assert "Take one first" in answer(other, "refused")
             send(own, say={"text": "Washington Center, American one two three, hello"})
             send(own, fly={"action": "altitude", "altitude_ft": 34000})
+            while selected_altitude_ft(answer(own, "own")) != 34000:
+                pass
         page_process(process).kill()
         assert process.stderr is not None
         process.stderr.read()
