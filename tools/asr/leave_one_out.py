@@ -34,10 +34,12 @@ def lineages() -> list[str]:
     return sorted({voice.lineage for voice in voices if not voice.is_test_only})
 
 
-def judge(build: Path, lineage: str, steps: int, limit: int) -> list[dict[str, Any]]:
+def judge(
+    build: Path, lineage: str, steps: int, limit: int, *, bfloat16: bool = False
+) -> list[dict[str, Any]]:
     """Train without a lineage, and return the scores on it."""
     into = build / "without" / lineage
-    train(Training(build, into, steps, without=lineage))
+    train(Training(build, into, steps, without=lineage, bfloat16=bfloat16))
     model = into / "model"
     export(into, model)
     shutil.copy(build / "language.npz", model / "language.npz")
@@ -72,11 +74,14 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=6_000)
     parser.add_argument("--lineage", action="append", help="lineage to leave out; all if not given")
     parser.add_argument("--limit", type=int, default=150, help="calls of a lineage and set")
+    parser.add_argument("--bfloat16", action="store_true", help="faster on AVX512-BF16")
     given = parser.parse_args()
     numbers = [
         row
         for lineage in given.lineage or lineages()
-        for row in judge(given.build, lineage, given.steps, given.limit)
+        for row in judge(
+            given.build, lineage, given.steps, given.limit, bfloat16=given.bfloat16
+        )
     ]
     for row in means(numbers):
         print(json.dumps(row))
