@@ -79,9 +79,7 @@ def main() -> None:
     numbers = [
         row
         for lineage in given.lineage or lineages()
-        for row in judge(
-            given.build, lineage, given.steps, given.limit, bfloat16=given.bfloat16
-        )
+        for row in judge(given.build, lineage, given.steps, given.limit, bfloat16=given.bfloat16)
     ]
     for row in means(numbers):
         print(json.dumps(row))
