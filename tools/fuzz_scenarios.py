@@ -51,7 +51,7 @@ Kind = Literal["accepted", "refused", "failed"]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one mutant."""
+    """Outcome of one mutant."""
 
     kind: Kind
     message: str

@@ -161,15 +161,18 @@ class LiveRun:
     def _truth(self, logged: Logged) -> None:
         truth = ActorTruth.model_validate_json(logged.data)
         self._has_truth = True
-        self._state(
-            truth.actor,
-            truth.category,
-            truth.t_ns,
-            (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
-            (truth.velocity_east_m_s, truth.velocity_north_m_s),
-            truth.heading_deg,
-            truth.on_ground,
-            truth.phase,
+        self._changes.add(
+            "state",
+            *self._state(
+                truth.actor,
+                truth.category,
+                truth.t_ns,
+                (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
+                (truth.velocity_east_m_s, truth.velocity_north_m_s),
+                truth.heading_deg,
+                truth.on_ground,
+                truth.phase,
+            ),
         )
 
     def _adsb(self, logged: Logged) -> None:
@@ -201,34 +204,21 @@ class LiveRun:
             return
         track_rad = (seen.track_deg or 0.0) * DEGREE
         speed_m_s = seen.ground_speed_kt * KNOT
-        self._state(
-            name,
-            category,
-            t_ns,
-            (seen.latitude_deg, seen.longitude_deg, (seen.altitude_ft or 0.0) * FOOT),
-            (speed_m_s * math.sin(track_rad), speed_m_s * math.cos(track_rad)),
-            seen.track_deg or 0.0,
-            on_ground,
-            "",
+        self._changes.add(
+            "state",
+            *self._state(
+                name,
+                category,
+                t_ns,
+                (seen.latitude_deg, seen.longitude_deg, (seen.altitude_ft or 0.0) * FOOT),
+                (speed_m_s * math.sin(track_rad), speed_m_s * math.cos(track_rad)),
+                seen.track_deg or 0.0,
+                on_ground,
+                "",
+            ),
         )
 
     def _state(
-        self,
-        name: str,
-        category: str,
-        t_ns: int,
-        place: tuple[float, float, float],
-        velocity_m_s: tuple[float, float],
-        heading_deg: float,
-        on_ground: bool,
-        phase: str,
-    ) -> None:
-        row = self._state_row(
-            name, category, t_ns, place, velocity_m_s, heading_deg, on_ground, phase
-        )
-        self._changes.add("state", *row)
-
-    def _state_row(
         self,
         name: str,
         category: str,
@@ -310,7 +300,7 @@ class LiveRun:
         heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
         self._seats[shown.callsign].add(
             "state",
-            *self._state_row(
+            *self._state(
                 shown.callsign,
                 "vehicle",
                 shown.t_ns,

@@ -30,7 +30,7 @@ Phrase = tuple[str, str]
 
 
 class Situation(BaseModel):
-    """What the page knows of who speaks and of whom is spoken to."""
+    """Speaker and addressee, as far as the page knows them."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     speaker: Literal["unit", "aircraft", "vehicle"]

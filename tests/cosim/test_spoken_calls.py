@@ -1,4 +1,4 @@
-"""What people at seats speak: on the frequency, recognised, understood, done and recorded."""
+"""Spoken calls of people at seats: on the frequency, recognised, understood, done and recorded."""
 
 from __future__ import annotations
 

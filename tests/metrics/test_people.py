@@ -1,4 +1,4 @@
-"""What people at seats did upon advisories, and how soon."""
+"""Reactions of people at seats to advisories, and how soon they came."""
 
 from __future__ import annotations
 

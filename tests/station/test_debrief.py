@@ -1,4 +1,4 @@
-"""What the page is told of a run folder."""
+"""The page is told what a run folder has."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a station makes of the messages of a run that goes on."""
+"""A station follows the messages of a run that goes on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a seat has besides the microphone: frequencies, phrases, questions, a gamepad."""
+"""Tools of a seat besides the microphone: frequencies, phrases, questions, a gamepad."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `airhilt view` says to who asks for something that cannot be."""
+"""`airhilt view` refuses in words what cannot be."""
 
 from __future__ import annotations
 

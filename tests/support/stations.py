@@ -124,7 +124,7 @@ class PretendedRun:
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.seat, self.sounds = Changes(), Changes(), Changes()
         self.told: list[str] = []
-        """What the terminal was told."""
+        """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
         self.seat.add("info", TOWER.model_dump(mode="json", exclude={"t_ns"}))
 

@@ -51,7 +51,7 @@ class SpokenCall:
 
     @property
     def text(self) -> str:
-        """What was said."""
+        """Words that were said."""
         return str(self.about["text"])
 
     @property

@@ -281,7 +281,7 @@ class Mixer:
 
 @dataclass(frozen=True)
 class Training:
-    """What a training is made of.
+    """Settings of a training.
 
     Attributes
     ----------

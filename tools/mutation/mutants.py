@@ -102,7 +102,7 @@ class Mutant:
 
 
 class Module:
-    """What the syntax tree of a module says about its lines."""
+    """Lines of a module, as its syntax tree has them."""
 
     def __init__(self, source: str) -> None:
         self._source = source

@@ -27,7 +27,7 @@ class Result:
 
     @property
     def is_killed(self) -> bool:
-        """Whether a test failed, or hung."""
+        """True if a test failed, or hung."""
         return self.verdict.outcome in ("killed", "timeout")
 
 

@@ -40,7 +40,7 @@ Outcome = Literal["killed", "timeout", "survived", "uncovered"]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a mutant, the first test that failed, and the time that it took."""
+    """Outcome of a mutant, the first test that failed, and the time that it took."""
 
     outcome: Outcome
     test: str
