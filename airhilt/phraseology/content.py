@@ -22,6 +22,7 @@ from airhilt.phraseology.conditions import (
 from airhilt.phraseology.denials import AFTERWARDS, BETWEEN, is_expected, is_meant
 from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.hits import NAME
+from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
 from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown
@@ -81,14 +82,16 @@ def content_of(words: Words) -> Content:
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)
     _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
+    taken = sorted((read.start, read.end) for read, _ in reads)
     for read, each in reads:
+        is_beside = _is_beside_unexplained(read, plain, taken)
         after_action = bisect_right(starts, each.match.end() - 1)
         action = words.confidences[each.first : after_action]
         before = words.confidences[bisect_right(starts, read.start) - 1 : each.first]
         behind = words.confidences[after_action : bisect_right(starts, read.end - 1)]
         heard = min(action, default=1.0), min([*before, *behind], default=1.0)
         for told in (read.instruction, *read.more):
-            if _is_doubtful(told, plain, read, each):
+            if is_beside or _is_doubtful(told, plain, read, each):
                 told = replace(told, confidence=min(told.confidence, SHORTENED))
             instruction = told if heard == CLEAR else _heard(told, *heard)
             if read.is_expected:
@@ -122,6 +125,16 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
         or is_unknown(before[-1])
         or (before[-1] == "and" and is_unknown(before[0]))
     )
+
+
+def _is_beside_unexplained(read: Read, text: str, taken: list[tuple[int, int]]) -> bool:
+    """Return whether words right beside an instruction belong to no other and are unexplained."""
+    action = read.instruction.action
+    limit = min((start for start, _ in taken if start >= read.end), default=len(text))
+    if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
+        return True
+    begin = max((end for _, end in taken if end <= read.start), default=0)
+    return begin + 1 < read.start and is_unexplained_before(text[begin : read.start].split(), action)
 
 
 def _heard(told: Instruction, action: float, details: float) -> Instruction:

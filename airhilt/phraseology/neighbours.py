@@ -1,0 +1,107 @@
+"""Words beside an action that nothing explains.
+
+Between two actions stand courtesies, information and reasons. What else stands right beside an action
+may be a part of it that was not understood: a lost value behind "via", another reading behind "or",
+a verb before a level. The action is then in doubt.
+"""
+
+from __future__ import annotations
+
+from airhilt.phraseology.alphabet import LETTER_OF
+from airhilt.phraseology.call import Action
+from airhilt.phraseology.hits import NAME, STATIONS
+from airhilt.phraseology.vocabulary import COURTESIES
+
+SAFE: frozenset[Action] = frozenset(
+    {"stop", "go_around", "hold_position", "cancel_takeoff", "cancel_landing", "cancel_approach",
+     "stand_by", "ident", "wildlife", "wildlife_gone", "missed_approach", "start_up", "push_back"}
+)  # fmt: skip
+"""Actions without a value, of which words beside them say nothing else."""
+_OPENERS = COURTESIES | {
+    "abeam", "acknowledge", "advise", "aircraft", "altimeter", "and", "as", "au", "be", "break",
+    "bringing", "call", "caution", "ciao", "company", "continue", "copy", "delay", "disregard",
+    "enter", "estimate", "except", "expect", "expecting", "expedite", "extend", "face", "facing",
+    "frequency", "goodbye", "have", "identified", "immediately", "in", "information", "intercept",
+    "it", "join", "keep", "looking", "make", "making", "negative", "no", "number", "once", "over",
+    "passing", "pattern", "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain",
+    "report", "rest", "say", "see", "so", "surface", "tail", "temperature", "then", "there",
+    "they", "this", "through", "time", "tower", "traffic", "vector", "vectors", "vehicle", "we",
+    "will", "wind", "winds", "windshear", "with", "without", "yes",
+}  # fmt: skip
+"""First words of what may follow any action: information, a reason, a courtesy, another action."""
+_UNITS_OF_TIME = frozenset({"minutes", "minute", "miles", "mile", "oclock", "seconds"})
+"""Words behind a number that is no value of an action."""
+_TOLD_WHERE: frozenset[Action] = frozenset({"follow", "give_way", "visual_separation", "hold_short"})
+"""Actions behind which the place of another aircraft may be told."""
+_PLACED = frozenset(
+    {"on", "from", "to", "at", "off", "ahead", "short", "long", "turning", "downwind", "final",
+     "base", "heavy", "left", "right", "just", "super", "landing", "departing"}
+)  # fmt: skip
+"""First words of the place of another aircraft."""
+_ALSO: dict[Action, frozenset[str]] = {
+    "altitude": frozenset({"until", "good", "correction", "below", "vmc", "initially"}),
+    "heading": frozenset({"to", "until", "closing", "now", "outbound", "inbound"}),
+    "turn_by": frozenset({"to", "now"}),
+    "speed": frozenset({"to", "until", "now"}),
+    "direct": frozenset({"intersection", "vor", "ndb", "when", "own"}),
+    "own_navigation": frozenset({"to", "now"}),
+    "cleared_approach": frozenset({"approach", "straight", "via", "glide", "circling", "side"}),
+    "touch_and_go": frozenset({"left", "right"}),
+    "stop_and_go": frozenset({"left", "right"}),
+    "low_approach": frozenset({"left", "right"}),
+    "cleared_option": frozenset({"left", "right"}),
+    "cleared_for_takeoff": frozenset({"left", "right", "straight"}),
+    "cleared_to_land": frozenset({"change", "one", "land", "wheels"}),
+    "taxi": frozenset({"intersection", "back", "monitor"}),
+    "contact": frozenset({"now", "other", "when", "they"}),
+    "monitor": frozenset({"now", "other", "they"}),
+    "squawk": frozenset({"low", "normal", "mode"}),
+    "vacate": frozenset({"when", "onto", "next"}),
+    "descend_via": frozenset({"landing"}),
+    "climb_via": frozenset({"departure"}),
+    "line_up": frozenset({"landing", "or"}) - {"or"},
+    "missed_approach": frozenset({"as"}),
+    "hold_at": frozenset({"flight", "delay", "as", "at"}),
+    "report": frozenset({"on", "heading"}),
+}  # fmt: skip
+"""First words of what may follow one action."""
+_INTRODUCING = frozenset(
+    {"or", "at", "of", "by", "cross", "crossing", "turn", "turning", "left", "right", "on", "a",
+     "an", "the", "via", "able", "in", "until", "than", "from", "change"}
+)  # fmt: skip
+"""Words right before an action that belong to something that was not understood."""
+_LEADS_TO = {
+    "right": frozenset({"all"}),
+    "able": frozenset({"when", "if"}),
+    "turn": frozenset({"your"}),
+}
+"""Words before one of `_INTRODUCING` with which it is explained."""
+
+
+def is_unexplained_behind(words: list[str], action: Action) -> bool:
+    """Return whether the words right behind an action, up to the next, may be a part of it."""
+    if not words:
+        return False
+    first, following = words[0], words[1] if len(words) > 1 else ""
+    if first[0] in "#" or first == NAME or action in SAFE or first in _OPENERS:
+        return False
+    if first.isdigit():
+        return following not in _UNITS_OF_TIME
+    if first == "for":
+        return following.isdigit() or following in LETTER_OF or not following
+    if action in _TOLD_WHERE and (first in _PLACED or first in LETTER_OF):
+        return False
+    if first == "runway":
+        return action not in ("wildlife", "wildlife_gone", "report")
+    if first in STATIONS or following in ("altimeter", "qnh", "information"):
+        return False
+    if first == "at":
+        return following.isdigit() or not following
+    return first not in _ALSO.get(action, ())
+
+
+def is_unexplained_before(words: list[str], action: Action) -> bool:
+    """Return whether the word right before an action may be a part of something else."""
+    if not words or action in SAFE or words[-1] not in _INTRODUCING:
+        return False
+    return words[-2:-1] == [] or words[-2] not in _LEADS_TO.get(words[-1], ())
