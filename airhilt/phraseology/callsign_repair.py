@@ -50,6 +50,11 @@ BEFORE_TAXIWAY = frozenset(
      "stand", "join", "then", "with", *SPOKEN_OF}
 )  # fmt: skip
 """Words before digits and letters that are no callsign."""
+ENDING = frozenset(
+    {"traffic", "approved", "takeoff", "land", "go", "option", "wait", "clear", "approach", "ident",
+     "downwind", "base", "crosswind", "navigation", "standby", "separation", "sight", "established"}
+)  # fmt: skip
+"""Last words of what a call says, which belong to no name behind them."""
 VALUED = frozenset(
     {"thousand", "hundred", "feet", "knots", "degrees", "miles", "mile", "oclock", "minutes",
      "minute", "decimal", "nautical", "seconds", "percent"}
@@ -226,7 +231,8 @@ def _name(words: list[str], first: int, run: Run, known: Known) -> tuple[int, _N
     best: tuple[int, _Name] | None = None
     for start in range(run.start - 1, first - 1, -1):
         said = words[start : run.start]
-        if said[0] in INTRODUCING or said[0] in STATIONS or said[0][0].isdigit():
+        opener = said[0]
+        if opener in INTRODUCING or opener in STATIONS or opener in ENDING or opener[0].isdigit():
             break
         text = "".join(said)
         if known.first:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from airhilt.phraseology.call import CLEARANCES, Action, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
 from airhilt.phraseology.forms import BARE_RUNWAY, NO_VALUE, Read
 from airhilt.phraseology.scan import Found, Span
 
@@ -34,9 +34,13 @@ _FOLLOWING = re.compile(
 """Conditions that belong to the action right before them if there is one."""
 _WHEN_ABLE = re.compile(r"(?:when|whenever|if) able$")
 """Conditions that belong to the action right behind them, or else to the one right before."""
-_FILED = frozenset({"airport", "filed"})
-_AS_FILED = re.compile(r"(?<!\S)(?:as filed|cleared to .* airport)(?!\S)")
+_FILED = frozenset({"airport", "filed", "departure"})
+_AS_FILED = re.compile(
+    r"(?<!\S)(?:as filed|cleared to .* airport|cleared to (?!land|cross|enter|the ils).* departure)(?!\S)"
+)
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
+_AFTER_DEPARTURE: frozenset[Action] = frozenset({"altitude", "contact", "climb_via"})
+"""Actions of a clearance before departure that wait for it."""
 _TURNING = re.compile(r"before turning(?!\S)")
 """A limit of the climb before it."""
 _CONSEQUENCE = re.compile(
@@ -44,6 +48,7 @@ _CONSEQUENCE = re.compile(
     r"|try me|say so|remain|stay with)(?!\S)"
 )
 """Words of what is to be done under a condition that are no action of this grammar."""
+_AHEAD_OF_YOU = re.compile(r"(?:before|after|behind) (?:you|yours?|that)")
 _AIRBORNE = re.compile(
     r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
 )
@@ -114,6 +119,8 @@ def _is_of_expected(read: Read, text: str, span: Span) -> bool:
 def _attach_to_one(
     words: str, kind: str, before: list[int], after: list[int], reads: Reads
 ) -> None:
+    if _AHEAD_OF_YOU.fullmatch(words):
+        return  # It belongs to whoever is ahead: "one to depart before you".
     if not after and _CONSEQUENCE.search(words):
         return  # What is to be done then is in the words of the condition.
     if after and _AIRBORNE.search(words):
@@ -141,6 +148,8 @@ def _set(
 ) -> None:
     read, each = reads[index]
     told = read.instruction
+    if told.action in REPORTS:
+        return  # What is seen waits for nothing.
     told = replace(told, condition=condition or told.condition, until=until or told.until)
     reads[index] = read._replace(instruction=told), each
 
@@ -202,7 +211,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             continue
         if is_takeoff and told.action in IN_FLIGHT:
             _set(reads, index, condition=AIRBORNE)
-        elif is_filed and told.action in ("altitude", "contact") and not read.is_expected:
+        elif is_filed and told.action in _AFTER_DEPARTURE and not read.is_expected:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
@@ -224,7 +233,7 @@ def _share_runway(reads: Reads, index: int, text: str) -> None:
         (index + 1, slice(read.end, reads[index + 1][0].start if index + 1 < len(reads) else 0)),
         (index - 1, slice(reads[index - 1][0].end if index else 0, read.start)),
     ):
-        if not 0 <= other < len(reads) or text[between].strip() != "and":
+        if not 0 <= other < len(reads) or text[between].strip() not in ("", "and"):
             continue
         told = reads[other][0].instruction
         if told.runway and told.action in ("backtrack", "line_up"):

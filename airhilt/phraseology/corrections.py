@@ -26,7 +26,9 @@ from airhilt.phraseology.words import MENDED, Words
 
 _DISREGARDED = re.compile(
     r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
-    r"|landing|instruction|instructions|all|it))*(?!\S)"
+    r"|landing|instruction|instructions|all|it))*"
+    r"(?:(?<= the) (?:go around|approach|climb|descent|turn|speed|squawk|hold|taxi|push"
+    r"|frequency(?: change)?|heading|line up|crossing)(?: clearance)?)?(?!\S)"
 )
 _LEVEL = r"(?:(?:flight )?level [0-9]{1,3}|[0-9]{1,2} thousand(?: [1-9]00)?(?: feet)?)"
 _NUMBER = r"(?:[0-9]{3,5}|(?<!decimal )[0-9]{1,2})(?: knots| feet| degrees)?"

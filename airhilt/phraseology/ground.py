@@ -211,7 +211,7 @@ def vacate(segment: Segment, action: Action) -> Read | None:
         designator(number, side) if number else None,
         taxiway(exit_) if exit_ else None,
         turn=cast(Turn | None, turn),
-        immediate=is_immediate(segment, segment.found.end()),
+        immediate=is_immediate(segment, segment.found.end() + (found.end() if found else 0)),
         confidence=runway_confidence(number) if number else 1.0,
     )
     return Read(read, segment.start, segment.found.end() + (found.end() if found else 0))

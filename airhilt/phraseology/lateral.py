@@ -12,6 +12,7 @@ from airhilt.phraseology.call import Action, Instruction, Turn
 from airhilt.phraseology.forms import (
     BARE_VALUE,
     NO_VALUE,
+    UNIT,
     Listed,
     Read,
     Segment,
@@ -105,7 +106,7 @@ _TURN = re.compile(r"(?<!\S)(?:turn|left|right)(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
 _TURNS = (
     r"(?: on the [0-9]{1,3} (?:radial|course|bearing))?(?: as published)?"
-    r"(?: (?P<turn>left|right) (?:hand )?turns)?"
+    r"(?: (?P<turn>left|right)(?: hand)? (?:turns|pattern))?"
 )
 _DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?: to)?"
 
@@ -144,15 +145,15 @@ FORMS: Listed = (
      r"(?! (?:out|on|to|at|into|onto|base|final)(?!\S))"
      rf"(?: to)?(?: heading)?(?: {_HEADING})?", heading),
     ("left right", "heading",
-     rf"(?P<turn>left|right)(?: turn)?(?: now| immediately)?(?: to)?(?: a)? heading {_HEADING}",
+     rf"(?<!all )(?P<turn>left|right)(?: turn)?(?: now| immediately)?(?: to)?(?: a)? heading {_HEADING}",
      heading),
     ("left right", "heading",
-     r"(?<!all )(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?!(?:left|right) 360 for)"
+     r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?<!all )(?!(?:left|right) 360 for)"
      rf"(?P<turn>left|right)(?: turn)?(?: to)? (?P<bare>){_HEADING}", heading),
     ("left right", "heading",
      r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)(?: turn(?= at))?"
      rf"(?: (?:on|onto|at)(?= {LETTER})"
-     rf"|(?= {LETTER}(?: [0-9]{{1,2}})?(?: (?:short|hold|contact|\|)|$)))"
+     rf"|(?= {LETTER}(?: [0-9]{{1,2}})?(?: (?:short|hold|contact|{UNIT}|\|)|$)))"
      rf" (?P<at>{TAXIWAY})", taxiway_turn),
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),

@@ -25,7 +25,7 @@ _OPENERS = COURTESIES | {
     "it", "join", "keep", "looking", "make", "making", "negative", "no", "number", "once", "over",
     "passing", "pattern", "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain",
     "report", "rest", "say", "see", "so", "surface", "tail", "temperature", "then", "there",
-    "they", "this", "through", "time", "tower", "traffic", "vector", "vectors", "vehicle", "we",
+    "they", "this", "servus", "tschuss", "cheers", "later", "arrivederci", "through", "time", "tower", "traffic", "vector", "vectors", "vehicle", "we",
     "will", "wind", "winds", "windshear", "with", "without", "yes",
 }  # fmt: skip
 """First words of what may follow any action: information, a reason, a courtesy, another action."""
@@ -35,14 +35,14 @@ _TOLD_WHERE: frozenset[Action] = frozenset({"follow", "give_way", "visual_separa
 """Actions behind which the place of another aircraft may be told."""
 _PLACED = frozenset(
     {"on", "from", "to", "at", "off", "ahead", "short", "long", "turning", "downwind", "final",
-     "base", "heavy", "left", "right", "just", "super", "landing", "departing"}
+     "base", "mile", "miles", "oclock", "heavy", "left", "right", "just", "super", "landing", "departing"}
 )  # fmt: skip
 """First words of the place of another aircraft."""
 _ALSO: dict[Action, frozenset[str]] = {
     "altitude": frozenset({"until", "good", "correction", "below", "vmc", "initially"}),
     "heading": frozenset({"to", "until", "closing", "now", "outbound", "inbound"}),
     "turn_by": frozenset({"to", "now"}),
-    "speed": frozenset({"to", "until", "now"}),
+    "speed": frozenset({"to", "until", "now", "about"}),
     "direct": frozenset({"intersection", "vor", "ndb", "when", "own"}),
     "own_navigation": frozenset({"to", "now"}),
     "cleared_approach": frozenset({"approach", "straight", "via", "glide", "circling", "side"}),
@@ -59,7 +59,7 @@ _ALSO: dict[Action, frozenset[str]] = {
     "vacate": frozenset({"when", "onto", "next"}),
     "descend_via": frozenset({"landing"}),
     "climb_via": frozenset({"departure"}),
-    "line_up": frozenset({"landing", "or"}) - {"or"},
+    "line_up": frozenset({"landing", "via"}),
     "missed_approach": frozenset({"as"}),
     "hold_at": frozenset({"flight", "delay", "as", "at"}),
     "report": frozenset({"on", "heading"}),
@@ -71,7 +71,8 @@ _INTRODUCING = frozenset(
 )  # fmt: skip
 """Words right before an action that belong to something that was not understood."""
 _LEADS_TO = {
-    "right": frozenset({"all"}),
+    "right": frozenset({"all", "your", "the"}),
+    "left": frozenset({"your", "the"}),
     "able": frozenset({"when", "if"}),
     "turn": frozenset({"your"}),
 }
@@ -83,7 +84,7 @@ def is_unexplained_behind(words: list[str], action: Action) -> bool:
     if not words:
         return False
     first, following = words[0], words[1] if len(words) > 1 else ""
-    if first[0] in "#" or first == NAME or action in SAFE or first in _OPENERS:
+    if first[0] in "#" or following[:1] == "#" or first == NAME or action in SAFE or first in _OPENERS:
         return False
     if first.isdigit():
         return following not in _UNITS_OF_TIME
@@ -104,4 +105,6 @@ def is_unexplained_before(words: list[str], action: Action) -> bool:
     """Return whether the word right before an action may be a part of something else."""
     if not words or action in SAFE or words[-1] not in _INTRODUCING:
         return False
-    return words[-2:-1] == [] or words[-2] not in _LEADS_TO.get(words[-1], ())
+    ahead = words[-2] if len(words) > 1 else ""
+    is_side = words[-1] in ("left", "right") and ahead.isdigit()
+    return not is_side and ahead not in _LEADS_TO.get(words[-1], ())

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.call import REPORTS, Call, Instruction, Kind
 from airhilt.phraseology.callsigns import Naming, roster_of
@@ -20,6 +21,7 @@ from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.scan import CONDITIONS
 from airhilt.phraseology.slots import LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
+from airhilt.phraseology.spoken_forms import is_registration
 from airhilt.phraseology.words import MENDED, Words, words_of
 
 DISTRESS = "mayday"
@@ -216,7 +218,7 @@ def _without_name(words: Words, naming: Naming) -> Words:
             if other is None and at > 0 and not _is_spoken_of(words.texts[at : hit.start]):
                 other = hit
             continue
-        rest.take(words, at, other.start if other else hit.start)
+        rest.take(words, at, other.start if other else hit.start - _makers_before(words.texts, hit))
         other = None
         if hit.before:
             rest.add(hit.before, words.confidences[hit.start])
@@ -226,6 +228,16 @@ def _without_name(words: Words, naming: Naming) -> Words:
         at = hit.end
     rest.take(words, at, other.start if other else len(words.texts))
     return rest
+
+
+def _makers_before(words: list[str], hit: Hit) -> int:
+    """Return the number of words before a registration that are the maker's name: "king air"."""
+    if not is_registration(hit.callsign):
+        return 0
+    for size in (2, 1):
+        if hit.start >= size and "".join(words[hit.start - size : hit.start]) in MAKERS:
+            return size
+    return 0
 
 
 def _is_spoken_of(before: list[str]) -> bool:

@@ -9,6 +9,7 @@ from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.forms import (
     BARE_VALUE,
     NO_RUNWAY,
+    POSITION,
     UNIT,
     Listed,
     Read,
@@ -20,6 +21,7 @@ from airhilt.phraseology.forms import (
 )
 from airhilt.phraseology.slots import (
     LETTER,
+    NAMED_RUNWAY,
     NUMBERED_LINK,
     RUNWAY,
     TAXIWAY,
@@ -30,7 +32,10 @@ from airhilt.phraseology.slots import (
 
 ANIMALS = (
     "deer", "coyote", "fox", "dog", "animal", "wildlife", "geese", "goose", "gull", "gulls",
-    "bird", "birds", "flock",
+    "bird", "birds", "flock", "coyotes", "foxes", "dogs", "animals", "goats", "goat", "sheep", "cow",
+    "cows", "cattle", "horse", "horses", "kangaroo", "kangaroos", "moose", "elk", "hare", "hares",
+    "rabbit", "rabbits", "turtle", "turtles", "alligator", "vulture", "vultures", "hawk", "seagulls",
+    "pigs", "boar",
 )  # fmt: skip
 PLACES = (
     "park", "valley", "creek", "lake", "river", "island", "hill", "hills", "city", "point",
@@ -109,14 +114,17 @@ def bare_hold_short(segment: Segment, action: Action) -> Read | None:
 
 def wildlife(segment: Segment, action: Action) -> Read | None:
     """Read a report of wildlife, which counts even without a place."""
-    read = on_runway(segment, action)
-    if read is None:
-        return Read(Instruction(action, confidence=NO_RUNWAY), segment.start, segment.found.end())
-    told = read.instruction
-    confidence = 1.0 if told.runway is None else told.confidence
-    if _HEARSAY.search(segment.before_all):
+    end = segment.found.end()
+    named = None if is_next_runway(segment) else NAMED_RUNWAY.search(segment.after)
+    runway = designator(*named.groups()) if named else None
+    end += named.end() if named else 0
+    at = POSITION.match(segment.text, end, segment.limit)
+    confidence = runway_confidence(named[1]) if named else 1.0
+    if _HEARSAY.search(segment.before_all) or segment.after.startswith(" activity"):
         confidence = min(confidence, NO_RUNWAY)
-    return Read(Instruction(action, told.runway, told.position, confidence=confidence), *read[1:3])
+    position = taxiway(at[1]) if at else None
+    read = Instruction(action, runway, position, confidence=confidence)
+    return Read(read, segment.start, at.end() if at else end)
 
 
 _CLEAR = r"clear(?:ed)?"
@@ -182,7 +190,9 @@ FORMS: Listed = (
     (" ".join(ANIMALS), "wildlife_gone",
      rf"(?:{_ANIMAL})(?!\S)(?: \S+)*? (?:(?:has|have) left|gone|(?:is|are) clear)", wildlife),
     (" ".join(ANIMALS), "wildlife",
-     rf"(?:{_ANIMAL})(?!\S)(?! (?:strike|{_PLACE})(?!\S))(?: (?:\S+ )*(?:{_ANIMAL}))?{_WHERE}",
+     rf"(?:{_ANIMAL})(?!\S)"
+     rf"(?! (?:strike|hazard|control|scaring|{_PLACE})(?!\S))"
+     rf"(?: (?:\S+ )*(?:{_ANIMAL}))?{_WHERE}",
      wildlife),
 )  # fmt: skip
 """Forms of actions on runways, and of animals on them."""

@@ -26,6 +26,9 @@ FULL = 1.0
 ABBREVIATED = 0.9
 """Score of a callsign that is abbreviated."""
 
+FILLED = 3
+"""Digits of a flight number that zeros fill: "Emirates zero zero three" is UAE3."""
+
 _AIRLINE = re.compile(r"([A-Z]{3})([0-9][0-9A-Z]{0,3})")
 _AMERICAN = re.compile(r"N([1-9][0-9]{0,4}[A-Z]{0,2})")
 _HYPHENATED = re.compile(r"([A-Z0-9]{1,4})-([A-Z0-9]{2,5})")
@@ -61,7 +64,9 @@ def forms(callsign: str) -> tuple[Form, ...]:
     airline = _AIRLINE.fullmatch(callsign)
     if airline and airline[1] in AIRLINES:
         said = (airline[1].lower(), *(joined(name) for name in names(airline[1])))
-        return tuple(Form(name, airline[2]) for name in dict.fromkeys(said))
+        plain = tuple(Form(name, airline[2]) for name in dict.fromkeys(said))
+        filled = _with_zeros(airline[2])
+        return plain + tuple(Form(each.name, more, ABBREVIATED) for each in plain for more in filled)
     if is_registration(callsign):
         signs = callsign.replace("-", "")
         spelled = _of_registration(signs[0].lower(), signs[1:], signs)
@@ -84,6 +89,13 @@ def _of_registration(first: str, rest: str, signs: str) -> Iterator[Form]:
     for size in (3, 2):
         if len(rest) > size:
             yield from (Form(prefix, rest[-size:], ABBREVIATED) for prefix in prefixes)
+
+
+def _with_zeros(number: str) -> tuple[str, ...]:
+    """Return a flight number with the zeros that fill it to three digits: "zero zero six"."""
+    if not number.isdigit():
+        return ()
+    return tuple(number.zfill(size) for size in range(len(number) + 1, FILLED + 1))
 
 
 def joined(name: str) -> str:

@@ -152,6 +152,7 @@ _EVENT = (
     rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)"
     r"|(?:runway )?vacated"
     rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
+    r"|(?:new )?(?:heading|speed|altitude|level|position)"
     rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
 )
 _OTHER = rf"(?:(?!{FIX_ENDS}(?!\S)|\|)[a-z]+(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
@@ -184,15 +185,17 @@ FORMS: Listed = (
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
     ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),
-    ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|{LETTER})(?!\S))", hold_on),
-    ("stand standby", "stand_by", r"stand ?by(?! (?:for|this|on)(?!\S))", alone),
+    ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|stand|gate|{LETTER})(?!\S))", hold_on),
+    ("stand standby", "stand_by",
+     r"stand ?by(?! (?:this|on)(?!\S)| for (?!(?:your |a )?(?:clearance|push|start)))",
+     alone),
     ("maintain maintaining", "visual_separation",
      r"maintain(?:ing)? (?:(?:visual|your own|own) separation"
      r"|visual(?= \||$| cleared| from))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
      r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
-     rf"report (?:(?P<event>{_EVENT})"
+     rf"report (?:your |the (?=heading|speed|level))?(?:(?P<event>{_EVENT})"
      rf"|(?P<other>{_OTHER}))", report),
     ("advise", "report",
      rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"

@@ -6,6 +6,7 @@ now, conditional, expected, or information. All values count: a fact with anothe
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -121,6 +122,9 @@ VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "go_around": _nothing,
     "takeoff": _named("runway"),
     "cancel_takeoff": _nothing,
+    "cancel_landing": _nothing,
+    "wildlife": _named("runway"),
+    "wildlife_gone": _named("runway"),
     "stop": _nothing,
     "landing": _named("runway"),
     "option": _named("runway"),
@@ -152,6 +156,8 @@ VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
 of a condition, the limit of a level, and whom to follow."""
 INFORMATION = ("altimeter", "wind")
 """Kinds of information in scope."""
+WILDLIFE = ("wildlife", "wildlife_gone")
+"""Kinds that are to be read whoever tells of them: a pilot's report too."""
 TURNS = frozenset({"heading", "turn_by", "runway_heading", "direct"})
 """Kinds that wait for the take-off that is cleared in the same call."""
 CLEARANCES = frozenset(
@@ -176,6 +182,9 @@ def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
         if read is None:
             continue
         status = item["status"]
+        if item["kind"] in WILDLIFE:
+            yield _fact(item["kind"], "now", read(item)), "information"
+            continue
         said = "now" if status in ("readback", "report", "request", "withdrawn") else status
         if status == "information" and item["kind"] not in INFORMATION:
             continue
@@ -202,6 +211,7 @@ KIND_OF = {
     "hold_at": "hold", "cross_fix": "crossing_restriction",
 }  # fmt: skip
 """Kinds of the judge by the parser's actions, where the words differ."""
+_FREE = re.compile(r"(?:at (?:pilot|your|own) (?:discretion|convenience)|when ready)$")
 TYPES = {"localizer": "LOC", "localizer back course": "LOC BC"}
 
 
@@ -221,6 +231,19 @@ def facts_of_call(call: Call) -> Iterator[tuple[Fact, float]]:
     if call.pressure_hpa is not None:
         pressure = {"hpa": round(call.pressure_hpa, 1)}
         yield _fact("altimeter", "information", pressure), call.confidence
+
+
+def also_right(call: Call) -> Iterator[Fact]:
+    """Yield facts that are right beside those read, because truths differ in how they write them.
+
+    A level at the pilot's discretion, or when ready, may be left at once, and what a clearance before
+    departure says applies to the flight after it. Some truths have a status "now" for both, some have
+    "conditional".
+    """
+    for each in call.instructions:
+        is_free = each.action == "altitude" and _FREE.match(each.condition or "")
+        if is_free or (each.condition == "after departure" and each.action != "heading"):
+            yield fact_of(each, "now")
 
 
 def fact_of(said: Instruction, status: str) -> Fact:

@@ -19,7 +19,7 @@ from typing import Any
 
 from airhilt.phraseology import TAU_ASR, parse_call
 
-from .facts import CLEARANCES, VALUES, Fact, facts_of_call, facts_of_items
+from .facts import CLEARANCES, VALUES, Fact, also_right, facts_of_call, facts_of_items
 from .vocabulary import KINDS
 
 INSTRUCTED = frozenset({"now", "conditional", "readback", "expected", "information"})
@@ -79,7 +79,7 @@ class Score:
             item["kind"] for item in line["items"] if item["kind"] not in VALUES
         )
         read = list(facts_of_call(call))
-        self._take_items(truth, {fact for fact, _ in read})
+        self._take_items(truth, {fact for fact, _ in read} | set(also_right(call)))
         true = {fact for fact, status in truth if status in TRUE}
         certain = {fact for fact, sure in read if sure >= TAU_ASR and _in_effect(fact)}
         untrue = certain - true

@@ -40,6 +40,7 @@ missed_approach | no value
 go_around | no value
 takeoff | a runway, or None where it was not said
 cancel_takeoff | no value: the take-off has not begun
+cancel_landing | no value: a clearance to land is taken back
 rejected_takeoff | no value: the pilot stops
 stop | no value: the take-off roll has begun
 landing | a runway, or None where it was not said
@@ -80,6 +81,8 @@ weather | what the pilot says
 runway_state | runway and state
 traffic | oclock, distance_nm, altitude and unit, or a position
 clear_of_traffic | no value
+wildlife | a runway, or None; animals or birds on it or near it, whoever tells of them
+wildlife_gone | a runway, or None
 traffic_alert | no value
 low_altitude_alert | no value
 visual_separation | no value
