@@ -28,7 +28,7 @@ WITHDRAWN: dict[Action, Action] = {
 }
 """Clearances by the actions that cancel them."""
 _FOLLOWING = re.compile(
-    r"at (?:pilot|your|own) (?:discretion|convenience)$|when ready$"
+    r"(?:at )?(?:pilot|your|own) (?:discretion|convenience)$|when ready$"
     r"|(?:crossing|passing) the \S*(?: )?marker$|on the go$"
 )
 """Conditions that belong to the action right before them if there is one."""
@@ -132,7 +132,7 @@ def _attach_to_one(
         if len(after) > 1:
             after = [i for i in after if reads[i][0].instruction.action in CONDITIONED] or after
         is_again = bool(before and reads[before[-1]][0].instruction.condition)
-    if len(words.split()) < 2 and (kind != "behind" or not before or is_again):
+    if len(words.split()) < 2 and kind != "airborne" and (kind != "behind" or not before or is_again):
         return
     is_behind = kind == "behind" and (
         not after or reads[after[0]][0].instruction.action not in CONDITIONED

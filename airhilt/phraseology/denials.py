@@ -124,6 +124,8 @@ def is_meant(
         return True
     if words[at] in ("and", "or") and at == floor and not before_is_meant:
         return False
+    if words[at] == "request" and at > floor and words[at - 1] in ("that", "your", "the"):
+        return True  # It is what was asked before: "unable that request, maintain ...".
     if words[at] == "cancelled" and at > floor and words[at - 1] in _CANCELLED_BEFORE:
         return True  # It denies what is before it: "crossing cancelled, hold short".
     if words[at : at + 2] == ["no", NAME] and at > floor:

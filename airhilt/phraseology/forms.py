@@ -98,7 +98,7 @@ class Form(NamedTuple):
 Listed = tuple[tuple[str, Action, str, Builder], ...]
 """Forms by their first words: these, the action, the pattern, and the function."""
 
-_ACK = "okay|ok|roger|alright|copy|and|yes|yeah|affirm|affirmative|wilco|thanks|thank you"
+_ACK = "okay|ok|roger|alright|copy|and|yes|yeah|affirm|affirmative|wilco|full stop|thanks|thank you"
 _BEFORE = re.compile(
     rf"(?<!\S)(?P<word>runway )?{RUNWAY}"
     rf"(?: (?:(?:at|from|(?:at )?intersection) (?P<place>{TAXIWAY})|full length))?$"
@@ -106,6 +106,11 @@ _BEFORE = re.compile(
 _OPENING = re.compile(
     rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
 )
+_AHEAD = re.compile(
+    rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
+    rf"(?<!departing )(?P<word>runway ){RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
+)
+"""A named runway before its clearance, with other words between them."""
 """A runway at the beginning of a call, between which and its clearance other words stand."""
 _BEGINS = re.compile(
     rf"(?:.* )?(?:\||correction|wind calm|knots)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*"
@@ -196,8 +201,14 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
 
 def _opening(segment: Segment) -> re.Match[str] | None:
     """Return the runway at the beginning of a call, if no other is named but to hold short of."""
-    opening = _OPENING.match(segment.text)
-    others = NAMED_RUNWAY.finditer(segment.text, opening.end()) if opening else ()
+    opening = _OPENING.match(segment.text) or _AHEAD.search(segment.before)
+    if opening is None:
+        return None
+    is_at_begin = opening.re is _OPENING
+    at = opening.end() if is_at_begin else segment.begin + opening.end()
+    others = list(NAMED_RUNWAY.finditer(segment.text, at))
+    if not is_at_begin:
+        others += NAMED_RUNWAY.finditer(segment.text, 0, segment.begin + opening.start())
     is_only = all(segment.text[: other.start()].endswith("short of ") for other in others)
     return opening if is_only else None
 

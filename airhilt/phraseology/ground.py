@@ -39,7 +39,7 @@ _PIECE = rf"(?:{TAXIWAY}|{NUMBERED_LINK})"
 """Pattern of a taxiway, or of a link between two that has a number."""
 _LISTED = rf"(?:(?!q n h)(?:(?:and|then|taxiway) )*{_PIECE}(?: |$))+"
 _VIA = re.compile(rf"(?<!\S)via ({_LISTED})")
-_HERE = re.compile(rf" (?:(?:on|via|along) )?((?=(?:taxiway )?{LETTER}){_LISTED})")
+_HERE = re.compile(rf" (?:(?:on|via|along|down) )?((?=(?:taxiway )?{LETTER}){_LISTED})")
 """A route right here, whose "via" may be missing."""
 _HOLDING_POINT = r"(?:the )?holding (?:point|decimal)"
 _GOES_ON = re.compile(
@@ -52,7 +52,7 @@ _PLACE = re.compile(
     rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+)?|[0-9]{{2,4}})(?!\S)"
 )
 """Another aircraft; a letter behind its name belongs to a route."""
-_FOLLOWED_TO = re.compile(rf"(?: [a-z]+){{0,4}} to runway {RUNWAY}")
+_FOLLOWED_TO = re.compile(rf"(?: [a-z]+){{0,4}} to (?:runway )?{RUNWAY}")
 _TAXI_RUNWAY = re.compile(
     rf"(?: to)?(?: the)?(?: holding(?: point| decimal)?(?: {TAXIWAY})?)?(?: for)? runway {RUNWAY}"
 )
@@ -240,7 +240,7 @@ FORMS: Listed = (
     ("join joining", "taxi", rf"join(?:ing)?(?= (?:taxiway )?{LETTER})", on_taxiways),
     ("continue continuing", "taxi",
      r"continu(?:e|ing)(?: taxi)?(?: straight(?: ahead)?)?"
-     rf"(?=(?: (?:on|via|along))? (?:taxiway )?{LETTER})",
+     rf"(?=(?: (?:on|via|along|down))? (?:taxiway )?{LETTER})",
      on_taxiways),
     ("turn left right", "taxi",
      r"(?:turn )?(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )"
@@ -257,6 +257,8 @@ FORMS: Listed = (
      r"turn(?:ing)? (?P<turn>left|right)(?: at)?(?: the)? next (?:taxiway|intersection|exit)",
      vacate),
     ("left right", "vacate", r"(?P<turn>left|right)(?= when able)", vacate),
+    ("off", "vacate",
+     rf"(?<!turn )(?<!turning )(?<!level )(?<!take )(?<!\S)off(?= (?:at|on) {LETTER})", vacate),
     ("expedite", "vacate", r"expedite (?:vacating|exiting)(?: the runway)?", vacate),
     ("expedite", "taxi", r"expedite taxi", nothing),
     ("turn turning", "vacate", r"turn(?:ing)? off(?: the runway)?", vacate),

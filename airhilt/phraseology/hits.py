@@ -115,5 +115,7 @@ def is_spoken_of(words: list[str], start: int, end: int) -> bool:
         return False
     if end < len(words):
         return True
+    if at > 0 and words[at] in ("follow", "following") and words[at - 1] in ("will", "we"):
+        return False
     is_again = words[at] in ("behind", "after") and words[at] in words[:at]
     return not is_again and words[max(at - 1, 0) : at + 1] != ["traffic", "departing"]

@@ -106,6 +106,7 @@ _TURN = re.compile(r"(?<!\S)(?:turn|left|right)(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
 _TURNS = (
     r"(?: on the [0-9]{1,3} (?:radial|course|bearing))?(?: as published)?"
+    r"(?: [0-9]{1,2} (?:miles?|minutes?)(?: legs?)?)?"
     r"(?: (?P<turn>left|right)(?: hand)? (?:turns|pattern))?"
 )
 _DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?: to)?"
@@ -116,7 +117,7 @@ FORMS: Listed = (
     ("clear cleared", "hold_at",
      rf"clear(?:ed)? to (?P<fix>{FIX}) hold(?: {_COMPASS})?{_TURNS}", hold_at),
     ("hold holding", "hold_at",
-     rf"hold(?:ing)?(?: {_COMPASS}(?: of)?| at| over) (?P<fix>(?!position|short|for){FIX}){_TURNS}",
+     rf"hold(?:ing)?(?: as published)?(?: {_COMPASS}(?: of)?| at| over) (?P<fix>(?!position|short|for){FIX}){_TURNS}",
      hold_at),
     ("proceed proceeding", "direct",
      rf"proceed(?:ing)? direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?",

@@ -178,6 +178,7 @@ FORMS: Listed = (
      r"cancel(?:ling)? (?:your |the |my )?landing(?: clearance)?", alone),
     ("landing", "cancel_landing", r"landing clearance (?:is |has been )?cancelled", alone),
     ("go going", "go_around", r"go(?:ing)? around", go_around),
+    ("around", "go_around", r"around we go", alone),
     ("continue continuing", "continue_approach", r"continu(?:e|ing) (?:the |your )?approach",
      continue_approach),
     ("continue", "continue_approach",

@@ -36,6 +36,8 @@ LONGEST_CONDITION = 9
 """Most words in a condition."""
 LONGEST_TRAFFIC = 16
 """Most words from "traffic" to what the traffic does, such as "climbing"."""
+_PLACED = frozenset({"behind", "after"})
+"""Words behind the number in a sequence that say whom to follow, and are no condition."""
 _HAPPENED = frozenset(
     {"passes", "passed", "lands", "landed", "departs", "departed", "vacates", "vacated", "clears",
      "rolls", "goes"}
@@ -74,6 +76,8 @@ _EVENTS = {
     "whenever": r"whenever (?:ready|able)",
     "in": r"in (?:about |another )?(?:[0-9]+|a|a couple|a few)(?: more)?(?: of)?"
     rf" (?:miles?|minutes?|seconds?)(?={_VERB})",
+    "pilot": r"pilot discretion(?= (?:and )?maintain)",
+    "airborne": r"(?<!report )airborne(?= \||$)",
     "as": rf"as soon as(?: (?!climb|descend|turn)[a-z0-9]+){{1,6}}?(?={_VERB})",
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
@@ -134,7 +138,7 @@ class Scan:
         if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
             self._open(start, index, is_traffic=True)
             return 0
-        is_number = "number" in self._texts[max(index - 4, 0) : index]
+        is_number = word in _PLACED and "number" in self._texts[max(index - 4, 0) : index]
         is_condition = word in CONDITIONS and not is_number
         if is_condition and (self._open_at is None or self._is_traffic):
             self._close(start)

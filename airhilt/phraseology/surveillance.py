@@ -85,7 +85,7 @@ _SHORT_JOINED = re.compile(
     rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"
 )
 """A frequency without its first digit, which is always 1: "tower eighteen three"."""
-_ON_JOINED = re.compile(r" (?:on |at |now |frequency )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
+_ON_JOINED = re.compile(r" (?:on |at |now |frequency |#+ )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
 
 
 def frequency(segment: Segment, action: Action) -> Read | None:
@@ -115,7 +115,8 @@ def station_frequency(segment: Segment, action: Action) -> Read | None:
     if khz is None:
         return None
     confidence = BARE_VALUE if found["fraction"] or found["unit"] == "frequency" else SHORTENED
-    read = Instruction(action, position=found["unit"], frequency_khz=khz, confidence=confidence)
+    unit = None if found["unit"] == "frequency" else found["unit"]
+    read = Instruction(action, position=unit, frequency_khz=khz, confidence=confidence)
     return Read(read, segment.start, found.end())
 
 
@@ -170,17 +171,18 @@ FORMS: Listed = (
      r"(?:advise|call)(?: me)?(?: when you have)?"
      r" (?P<event>(?:the )?(?:field|airport|runway|traffic) in sight)", report),
     ("contact contacting call try", "contact",
-     rf"(?:contact(?:ing)?|call|try)(?P<station>(?: (?!(?:{FIX_ENDS}|me)(?!\S))[a-z]+){{1,2}})"
-     r"(?= (?:on )?1[1-3][0-9](?: decimal|[0-9]))", contact),
-    ("contact contacting call", "contact", rf"(?:contact(?:ing)?|call)(?P<station>{_STATION})?",
-     contact),
+     rf"(?:contact(?:ing)?|call|try)(?P<station>(?: (?!(?:{FIX_ENDS}|me|my|frequency)(?!\S))[a-z]+){{1,2}}|)"
+     r"(?= (?:on |now )?1[1-3][0-9](?: decimal|[0-9]))", contact),
+    ("give giving", "contact", rf"giv(?:e|ing)(?P<station>{_STATION}) a call(?: on)?", contact),
+    ("contact contacting call try", "contact",
+     rf"(?:contact(?:ing)?|call|try)(?P<station>{_STATION})?", contact),
     ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
      rf"(?:over|switch(?:ing)?|chang(?:e|ing)(?! in))(?: over)?(?: to)?(?: my| frequency)*"
      rf"(?P<station>{_STATION})?", contact),
     ("monitor monitoring", "monitor", rf"monitor(?:ing)?(?P<station>{_STATION})?", contact),
     (" ".join((*UNITS, "frequency")), "contact",
-     rf"(?P<unit>{UNIT}|frequency)(?: frequency| on| is)* "
+     rf"(?P<unit>{UNIT}|frequency)(?: frequency| on| is| will be)* "
      r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),

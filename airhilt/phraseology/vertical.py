@@ -49,6 +49,8 @@ _BARE_LEVEL = re.compile(
     r"(?! (?:left|right|knots|degrees|miles?|decimal|thousand|hundred|feet|or|minutes?|oclock|per))"
 )
 """A level without its unit."""
+_SHORT_UNTIL = re.compile(r" (?:[2-9]|1[0-9]) #")
+"""Thousands of feet without the word, to be kept until something."""
 _KNOTS = re.compile(r" knots(?!\S)")
 
 
@@ -116,7 +118,9 @@ def altitude(segment: Segment, action: Action) -> Read | None:
     bound = bound_of(segment.found.groupdict().get("bound"))
     feet, confidence, taken = level_in(segment.after, is_here=bound is not None)
     is_passed = _PASSED.match(segment.after) is not None
-    if feet is None and (sense != "maintain" or words[0] != "maintain") and not is_passed:
+    is_short = sense == "maintain" and _SHORT_UNTIL.match(segment.after) is not None
+    is_verb = sense != "maintain" or words[0] != "maintain"
+    if feet is None and (is_verb or is_short) and not is_passed:
         feet, confidence, taken = bare_level(segment.after)
     along = _ALONG.match(segment.text, segment.found.end()) if feet is None else None
     if along is not None:
@@ -336,7 +340,8 @@ FORMS: Listed = (
     ("not", "altitude", r"not (?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])", limited_level),
     ("at", "altitude", r"at or (?P<bound>above|below)(?= [0-9]| flight| level)", limited_level),
     ("discretion pilot", "altitude",
-     r"(?:pilot )?discretion(?: down)? to(?= [0-9]| flight| level)", by_discretion),
+     r"(?:pilot )?discretion(?: down to| to|(?= flight| level| [0-9]+ thousand))"
+     r"(?= [0-9]| flight| level)", by_discretion),
     ("recleared", "altitude", r"recleared(?: to)?(?= flight| level| [0-9])", altitude),
     ("except", "altitude", r"except maintain", altitude),
     ("maintain maintaining remain", "altitude",

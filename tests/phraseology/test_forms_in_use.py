@@ -8,7 +8,8 @@ from airhilt.phraseology import CLEARANCES, TAU_ASR, Call, Instruction, parse_ca
 
 KNOWN = ("DAL88", "AAL123", "N172SP", "UAL2243")
 LISTED = tuple(
-    Path(__file__).parent / name for name in ("forms_in_use.txt", "forms_of_busy_days.txt")
+    Path(__file__).parent / name
+    for name in ("forms_in_use.txt", "forms_of_busy_days.txt", "forms_less_often_heard.txt")
 )
 
 
