@@ -61,7 +61,7 @@ def _named(found: re.Match[str], runway: str | None, confidence: float) -> Instr
     if parts.get("back"):
         kind = "localizer back course"
     letter = LETTER_OF.get(variant, variant.upper()) if variant else None
-    if kind is None:
+    if kind is None or variant == "a":
         confidence = min(confidence, SHORTENED)
     return Instruction(
         "cleared_approach", runway, approach=kind, variant=letter, confidence=confidence

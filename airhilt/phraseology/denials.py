@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
 from airhilt.phraseology.hits import NAME
+from airhilt.phraseology.runways import ANIMALS
 
 DENIALS = frozenset(
     {"no", "not", "never", "without", "unable", "neither", "nor", "cancelled", "refuse", "do",
@@ -162,6 +163,7 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
     opening = words[1:2] if words[0] == NAME else words[:1]
     return not (
         last == "negative"
+        or last in ANIMALS
         or (last in SOMEBODY and first > floor and not SPOKEN_OF.intersection(words[floor:first]))
         or last == "to"
         or last == "ready"

@@ -136,6 +136,8 @@ _OTHER_RUNWAY = re.compile(
 POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
 IMMEDIATE = re.compile(r"(?<!\S)(?:immediate(?:ly)?|expedit(?:e|ing)|now)(?!\S)")
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
+_NO_NAME = re.compile(rf"(?!waypoint )(?:{FIX_ENDS}|left|right|to|[0-9]+)(?!\S)")
+"""The first word of a fix that is a word of the phraseology: the name itself may be lost."""
 _NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
 
 
@@ -275,4 +277,6 @@ def fix_of(segment: Segment, name: str = "fix") -> tuple[str | None, float]:
     words = fix.strip()
     if _NAME_ENDS_HERE.match(segment.text, segment.found.end(name)) is None:
         return words, NO_VALUE
+    if _NO_NAME.match(words):
+        return words, LONG_NAME
     return words, LONG_NAME if len(words.split()) > 2 else 1.0

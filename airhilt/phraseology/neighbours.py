@@ -62,14 +62,19 @@ _ALSO: dict[Action, frozenset[str]] = {
     "line_up": frozenset({"landing", "via"}),
     "missed_approach": frozenset({"as"}),
     "hold_at": frozenset({"flight", "delay", "as", "at"}),
-    "report": frozenset({"on", "heading"}),
+    "report": frozenset({"heading"}),
 }  # fmt: skip
 """First words of what may follow one action."""
 _INTRODUCING = frozenset(
     {"or", "at", "of", "by", "cross", "crossing", "turn", "turning", "left", "right", "on", "a",
-     "an", "the", "via", "able", "in", "until", "than", "from", "change"}
+     "an", "the", "via", "able", "in", "until", "than", "from", "change",
+     "closed", "onto"}
 )  # fmt: skip
 """Words right before an action that belong to something that was not understood."""
+_LINKING = frozenset({"proceed", "proceeding"})
+"""Words before an action that belong to it, before which its side or condition stands."""
+_EVENTS = frozenset({"event", "case"})
+"""Words of a condition that was not understood."""
 _LEADS_TO = {
     "right": frozenset({"all", "your", "the"}),
     "left": frozenset({"your", "the"}),
@@ -97,13 +102,23 @@ def is_unexplained_behind(words: list[str], action: Action) -> bool:
     if first in STATIONS or following in ("altimeter", "qnh", "information"):
         return False
     if first == "at":
-        return following.isdigit() or not following
+        return following.isdigit() or following in ("", "to", "too")
     return first not in _ALSO.get(action, ())
 
 
 def is_unexplained_before(words: list[str], action: Action) -> bool:
     """Return whether the word right before an action may be a part of something else."""
-    if not words or action in SAFE or words[-1] not in _INTRODUCING:
+    if not words:
+        return False
+    while len(words) > 1 and words[-1] in _LINKING:
+        words = words[:-1]
+    if words[-1] in _EVENTS or words[-2:] == ["missed", "approach"]:
+        return True
+    if words[-1] == "and" and action == "altitude":
+        return words[-2:-1] == [NAME] or any(
+            each not in COURTESIES and each != NAME and each[0] != "#" for each in words[:-1]
+        )
+    if action in SAFE or words[-1] not in _INTRODUCING:
         return False
     ahead = words[-2] if len(words) > 1 else ""
     is_side = words[-1] in ("left", "right") and ahead.isdigit()

@@ -47,8 +47,11 @@ def named_speed(segment: Segment, action: Action) -> Read | None:
 
 def resume(segment: Segment, action: Action) -> Read | None:
     """Read the end of speed control."""
-    named = segment.found["named"] or "normal"
-    read = Instruction(action, named="normal" if named == "your" else named)
+    named = segment.found["named"]
+    is_whole = named in ("normal", "published")
+    read = Instruction(
+        action, named=named if is_whole else "normal", confidence=1.0 if is_whole else SHORTENED
+    )
     return Read(read, segment.start, segment.found.end())
 
 

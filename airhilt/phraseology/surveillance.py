@@ -56,6 +56,8 @@ def contact(segment: Segment, action: Action) -> Read | None:
     full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
     without_hundred = _SHORT_JOINED.match(after) if station else None
     short = SHORT_FREQUENCY.search(after) if station and "ground" in station else None
+    if short and any(sign.isdigit() for sign in after[: short.start()]):
+        short = None
     khz, confidence, found = None, NO_VALUE, None
     if full:
         is_cut = DIGITS_GO_ON.match(after, full.end())
@@ -134,11 +136,13 @@ def report(segment: Segment, action: Action) -> Read | None:
         is_field = _FIELD.search(segment.before_all) is not None
         what = "field in sight" if is_field else "traffic in sight"
     is_whole = _EVENT_ENDS.match(segment.text, segment.found.end()) is not None
+    is_whole = is_whole and _SHORT_LEVEL.search(what) is None
     is_named = event is not None and is_whole and not segment.found[0].startswith("advise when")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
 
 
+_SHORT_LEVEL = re.compile(r"level [0-9]{1,2}$")
 _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
 _EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
 _FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")

@@ -166,6 +166,8 @@ def limited_level(segment: Segment, action: Action) -> Read | None:
             action, position=fix[0], altitude_ft=feet, bound=bound, confidence=sure
         )
         return Read(crossed, segment.begin, end)
+    if found[0].startswith("at"):
+        confidence = min(confidence, SHORTENED)  # The fix to cross may be what is lost.
     read = Instruction(action, altitude_ft=feet, bound=bound, confidence=confidence)
     return Read(read, segment.start, end)
 
