@@ -76,7 +76,7 @@ NAMED_APPROACH = re.compile(rf"{_APPROACH}(?!\S)(?: approach)?(?: {_RUNWAY})?(?!
 
 FORMS: Listed = (
     ("clear cleared", "cleared_approach",
-     rf"clear(?:ed)? (?:for )?(?:the |a )?(?:straight in )?{_APPROACH}(?: approach)?", approach),
+     rf"clear(?:ed)? (?:for |to (?=the ))?(?:the |a )?(?:straight in )?{_APPROACH}(?: approach)?", approach),
     ("clear cleared", "cleared_approach",
      r"clear(?:ed)? (?:for )?(?:the |an )?(?:straight in )?approach", approach),
     ("circle", "circle", r"circle", circle),

@@ -41,6 +41,8 @@ _AS_FILED = re.compile(
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
 _AFTER_DEPARTURE: frozenset[Action] = frozenset({"altitude", "contact", "climb_via"})
 """Actions of a clearance before departure that wait for it."""
+_PROCEDURE = re.compile(r"(?<!\S)(?:[0-9]|arrival|departure|via|star|sid)(?!\S)")
+"""Words of a procedure between a climb or a descent and its level."""
 _TURNING = re.compile(r"before turning(?!\S)")
 """A limit of the climb before it."""
 _CONSEQUENCE = re.compile(
@@ -154,8 +156,11 @@ def _set(
     reads[index] = read._replace(instruction=told), each
 
 
-def merge_levels(reads: Reads) -> None:
-    """Merge two instructions such as "climb now, maintain flight level 330"."""
+def merge_levels(reads: Reads, text: str) -> None:
+    """Merge two instructions such as "climb now, maintain flight level 330".
+
+    The name of a procedure between them shows that the level is not for now.
+    """
     for index in range(len(reads) - 1, 0, -1):
         first, second = reads[index - 1][0].instruction, reads[index][0].instruction
         if (
@@ -165,6 +170,8 @@ def merge_levels(reads: Reads) -> None:
             and (second.sense == "maintain" or second.sense == first.sense)
             and not (reads[index - 1][0].is_expected or reads[index][0].is_expected)
         ):
+            between = text[reads[index - 1][0].end : reads[index][0].start]
+            is_apart = _PROCEDURE.search(between) is not None
             merged = replace(
                 first,
                 altitude_ft=second.altitude_ft,
@@ -172,7 +179,7 @@ def merge_levels(reads: Reads) -> None:
                 condition=first.condition or second.condition,
                 until=first.until or second.until,
                 immediate=first.immediate or second.immediate,
-                confidence=second.confidence,
+                confidence=min(second.confidence, NO_VALUE) if is_apart else second.confidence,
             )
             read = reads[index - 1][0]._replace(instruction=merged, end=reads[index][0].end)
             reads[index - 1 : index + 1] = [(read, reads[index - 1][1])]

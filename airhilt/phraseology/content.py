@@ -77,7 +77,7 @@ def content_of(words: Words) -> Content:
         plain = _blank(plain, span)
     reads = _reads(scan, texts, plain, starts)
     attach(conditions, reads, text)
-    merge_levels(reads)
+    merge_levels(reads, plain)
     withdraw(reads)
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)

@@ -107,6 +107,8 @@ def is_meant(
         return False
     if not _QUESTIONS.isdisjoint(zip(words[floor:first], words[floor + 1 : first], strict=False)):
         return False
+    if words[first].endswith("ing") and _is_somebody_elses(words, first, floor):
+        return False
     is_said_of = words[first - 1] == "will" and first - 2 >= floor and action != "report"
     if is_said_of and words[first - 2] not in _WHO_WILL:
         return False
@@ -139,6 +141,16 @@ def is_meant(
     return words[at] not in OPEN or is_thanked or action in REPORTS
 
 
+def _is_somebody_elses(words: list[str], first: int, floor: int) -> bool:
+    """Return whether somebody else does what is said: "the American is holding short"."""
+    last, ahead = words[first - 1], words[max(first - 2, 0)]
+    if first - 1 < floor or first < 2:
+        return False
+    return (last in ("is", "are") and ahead not in ("you", "we", NAME, "i")) or (
+        last in SOMEBODY and SPOKEN_OF.isdisjoint(words[floor:first])
+    )
+
+
 def is_expected(words: list[str], first: int, floor: int) -> bool:
     """Return whether the words before an action say that it is to be expected."""
     at = first - 1
@@ -163,7 +175,7 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
     opening = words[1:2] if words[0] == NAME else words[:1]
     return not (
         last == "negative"
-        or last in ANIMALS
+        or (last in ANIMALS and words[first].endswith("ing"))
         or (last in SOMEBODY and first > floor and not SPOKEN_OF.intersection(words[floor:first]))
         or last == "to"
         or last == "ready"

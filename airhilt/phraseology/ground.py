@@ -268,7 +268,7 @@ FORMS: Listed = (
      rf"(?= (?:(?:taxiway )?{LETTER}|to|via|at|on|back|across|runway|holding|gate|stand|straight"
      r"|left|right|into|without|and|with|hold|[0-9]+|\|)(?!\S)|$)",
      taxi),
-    ("continue", "taxi", r"continue taxi(?= to)", taxi),
+    ("continue", "taxi", r"continue(?: taxi(?= to)|(?= to holding (?:point|decimal)))", taxi),
     ("runway", "taxi",
      rf"(?<!to )(?<!taxi )(?<!decimal )runway {RUNWAY}"
      rf" via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),
@@ -276,7 +276,7 @@ FORMS: Listed = (
     ("hold", "hold_position", r"hold (?:your|the) taxi", alone),
     ("stop", "stop",
      r"(?<!cleared )(?<!full )stop"
-     r"(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading)(?!\S))(?: immediately)?",
+     r"(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading|bar|bars|lights|line)(?!\S))(?: immediately)?",
      alone),
     ("stopping", "stop", r"stopping(?= \||$| immediately| on)", alone),
     ("pushback push", "push_back",

@@ -135,7 +135,7 @@ FORMS: Listed = (
     (" ".join(str(degrees) for degrees in range(5, 185, 5)), "turn_by",
      r"(?P<degrees>[0-9]{1,3}) degrees (?P<turn>left|right)(?! (?:of|for)(?!\S))", turn_by),
     ("turn turning", "direct",
-     rf"turn(?:ing)? (?P<turn>left|right) {_DIRECT} (?P<fix>{FIX})", direct),
+     rf"turn(?:ing)? (?P<turn>left|right)(?: now| immediately)? {_DIRECT} (?P<fix>{FIX})", direct),
     ("turn turning", "heading",
      rf"turn(?:ing)? (?P<turn>left|right)(?! base| downwind| final| crosswind)"
      rf"(?: now| immediately)?(?: to)?(?: heading)?(?: {_HEADING})?", heading),

@@ -68,7 +68,7 @@ _ALSO: dict[Action, frozenset[str]] = {
 _INTRODUCING = frozenset(
     {"or", "at", "of", "by", "cross", "crossing", "turn", "turning", "left", "right", "on", "a",
      "an", "the", "via", "able", "in", "until", "than", "from", "change",
-     "closed", "onto"}
+     "closed", "onto", "is", "are", "was", "were"}
 )  # fmt: skip
 """Words right before an action that belong to something that was not understood."""
 _LINKING = frozenset({"proceed", "proceeding"})
@@ -80,14 +80,28 @@ _LEADS_TO = {
     "left": frozenset({"your", "the"}),
     "able": frozenset({"when", "if"}),
     "turn": frozenset({"your"}),
+    "are": frozenset({"you", "we"}),
+    "was": frozenset({"what"}),
 }
 """Words before one of `_INTRODUCING` with which it is explained."""
+
+
+_PARTS = frozenset({"or", "thousand", "hundred", "feet", "decimal", "left", "right", "centre", "via"})
+"""Words behind a courtesy that belong to the value before it."""
+
+
+def _without_courtesies(words: list[str]) -> list[str]:
+    at = next((at for at, word in enumerate(words) if word not in COURTESIES), len(words))
+    return words[at:]
 
 
 def is_unexplained_behind(words: list[str], action: Action) -> bool:
     """Return whether the words right behind an action, up to the next, may be a part of it."""
     if not words:
         return False
+    if words[0] in COURTESIES:
+        words = _without_courtesies(words)
+        return bool(words) and (words[0].isdigit() or words[0] in _PARTS)
     first, following = words[0], words[1] if len(words) > 1 else ""
     if first[0] in "#" or following[:1] == "#" or first == NAME or action in SAFE or first in _OPENERS:
         return False

@@ -191,7 +191,7 @@ FORMS: Listed = (
     (" ".join(ANIMALS), "wildlife_gone",
      rf"(?:{_ANIMAL})(?!\S)(?: \S+)*? (?:(?:has|have) left|gone|(?:is|are) clear)", wildlife),
     (" ".join(ANIMALS), "wildlife",
-     rf"(?:{_ANIMAL})(?!\S)"
+     rf"(?<!via the )(?<!via )(?<!direct )(?<!direct to )(?:{_ANIMAL})(?!\S)"
      rf"(?! (?:strike|hazard|control|scaring|{_PLACE})(?!\S))"
      rf"(?: (?:\S+ )*(?:{_ANIMAL}))?{_WHERE}",
      wildlife),

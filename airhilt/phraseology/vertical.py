@@ -51,6 +51,8 @@ _BARE_LEVEL = re.compile(
 """A level without its unit."""
 _SHORT_UNTIL = re.compile(r" (?:[2-9]|1[0-9]) #")
 """Thousands of feet without the word, to be kept until something."""
+_DIGITS = re.compile(r"(?<!\S)[0-9]")
+"""A number before a level, which may be its first part."""
 _KNOTS = re.compile(r" knots(?!\S)")
 
 
@@ -82,7 +84,9 @@ def level_in(text: str, *, is_here: bool = False) -> tuple[float | None, float, 
     bare = BARE_FEET.match(text)
     if level:
         feet = level_ft(level)
-        return feet, level_confidence(level) if feet is not None else NO_VALUE, level.end()
+        sure = level_confidence(level) if feet is not None else NO_VALUE
+        is_cut = _DIGITS.search(text, 0, level.start()) is not None
+        return feet, min(sure, NO_SENSE) if is_cut else sure, level.end()
     if bare:
         feet = float(bare[1])
         is_speed = _KNOTS.match(text, bare.end())
@@ -128,6 +132,8 @@ def altitude(segment: Segment, action: Action) -> Read | None:
         taken = 0
     if feet is None and sense in ("maintain", None):
         return None
+    if taken and sense in ("climb", "descend") and segment.after.startswith(" at "):
+        confidence = min(confidence, SHORTENED)  # It may be a rate whose unit is lost.
     end = segment.found.end() + taken
     if bound is None and taken:
         bound, end, sure = bound_after(segment.text[: segment.limit], end)

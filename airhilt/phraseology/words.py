@@ -70,6 +70,7 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "fly": {"level": ("flight", "level")},
     "and": {"weight": ("and", "wait")},
     "lie": {"nup": ("line", "up")},
+    "re": {"cleared": ("recleared",)},
     "read": {"back": ("readback",)},
     "push": {"back": ("pushback",)},
     "start": {"up": ("startup",)},
@@ -77,7 +78,7 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "fox": {"trot": ("foxtrot",)},
 }  # fmt: skip
 """The same for two words; the key is the first."""
-_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "read", "push", "start", "back", "fox"})
+_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "re", "read", "push", "start", "back", "fox"})
 """First words of pairs that are only spelled differently, not misheard."""
 
 UNITS = frozenset(
