@@ -37,5 +37,6 @@ FORMS = _by_first_word()
 """Forms of actions, by their first words."""
 NUMBER_FORMS = (
     surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM, speeds.ON_SPEED_FORM, speeds.LIMITED_FORM,
+    lateral.ON_HEADING_FORM,
 )  # fmt: skip
 """Forms that begin with a number."""

@@ -76,7 +76,8 @@ NAMED_APPROACH = re.compile(rf"{_APPROACH}(?!\S)(?: approach)?(?: {_RUNWAY})?(?!
 
 FORMS: Listed = (
     ("clear cleared", "cleared_approach",
-     rf"clear(?:ed)? (?:for |to (?=the ))?(?:the |a )?(?:straight in )?{_APPROACH}(?: approach)?", approach),
+     r"clear(?:ed)? (?:for |to (?=the ))?(?:the |a )?(?:straight in )?"
+     rf"{_APPROACH}(?: approach)?", approach),
     ("clear cleared", "cleared_approach",
      r"clear(?:ed)? (?:for )?(?:the |an )?(?:straight in )?approach", approach),
     ("circle", "circle", r"circle", circle),

@@ -36,7 +36,8 @@ _WHEN_ABLE = re.compile(r"(?:when|whenever|if) able$")
 """Conditions that belong to the action right behind them, or else to the one right before."""
 _FILED = frozenset({"airport", "filed", "departure"})
 _AS_FILED = re.compile(
-    r"(?<!\S)(?:as filed|cleared to .* airport|cleared to (?!land|cross|enter|the ils).* departure)(?!\S)"
+    r"(?<!\S)(?:as filed|cleared to .* airport"
+    r"|cleared to (?!land|cross|enter|the ils).* departure)(?!\S)"
 )
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
 _AFTER_DEPARTURE: frozenset[Action] = frozenset({"altitude", "contact", "climb_via"})
@@ -51,6 +52,7 @@ _CONSEQUENCE = re.compile(
 )
 """Words of what is to be done under a condition that are no action of this grammar."""
 _AHEAD_OF_YOU = re.compile(r"(?:before|after|behind) (?:you|yours?|that)")
+"""What somebody else does: "one to depart before you"."""
 _AIRBORNE = re.compile(
     r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
 )
@@ -122,7 +124,7 @@ def _attach_to_one(
     words: str, kind: str, before: list[int], after: list[int], reads: Reads
 ) -> None:
     if _AHEAD_OF_YOU.fullmatch(words):
-        return  # It belongs to whoever is ahead: "one to depart before you".
+        return
     if not after and _CONSEQUENCE.search(words):
         return  # What is to be done then is in the words of the condition.
     if after and _AIRBORNE.search(words):
@@ -134,7 +136,11 @@ def _attach_to_one(
         if len(after) > 1:
             after = [i for i in after if reads[i][0].instruction.action in CONDITIONED] or after
         is_again = bool(before and reads[before[-1]][0].instruction.condition)
-    if len(words.split()) < 2 and kind != "airborne" and (kind != "behind" or not before or is_again):
+    if (
+        len(words.split()) < 2
+        and kind != "airborne"
+        and (kind != "behind" or not before or is_again)
+    ):
         return
     is_behind = kind == "behind" and (
         not after or reads[after[0]][0].instruction.action not in CONDITIONED

@@ -24,7 +24,7 @@ from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
 from airhilt.phraseology.scan import Found, Scan, Span
-from airhilt.phraseology.slots import PRESSURE, SHORTENED
+from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
 
@@ -134,7 +134,9 @@ def _is_beside_unexplained(read: Read, text: str, taken: list[tuple[int, int]]) 
     if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
         return True
     begin = max((end for _, end in taken if end <= read.start), default=0)
-    return begin + 1 < read.start and is_unexplained_before(text[begin : read.start].split(), action)
+    return begin + 1 < read.start and is_unexplained_before(
+        text[begin : read.start].split(), action
+    )
 
 
 def _heard(told: Instruction, action: float, details: float) -> Instruction:
@@ -206,10 +208,15 @@ def _take_bare(
                 condition = "then"
             route = replace(route, condition=condition)
             _add(content, _heard(route, gap.heard, gap.heard), is_doing=False)
-        elif not is_called and not _PASSING.match(text, gap.end):
+        elif not _PASSING.match(text, gap.end):
+            is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
+            if is_called and not is_level:
+                continue
             bare = bare_values(gap.words, beside)
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
             for each in bare.instructions:
+                if is_level and before is not None:  # It waits for what the heading waits for.
+                    each = replace(each, condition=before.instruction.condition)
                 _add(content, _heard(each, gap.heard, gap.heard), is_doing=False)
 
 

@@ -72,11 +72,17 @@ _QUESTIONS = frozenset(
      ("what", "about")}
 )  # fmt: skip
 """Word pairs before an action that make it a question."""
-_CANCELLED_BEFORE = frozenset(
-    {"clearance", "takeoff", "landing", "crossing", "taxi", "up", "pushback", "push", "approach", "is",
-     "been", "hold", "descent", "climb", "route", "it", "that"}
+_CANCELLED_BEFORE = (
+    "clearance", "takeoff", "landing", "crossing", "taxi", "up", "pushback", "push", "approach",
+    "is", "been", "hold", "descent", "climb", "route", "it", "that",
 )  # fmt: skip
 """Words before "cancelled" that are what is cancelled."""
+_BEFORE_IT = frozenset(
+    {*((word, "cancelled") for word in _CANCELLED_BEFORE),
+     *((word, "request") for word in ("that", "your", "the"))}
+)  # fmt: skip
+"""Word pairs right before an action that deny what is before them: "crossing cancelled, hold
+short", "unable that request, maintain flight level 240"."""
 _WHO_WILL = frozenset({"we", "i", "you", "and", "then", "roger", "wilco", "okay", "affirm", NAME})
 """Words before "will" that make an action the speaker's own, or that of whom is called."""
 _NOT_DENIED = frozenset({"above", "below", "before", "contact"})
@@ -127,10 +133,8 @@ def is_meant(
         return True
     if words[at] in ("and", "or") and at == floor and not before_is_meant:
         return False
-    if words[at] == "request" and at > floor and words[at - 1] in ("that", "your", "the"):
-        return True  # It is what was asked before: "unable that request, maintain ...".
-    if words[at] == "cancelled" and at > floor and words[at - 1] in _CANCELLED_BEFORE:
-        return True  # It denies what is before it: "crossing cancelled, hold short".
+    if at == first - 1 > floor and (words[at - 1], words[at]) in _BEFORE_IT:
+        return True
     if words[at : at + 2] == ["no", NAME] and at > floor:
         return True  # The speaker corrects the callsign: "Delta, no, United 914".
     if words[at] in DENIALS or tuple(words[at : at + 2]) in _PHRASES:

@@ -106,12 +106,12 @@ _BEFORE = re.compile(
 _OPENING = re.compile(
     rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
 )
+"""A runway at the beginning of a call, between which and its clearance other words stand."""
 _AHEAD = re.compile(
     rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
     rf"(?<!departing )(?P<word>runway ){RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
 )
 """A named runway before its clearance, with other words between them."""
-"""A runway at the beginning of a call, between which and its clearance other words stand."""
 _BEGINS = re.compile(
     rf"(?:.* )?(?:\||correction|wind calm|knots)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*"
 )
@@ -202,7 +202,10 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
 
 
 def _opening(segment: Segment) -> re.Match[str] | None:
-    """Return the runway at the beginning of a call, if no other is named but to hold short of."""
+    """Return the runway at the beginning of a call, or one that is named before other words.
+
+    It is none if the call names another one, but to hold short of.
+    """
     opening = _OPENING.match(segment.text) or _AHEAD.search(segment.before)
     if opening is None:
         return None

@@ -13,6 +13,7 @@ from airhilt.phraseology.forms import (
     BARE_VALUE,
     NO_VALUE,
     UNIT,
+    Form,
     Listed,
     Read,
     Segment,
@@ -117,7 +118,8 @@ FORMS: Listed = (
     ("clear cleared", "hold_at",
      rf"clear(?:ed)? to (?P<fix>{FIX}) hold(?: {_COMPASS})?{_TURNS}", hold_at),
     ("hold holding", "hold_at",
-     rf"hold(?:ing)?(?: as published)?(?: {_COMPASS}(?: of)?| at| over) (?P<fix>(?!position|short|for){FIX}){_TURNS}",
+     rf"hold(?:ing)?(?: as published)?(?: {_COMPASS}(?: of)?| at| over)"
+     rf" (?P<fix>(?!position|short|for){FIX}){_TURNS}",
      hold_at),
     ("proceed proceeding", "direct",
      rf"proceed(?:ing)? direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?",
@@ -146,10 +148,12 @@ FORMS: Listed = (
      r"(?! (?:out|on|to|at|into|onto|base|final)(?!\S))"
      rf"(?: to)?(?: heading)?(?: {_HEADING})?", heading),
     ("left right", "heading",
-     rf"(?<!all )(?P<turn>left|right)(?: turn)?(?: now| immediately)?(?: to)?(?: a)? heading {_HEADING}",
+     r"(?<!all )(?P<turn>left|right)(?: turn)?(?: now| immediately)?(?: to)?(?: a)?"
+     rf" heading {_HEADING}",
      heading),
     ("left right", "heading",
-     r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?<!all )(?!(?:left|right) 360 for)"
+     r"(?:(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )|(?=[a-z]+ turn))(?<!all )"
+     r"(?!(?:left|right) 360 for)"
      rf"(?P<turn>left|right)(?: turn)?(?: to)? (?P<bare>){_HEADING}", heading),
     ("left right", "heading",
      r"(?<!(?<!\S)[0-9] )(?<!(?<!\S)[0-9][0-9] )(?P<turn>left|right)(?: turn(?= at))?"
@@ -164,3 +168,7 @@ FORMS: Listed = (
     ("intercept", "heading", r"intercept", nothing),
 )  # fmt: skip
 """Forms of headings, directs and holds."""
+ON_HEADING_FORM = Form(
+    "heading", re.compile(r"(?P<bare>)(?P<number>[0-9]{3}) on the heading(?!\S)"), heading
+)
+"""Form of a heading that is read back as "two seven zero on the heading"."""

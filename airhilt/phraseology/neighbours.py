@@ -1,8 +1,8 @@
 """Words beside an action that nothing explains.
 
-Between two actions stand courtesies, information and reasons. What else stands right beside an action
-may be a part of it that was not understood: a lost value behind "via", another reading behind "or",
-a verb before a level. The action is then in doubt.
+Between two actions stand courtesies, information and reasons. What else stands right beside an
+action may be a part of it that was not understood: a lost value behind "via", another reading
+behind "or", a verb before a level. The action is then in doubt.
 """
 
 from __future__ import annotations
@@ -18,24 +18,28 @@ SAFE: frozenset[Action] = frozenset(
 )  # fmt: skip
 """Actions without a value, of which words beside them say nothing else."""
 _OPENERS = COURTESIES | {
-    "abeam", "acknowledge", "advise", "aircraft", "altimeter", "and", "as", "au", "be", "break",
-    "bringing", "call", "caution", "ciao", "company", "continue", "copy", "delay", "disregard",
-    "enter", "estimate", "except", "expect", "expecting", "expedite", "extend", "face", "facing",
-    "frequency", "goodbye", "have", "identified", "immediately", "in", "information", "intercept",
-    "it", "join", "keep", "looking", "make", "making", "negative", "no", "number", "once", "over",
-    "passing", "pattern", "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain",
-    "report", "rest", "say", "see", "so", "surface", "tail", "temperature", "then", "there",
-    "they", "this", "servus", "tschuss", "cheers", "later", "arrivederci", "through", "time", "tower", "traffic", "vector", "vectors", "vehicle", "we",
-    "will", "wind", "winds", "windshear", "with", "without", "yes",
+    "abeam", "acknowledge", "advise", "aircraft", "altimeter", "and", "arrivederci", "as", "au",
+    "be", "break", "bringing", "call", "caution", "cheers", "ciao", "company", "continue",
+    "copy", "delay", "disregard", "enter", "estimate", "except", "expect", "expecting",
+    "expedite", "extend", "face", "facing", "frequency", "goodbye", "have", "identified",
+    "immediately", "in", "information", "intercept", "it", "join", "keep", "later", "looking",
+    "make", "making", "negative", "no", "number", "once", "over", "passing", "pattern",
+    "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain", "report", "rest",
+    "say", "see", "servus", "so", "surface", "tail", "temperature", "then", "there", "they",
+    "this", "through", "time", "tower", "traffic", "tschuss", "vector", "vectors", "vehicle",
+    "we", "will", "wind", "winds", "windshear", "with", "without", "yes",
 }  # fmt: skip
 """First words of what may follow any action: information, a reason, a courtesy, another action."""
 _UNITS_OF_TIME = frozenset({"minutes", "minute", "miles", "mile", "oclock", "seconds"})
 """Words behind a number that is no value of an action."""
-_TOLD_WHERE: frozenset[Action] = frozenset({"follow", "give_way", "visual_separation", "hold_short"})
+_TOLD_WHERE: frozenset[Action] = frozenset(
+    {"follow", "give_way", "visual_separation", "hold_short"}
+)
 """Actions behind which the place of another aircraft may be told."""
 _PLACED = frozenset(
     {"on", "from", "to", "at", "off", "ahead", "short", "long", "turning", "downwind", "final",
-     "base", "mile", "miles", "oclock", "heavy", "left", "right", "just", "super", "landing", "departing"}
+     "base", "mile", "miles", "oclock", "heavy", "left", "right", "just", "super", "landing",
+     "departing"}
 )  # fmt: skip
 """First words of the place of another aircraft."""
 _ALSO: dict[Action, frozenset[str]] = {
@@ -84,26 +88,21 @@ _LEADS_TO = {
     "was": frozenset({"what"}),
 }
 """Words before one of `_INTRODUCING` with which it is explained."""
-
-
-_PARTS = frozenset({"or", "thousand", "hundred", "feet", "decimal", "left", "right", "centre", "via"})
+_PARTS = frozenset(
+    {"or", "thousand", "hundred", "feet", "decimal", "left", "right", "centre", "via"}
+)
 """Words behind a courtesy that belong to the value before it."""
-
-
-def _without_courtesies(words: list[str]) -> list[str]:
-    at = next((at for at, word in enumerate(words) if word not in COURTESIES), len(words))
-    return words[at:]
 
 
 def is_unexplained_behind(words: list[str], action: Action) -> bool:
     """Return whether the words right behind an action, up to the next, may be a part of it."""
-    if not words:
+    if not words or action in SAFE:
         return False
     if words[0] in COURTESIES:
-        words = _without_courtesies(words)
-        return bool(words) and (words[0].isdigit() or words[0] in _PARTS)
+        following = next((word for word in words if word not in COURTESIES), "")
+        return following.isdigit() or following in _PARTS
     first, following = words[0], words[1] if len(words) > 1 else ""
-    if first[0] in "#" or following[:1] == "#" or first == NAME or action in SAFE or first in _OPENERS:
+    if first == NAME or first in _OPENERS or first[0] == "#" or following[:1] == "#":
         return False
     if first.isdigit():
         return following not in _UNITS_OF_TIME

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.forms import (
+    BARE_RUNWAY,
     BARE_VALUE,
     NO_RUNWAY,
     POSITION,
@@ -32,10 +33,10 @@ from airhilt.phraseology.slots import (
 
 ANIMALS = (
     "deer", "coyote", "fox", "dog", "animal", "wildlife", "geese", "goose", "gull", "gulls",
-    "bird", "birds", "flock", "coyotes", "foxes", "dogs", "animals", "goats", "goat", "sheep", "cow",
-    "cows", "cattle", "horse", "horses", "kangaroo", "kangaroos", "moose", "elk", "hare", "hares",
-    "rabbit", "rabbits", "turtle", "turtles", "alligator", "vulture", "vultures", "hawk", "seagulls",
-    "pigs", "boar",
+    "bird", "birds", "flock", "coyotes", "foxes", "dogs", "animals", "goats", "goat", "sheep",
+    "cow", "cows", "cattle", "horse", "horses", "kangaroo", "kangaroos", "moose", "elk", "hare",
+    "hares", "rabbit", "rabbits", "turtle", "turtles", "alligator", "vulture", "vultures",
+    "hawk", "seagulls", "pigs", "boar",
 )  # fmt: skip
 PLACES = (
     "park", "valley", "creek", "lake", "river", "island", "hill", "hills", "city", "point",
@@ -50,6 +51,10 @@ _DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER})(?= \||
 """Pattern of a taxiway of two letters, behind which the call ends."""
 _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
 """Words of an approach, which "continue" belongs to."""
+_OF = re.compile(
+    rf" (?:(?:end|threshold|side|middle|edge|numbers) of|on|crossing|off|near|beside) {RUNWAY}"
+)
+"""A runway without the word, where animals are."""
 _HEARSAY = re.compile(r"(?<!\S)(?:reported|reports|earlier|previous)(?!\S)")
 """Words of what somebody else saw before."""
 _READY = re.compile(r"(?<!\S)ready(?!\S)")
@@ -115,11 +120,14 @@ def bare_hold_short(segment: Segment, action: Action) -> Read | None:
 def wildlife(segment: Segment, action: Action) -> Read | None:
     """Read a report of wildlife, which counts even without a place."""
     end = segment.found.end()
-    named = None if is_next_runway(segment) else NAMED_RUNWAY.search(segment.after)
+    is_next = is_next_runway(segment)
+    named = None if is_next else NAMED_RUNWAY.search(segment.after) or _OF.search(segment.after)
     runway = designator(*named.groups()) if named else None
     end += named.end() if named else 0
     at = POSITION.match(segment.text, end, segment.limit)
     confidence = runway_confidence(named[1]) if named else 1.0
+    if named and named.re is _OF:
+        confidence = min(confidence, BARE_RUNWAY)
     if _HEARSAY.search(segment.before_all) or segment.after.startswith(" activity"):
         confidence = min(confidence, NO_RUNWAY)
     position = taxiway(at[1]) if at else None

@@ -82,6 +82,8 @@ _EVENTS = {
 }
 EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
+SEEN = re.compile(r"traffic (?:is )?(?:not )?in sight(?!\S)")
+"""A pilot's words about traffic, which end with their own words."""
 _BEHIND_AGAIN = re.compile(rf"(?: (?:runway )?{RUNWAY})? (?:behind|after) \|$")
 """The end of a readback of a condition."""
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
@@ -136,6 +138,11 @@ class Scan:
             self.spans.append(Span(start, event.end(), is_traffic=False))
             return event.end()
         if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
+            seen = SEEN.match(self._text, start)
+            if seen or self._texts[max(index - 2, 0) : index] == ["looking", "for"]:
+                end = seen.end() if seen else start + len(word)
+                self.spans.append(Span(start, end, is_traffic=True))
+                return end
             self._open(start, index, is_traffic=True)
             return 0
         is_number = word in _PLACED and "number" in self._texts[max(index - 4, 0) : index]

@@ -92,7 +92,8 @@ FIX_ENDS = (
     r"|in|position|flight|left turns|right turns|outbound|inbound|approach|approved|identified"
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
     r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
-    r"|who|what|where|why|how|which|we|you|i|he|she|they|there|is|are|was|right hand|left hand|since"
+    r"|who|what|where|why|how|which|we|you|i|he|she|they|there|is|are|was|right hand|left hand"
+    r"|since"
     r"|vortac|ndb|v|by|own|delay)"
 )
 """Words that end the name of a fix."""

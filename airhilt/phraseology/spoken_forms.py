@@ -66,7 +66,9 @@ def forms(callsign: str) -> tuple[Form, ...]:
         said = (airline[1].lower(), *(joined(name) for name in names(airline[1])))
         plain = tuple(Form(name, airline[2]) for name in dict.fromkeys(said))
         filled = _with_zeros(airline[2])
-        return plain + tuple(Form(each.name, more, ABBREVIATED) for each in plain for more in filled)
+        return plain + tuple(
+            Form(each.name, more, ABBREVIATED) for each in plain for more in filled
+        )
     if is_registration(callsign):
         signs = callsign.replace("-", "")
         spelled = _of_registration(signs[0].lower(), signs[1:], signs)

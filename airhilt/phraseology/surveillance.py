@@ -175,11 +175,12 @@ FORMS: Listed = (
      r"(?:advise|call)(?: me)?(?: when you have)?"
      r" (?P<event>(?:the )?(?:field|airport|runway|traffic) in sight)", report),
     ("contact contacting call try", "contact",
-     rf"(?:contact(?:ing)?|call|try)(?P<station>(?: (?!(?:{FIX_ENDS}|me|my|frequency)(?!\S))[a-z]+){{1,2}}|)"
+     r"(?:contact(?:ing)?|call|try)"
+     rf"(?P<station>(?: (?!(?:{FIX_ENDS}|me|my|frequency)(?!\S))[a-z]+){{1,2}}|)"
      r"(?= (?:on |now )?1[1-3][0-9](?: decimal|[0-9]))", contact),
     ("give giving", "contact", rf"giv(?:e|ing)(?P<station>{_STATION}) a call(?: on)?", contact),
     ("contact contacting call try", "contact",
-     rf"(?:contact(?:ing)?|call|try)(?P<station>{_STATION})?", contact),
+     rf"(?:contact(?:ing)?|call|try)(?! me(?!\S))(?P<station>{_STATION})?", contact),
     ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
      rf"(?:over|switch(?:ing)?|chang(?:e|ing)(?! in))(?: over)?(?: to)?(?: my| frequency)*"

@@ -30,7 +30,8 @@ ALSO_CALLED = {
     "CPA": ("cathay pacific",), "EJA": ("exec jet",), "JAL": ("japan air",),
     "KAL": ("korean",), "LAN": ("lan",), "MAS": ("malaysia",), "NKS": ("spirit",),
     "QTR": ("qatar",), "SVA": ("saudi",),
-    "TAP": ("tap", "tap portugal"), "TUI": ("tui fly",), "TSC": ("air transat",), "UPS": ("ups",), "WZZ": ("wizz air",),
+    "TAP": ("tap", "tap portugal"), "TSC": ("air transat",), "TUI": ("tui fly",),
+    "UPS": ("ups",), "WZZ": ("wizz air",),
 }  # fmt: skip
 """Names that people use although the register does not have them, by ICAO designator."""
 

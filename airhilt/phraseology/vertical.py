@@ -37,7 +37,8 @@ _SENSES: dict[str, Sense] = {
 }  # fmt: skip
 _SPOKEN_BOUNDS: dict[str, Bound] = {
     "above": "or_more", "greater": "or_more", "more": "or_more", "better": "or_more",
-    "faster": "or_more", "least": "or_more", "most": "or_less", "below": "or_less", "less": "or_less", "slower": "or_less",
+    "faster": "or_more", "least": "or_more", "most": "or_less", "below": "or_less",
+    "less": "or_less", "slower": "or_less",
 }  # fmt: skip
 _BOUND_AFTER = re.compile(r"( or)? (above|below|greater|less|more|better|faster|slower)(?!\S)")
 MOST_THOUSANDS = 45
@@ -345,7 +346,8 @@ FORMS: Listed = (
      r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: to| and maintain)?"
      rf"{_OR}",
      altitude),
-    ("not", "altitude", r"not (?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])", limited_level),
+    ("not", "altitude",
+     r"not (?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])", limited_level),
     ("at", "altitude", r"at or (?P<bound>above|below)(?= [0-9]| flight| level)", limited_level),
     ("discretion pilot", "altitude",
      r"(?:pilot )?discretion(?: down to| to|(?= flight| level| [0-9]+ thousand))"

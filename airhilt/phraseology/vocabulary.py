@@ -35,6 +35,8 @@ _RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}(?= [a-z])")
 _SMALL = COURTESIES | {"and", "the", "a", "that", "this", "it"}
 """Words that may be put in between a runway and its side."""
 _SIDES = frozenset({"left", "right", "centre"})
+_OF_TURN = frozenset({"turn", "turns", "turnout"})
+"""Words behind a side that is that of a turn."""
 _FARTHEST = 4
 """Number of words behind a runway among which its side is looked for."""
 
@@ -59,9 +61,9 @@ def has_unknown_side(text: str, start: int, end: int) -> bool:
 
 def _side_follows(words: list[str]) -> bool:
     """Return whether a side, or an unknown word that may be one, follows a runway."""
-    for word in words[:_FARTHEST]:
+    for word, following in zip(words, [*words[1:], ""], strict=True):
         if word in _SIDES or is_unknown(word):
-            return True
+            return following not in _OF_TURN
         if word not in _SMALL:
             return False
     return False

@@ -78,7 +78,9 @@ PAIRS: dict[str, dict[str, tuple[str, ...]]] = {
     "fox": {"trot": ("foxtrot",)},
 }  # fmt: skip
 """The same for two words; the key is the first."""
-_SPELLED_APART = frozenset({"take", "run", "x", "o", "go", "re", "read", "push", "start", "back", "fox"})
+_SPELLED_APART = frozenset(
+    {"take", "run", "x", "o", "go", "re", "read", "push", "start", "back", "fox"}
+)
 """First words of pairs that are only spelled differently, not misheard."""
 
 UNITS = frozenset(

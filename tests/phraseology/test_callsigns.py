@@ -307,3 +307,45 @@ def test_an_error_never_makes_another_callsign_for_certain(
 def test_values_alone_never_name_anybody_for_certain(words: list[Any]) -> None:
     match = parse_call(" ".join(words), tuple(SAID)).match
     assert match.callsign is None or match.score < TAU_ASR
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.text("0123456789", min_size=3, max_size=4).filter(lambda text: text[0] != "0"),
+    st.integers(0, 3),
+    st.integers(0, 3),
+    st.sampled_from("0123456789"),
+    st.sampled_from("0123456789"),
+)
+def test_a_misheard_digit_never_names_another_for_certain_unless_it_is_its_whole_number(
+    number: str, at: int, wrong_at: int, other_digit: str, heard_digit: str
+) -> None:
+    """Two callsigns that differ by one digit are told apart by their words alone."""
+    at, wrong_at = at % len(number), wrong_at % len(number)
+    other = number[:at] + other_digit + number[at + 1 :]
+    heard = number[:wrong_at] + heard_digit + number[wrong_at + 1 :]
+    text = f"delta {' '.join(heard)} descend and maintain six thousand"
+    match = parse_call(text, (f"DAL{number}", f"DAL{other}")).match
+    named = match.callsign if match.score >= TAU_ASR and not match.ambiguous else None
+    assert named in (None, f"DAL{heard}")
+
+
+@pytest.mark.parametrize(
+    ("spoken", "callsign"),
+    [
+        ("emirates zero zero three", "UAE3"),
+        ("emirates zero three zero", "UAE30"),
+        ("emirates three", "UAE3"),
+        ("gulf air zero zero six", "GFA6"),
+        ("gulf air five zero six", "GFA506"),
+    ],
+)
+def test_zeros_may_fill_a_flight_number_to_three_digits(spoken: str, callsign: str) -> None:
+    known = ("UAE3", "UAE30", "GFA6", "GFA506")
+    assert parse_call(f"{spoken} hold position", known).callsign == callsign
+
+
+def test_the_speaker_may_correct_the_callsign_by_no() -> None:
+    call = parse_call("delta no united nine one four runway two eight cleared to land", ("UAL914",))
+    assert call.callsign == "UAL914"
+    assert [each.action for each in call.instructions] == ["cleared_to_land"]

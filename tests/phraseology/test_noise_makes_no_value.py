@@ -1,8 +1,8 @@
 """Words that are lost, misheard or put in never make a confident value that was not said.
 
-The calls have an item of each kind with a value. What a listener acts upon may be less than what was
-said, such as a heading without the side of its turn, but never another value. Names are not compared: nobody
-knows whether a word before the name of a fix belongs to it.
+The calls have an item of each kind with a value. What a listener acts upon may be less than what
+was said, such as a heading without the side of its turn, but never another value. Names are not
+compared: nobody knows whether a word before the name of a fix belongs to it.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ NAMES = frozenset({"position", "until"})
 """Details in words, which may have any word: a fix, a unit, whom to follow, the end of a limit."""
 VALUES = tuple(slot for slot in SLOTS if slot not in NAMES)
 LOST_UNSEEN = NUMBERS | {*LETTERS} | {"left", "right", "and", "published", "decimal", "monitor"}
-"""Words that are a part of a value, or tell two values apart: nobody could tell that they are lost."""
+"""Words that are a part of a value, or tell two apart: nobody could tell that they are lost."""
 HEARD_UNSEEN = NUMBERS | {*LETTERS}
 NOISE = ("static", "krr", "blocked", "shh", "but", "that", "sir", "ma", "hmm", "uh")
 

@@ -211,7 +211,6 @@ KIND_OF = {
     "hold_at": "hold", "cross_fix": "crossing_restriction",
 }  # fmt: skip
 """Kinds of the judge by the parser's actions, where the words differ."""
-_FREE = re.compile(r"(?:at (?:pilot|your|own) (?:discretion|convenience)|when ready)$")
 TYPES = {"localizer": "LOC", "localizer back course": "LOC BC"}
 
 
@@ -233,12 +232,16 @@ def facts_of_call(call: Call) -> Iterator[tuple[Fact, float]]:
         yield _fact("altimeter", "information", pressure), call.confidence
 
 
+_FREE = re.compile(r"(?:(?:at )?(?:pilot|your|own) (?:discretion|convenience)|when ready)$")
+"""Conditions that leave it to the pilot when to begin."""
+
+
 def also_right(call: Call) -> Iterator[Fact]:
     """Yield facts that are right beside those read, because truths differ in how they write them.
 
-    A level at the pilot's discretion, or when ready, may be left at once, and what a clearance before
-    departure says applies to the flight after it. Some truths have a status "now" for both, some have
-    "conditional".
+    A level at the pilot's discretion, or when ready, may be left at once, and what a clearance
+    before departure says applies to the flight after it. Some truths have the status "now" for
+    both, some have "conditional".
     """
     for each in call.instructions:
         is_free = each.action == "altitude" and _FREE.match(each.condition or "")
