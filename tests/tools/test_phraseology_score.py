@@ -90,7 +90,27 @@ def test_of_calls_as_people_make_them_no_clearance_is_invented_with_confidence()
 
 
 def test_what_the_vocabulary_has_no_kind_for_is_wrong_and_shown_apart() -> None:
-    counts = scored("delta four five six caution deer on runway two seven")
+    onto = "proceed onto runway two seven"
+    counts = scored(f"delta four five six {onto}")
     assert (counts.wrong_and_confident, counts.only_unnamed) == (1, 1)
-    counts = scored("delta four five six turn left heading two seven zero deer on runway two seven")
+    counts = scored(f"delta four five six turn left heading two seven zero {onto}")
     assert (counts.wrong_and_confident, counts.only_unnamed) == (1, 0)
+
+
+@pytest.mark.parametrize("status", ["report", "information"])
+def test_wildlife_is_to_be_read_whoever_tells_of_it(status: str) -> None:
+    seen = item("wildlife", "27", status=status)
+    counts = scored("delta four five six caution deer on runway two seven", seen)
+    assert (counts.items, counts.items_right, counts.wrong_and_confident) == (1, 1, 0)
+    other = item("wildlife", "09", status=status)
+    counts = scored("delta four five six caution deer on runway two seven", other)
+    assert (counts.items_right, counts.wrong_and_confident) == (0, 1)
+
+
+@pytest.mark.parametrize("status", ["now", "conditional"])
+def test_a_level_at_the_pilots_discretion_is_right_in_both_ways_to_write_it(status: str) -> None:
+    begins = "at pilot's discretion" if status == "conditional" else None
+    level = item("altitude", 6000, status=status, unit="ft", manner="descend", begins=begins)
+    text = "delta four five six descend at pilot's discretion maintain six thousand"
+    counts = scored(text, level)
+    assert (counts.items_right, counts.wrong_and_confident) == (1, 0)

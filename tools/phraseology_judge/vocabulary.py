@@ -115,3 +115,5 @@ negative | no value
 """.strip().splitlines()
 }
 """Meaning of the value of each kind."""
+BY_HAND = frozenset({"cancel_landing", "wildlife", "wildlife_gone"})
+"""Kinds that only calls written by hand have: seeds give the calls that they always gave."""

@@ -209,10 +209,14 @@ def test_the_schema_can_name_only_what_is_known() -> None:
 def test_words_that_mean_nothing_to_the_phraseology_do_not_reach_the_model() -> None:
     without = situation([CAUTION], CLEARED)
     both = f"United seven, runway zero one, cleared for takeoff, {INJECTION}"
-    for heard in ([CLEARED, call(INJECTION, 52, "c-2")], [call(both, 50)]):
-        about = situation([CAUTION], *heard)
-        assert about.question() == without.question()
-        assert about.schema() == without.schema()
+    about = situation([CAUTION], CLEARED, call(INJECTION, 52, "c-2"))
+    assert about.question() == without.question()
+    assert about.schema() == without.schema()
+    beside = situation([CAUTION], call(both, 50))  # They only lower the confidence.
+    assert beside.question() == without.question().replace(
+        '"confidence":1.0', '"confidence":0.75', 1
+    )
+    assert beside.schema() == without.schema()
 
 
 # --- the engine -----------------------------------------------------------------------------
