@@ -82,9 +82,9 @@ def content_of(words: Words) -> Content:
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)
     _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
-    taken = sorted((read.start, read.end) for read, _ in reads)
+    taken = [(read.start, read.end) for read, _ in reads]
     for read, each in reads:
-        is_beside = _is_beside_unexplained(read, plain, taken)
+        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, taken)
         after_action = bisect_right(starts, each.match.end() - 1)
         action = words.confidences[each.first : after_action]
         before = words.confidences[bisect_right(starts, read.start) - 1 : each.first]
