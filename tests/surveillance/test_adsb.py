@@ -14,8 +14,14 @@ from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import relative
 from airhilt.surveillance.receivers import Receiver, Reception
-from airhilt.surveillance.squitters import NACP_95_PERCENT_M, movement_kt, quantise
-from airhilt.surveillance.transponders import STATIONARY_AFTER_NS, SurfaceRate, Transponder
+from airhilt.surveillance.squitters import (
+    FASTEST_MOVEMENT_KT,
+    MOVEMENT_STEPS_KT,
+    NACP_95_PERCENT_M,
+    movement_kt,
+    quantise,
+)
+from airhilt.surveillance.transponders import SurfaceRate, Transponder
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
 
@@ -62,6 +68,16 @@ def test_altitude_comes_in_steps_of_25_ft_and_velocity_in_knots_and_64_fpm(
     assert 0.0 <= track < 360.0
     assert rate % 64.0 == 0.0
     assert abs(rate + down / FOOT_PER_MINUTE) <= 32.0 + 1e-9
+
+
+@pytest.mark.parametrize("speed_kt", [300, 301])
+def test_each_knot_of_a_velocity_is_told_from_the_next(speed_kt: int) -> None:
+    state = replace(HERE, velocity_north_m_s=speed_kt * KNOT, velocity_east_m_s=-speed_kt * KNOT)
+    sender = transponder(nacv=4)
+    velocities = [sender.velocity(state) for _ in range(200)]
+    north = [speed * math.cos(track * DEGREE) for speed, track, _ in velocities]
+    east = [speed * math.sin(track * DEGREE) for speed, track, _ in velocities]
+    assert (np.median(north), np.median(east)) == pytest.approx((speed_kt, -speed_kt))
 
 
 @settings(deadline=None)
@@ -112,8 +128,19 @@ def test_the_position_error_drifts_and_does_not_jump() -> None:
     assert np.std(steps) < 0.25 * np.std(errors)
 
 
-def test_velocities_spread_as_the_accuracy_category_says() -> None:
-    sender = transponder(nacv=1)
+@pytest.mark.parametrize(("nacp", "limit_nm"), [(2, 4), (3, 2), (4, 1), (5, 0.5), (6, 0.3),
+                                                (7, 0.1), (8, 0.05)])  # fmt: skip
+def test_position_errors_are_in_proportion_to_the_nautical_miles_of_their_categories(
+    nacp: int, limit_nm: float
+) -> None:
+    """DO-260B gives the limits of the categories up to 8 in NM, and that of 1 is 10 NM."""
+    coarse, fine = (transponder(each)._position_error(0) for each in (1, nacp))
+    assert np.array(coarse) / np.array(fine) == pytest.approx(10.0 / limit_nm)
+
+
+@pytest.mark.parametrize(("nacv", "limit_m_s"), [(1, 10.0), (2, 3.0), (3, 1.0)])
+def test_velocities_spread_as_the_accuracy_category_says(nacv: int, limit_m_s: float) -> None:
+    sender = transponder(nacv=nacv)
     velocities = [sender.velocity(HERE) for _ in range(2000)]
     off = [
         math.hypot(
@@ -122,7 +149,7 @@ def test_velocities_spread_as_the_accuracy_category_says() -> None:
         )
         for speed, track, _ in velocities
     ]
-    assert 0.92 <= np.mean(np.array(off) <= 10.0) <= 0.98
+    assert 0.92 <= np.mean(np.array(off) <= limit_m_s) <= 0.98
 
 
 # --- reception ------------------------------------------------------------------------------
@@ -157,6 +184,23 @@ def test_positions_more_than_ten_seconds_apart_are_not_decoded_together() -> Non
     late = 10 * SECOND_NS + 1
     assert station.decode(sender, sender.position(HERE, late), late) is None
     assert station.decode(sender, sender.position(HERE, late + 1), late + 1) is not None
+
+
+@pytest.mark.parametrize(("silent_s", "is_followed"), [(59, True), (61, False)])
+def test_after_a_minute_of_silence_a_position_takes_a_pair_again(
+    silent_s: int, is_followed: bool
+) -> None:
+    sender, station = transponder(nacp=11), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    for t_ns in (0, 1):
+        station.decode(sender, sender.position(HERE, t_ns), t_ns)
+    late_ns = silent_s * SECOND_NS + 1
+    first, second = (
+        station.decode(sender, sender.position(HERE, late_ns + n), late_ns + n) for n in range(2)
+    )
+    assert (first is not None) == is_followed
+    assert second is not None
+    assert second.position_deg == pytest.approx((47.0, 8.0), abs=1e-3)
 
 
 def test_callsign_and_category_are_known_once_an_identification_came_through() -> None:
@@ -231,6 +275,17 @@ def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt: fl
 )
 def test_movements_are_those_of_the_table_in_do_260b(speed_kt: float, movement: float) -> None:
     assert movement_kt(speed_kt) == pytest.approx(movement)
+
+
+def test_the_steps_of_movements_follow_one_another_without_a_gap() -> None:
+    """The codes 2 to 123 are steps; 1 is a standstill, and 124 is faster."""
+    begins = [begin for begin, _, _ in MOVEMENT_STEPS_KT]
+    ends = [begin + count * size for begin, count, size in MOVEMENT_STEPS_KT]
+    assert ends == pytest.approx([*begins[1:], FASTEST_MOVEMENT_KT])
+    assert sum(count for _, count, _ in MOVEMENT_STEPS_KT) == 122
+    for begin, count, size in MOVEMENT_STEPS_KT:
+        told = {movement_kt(begin + (index + 0.5) * size) for index in range(count)}
+        assert len(told) == count
 
 
 @settings(deadline=None)
@@ -316,7 +371,7 @@ def stationary(rate: SurfaceRate, north_m: float, t_s: float) -> bool:
 
 
 def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m() -> None:
-    rate, after_s = SurfaceRate(), STATIONARY_AFTER_NS / SECOND_NS
+    rate, after_s = SurfaceRate(), 30.0
     assert not any(stationary(rate, 0.1 * t, t) for t in np.arange(0.0, after_s, 0.5))
     assert stationary(rate, 3.0, after_s)
     assert stationary(rate, 9.0, after_s + 5.0)

@@ -219,6 +219,14 @@ def test_a_surface_pair_alone_leaves_90_degrees_open() -> None:
     assert elsewhere == pytest.approx((38.85, 12.96), abs=1e-4)
 
 
+@pytest.mark.parametrize("place", [(44.5, -44.5), (-44.5, 44.5)])
+def test_without_a_receiver_a_surface_pair_is_taken_to_be_within_45_degrees_of_0_n_0_e(
+    place: tuple[float, float],
+) -> None:
+    even, odd = (cpr.encode(*place, odd, surface=True) for odd in (False, True))
+    assert cpr.decode_global(even, odd, newest_is_odd=True) == pytest.approx(place, abs=1e-4)
+
+
 def test_published_surface_messages_decode_to_where_they_are_published_to_be() -> None:
     """The messages are pyModeS's: 8C4841753AAB238733C8CD4020B1, 8C4841753A8A35323FAEBDAC702D."""
     even = cpr.CprPosition(115609, 116941, odd=False, surface=True)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+from airhilt.assistant.decision.engines import decision_engine
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
 from airhilt.surveillance.tcas_resolution import (
+    ACCELERATION_M_S2,
     RATE_M_S,
     RESPONSE_S,
     Resolution,
@@ -17,7 +20,8 @@ from airhilt.surveillance.tcas_resolution import (
     select,
     separation_m,
 )
-from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
+from interrogation import Jet, Meeting
 
 HIGH = 35_000 * FOOT
 ALOFT = tcas.Own(HIGH, HIGH, HIGH)
@@ -73,6 +77,13 @@ def test_head_on_at_fl350_the_traffic_advisory_comes_48_s_before_and_the_resolut
     seconds: float, said: str | None
 ) -> None:
     assert tcas.alert(head_on(seconds), 0.0, 0.0, ALOFT) == said
+
+
+@pytest.mark.parametrize("north_m", [300.0, 0.0, -300.0])
+def test_the_range_is_the_distance_even_of_two_in_the_same_place(north_m: float) -> None:
+    motion = tcas.RangeMotion.of(Relative(north_m, 0.0, -50.0, 0.0))
+    assert motion.range_m == abs(north_m)
+    assert motion.rate_m_s == (0.0 if north_m == 0.0 else math.copysign(50.0, -north_m))
 
 
 def test_two_that_close_slowly_are_told_earlier_because_of_the_modified_tau() -> None:
@@ -162,3 +173,24 @@ def test_the_sense_that_does_not_cross_the_intruder_is_chosen_if_it_gives_alim()
     assert crossing > other > alim_m
     chosen = select(own, intruder, 35.0, alim_m, required=None, may_descend=True)
     assert chosen == Resolution("climb", RATE_M_S)
+
+
+@pytest.mark.parametrize("rate_fpm", [-2_000.0, 0.0, 2_000.0])
+def test_a_crew_told_to_level_off_stops_its_climb_or_descent(rate_fpm: float) -> None:
+    """It flies on for the 5 s of its response, and then stops at a quarter of g."""
+    rate_m_s = rate_fpm * FOOT_PER_MINUTE
+    own, level_below = Vertical(HIGH, rate_m_s), Vertical(HIGH - 300.0, 0.0)
+    stopping_m = rate_m_s * RESPONSE_S + 0.5 * rate_m_s * abs(rate_m_s) / ACCELERATION_M_S2
+    for time_s in (30.0, 60.0):
+        above_m = separation_m(own, level_below, Resolution("climb", 0.0), time_s, RESPONSE_S)
+        assert above_m == pytest.approx(300.0 + stopping_m)
+
+
+@pytest.mark.parametrize(("height_ft", "is_increased"), [(1_500.0, False), (1_650.0, True)])
+def test_a_descent_is_increased_above_1_550_ft_only(height_ft: float, is_increased: bool) -> None:
+    """FAA, Introduction to TCAS II, section on inhibits. The crew does not respond."""
+    lower = Jet("AAL1", "aaaaa1", 90.0, 150.0, height_ft)
+    upper = Jet("DAL2", "aaaaa2", 270.0, 150.0, height_ft + 60.0, has_tcas=False)
+    notes = Meeting(decision_engine("tcas"), (lower, upper)).fly().notes("AAL1")
+    assert "descend, descend" in notes
+    assert ("increase descent, increase descent" in notes) == is_increased
