@@ -418,8 +418,8 @@ class Autopilot:
 
     def _surface_scale(self) -> float:
         """Return by how much more elevator and ailerons move than at their reference pressure."""
-        pressure = max(self._airframe.dynamic_pressure_pa(), 1.0)
-        return min(self._reference_pressure / pressure, MAXIMUM_PRESSURE_RATIO)
+        least = self._reference_pressure / MAXIMUM_PRESSURE_RATIO
+        return self._reference_pressure / max(self._airframe.dynamic_pressure_pa(), least)
 
 
 def within(value: float, limit: float) -> float:

@@ -1,0 +1,113 @@
+"""The ground law by itself: what it does with nose wheel, rudder, ailerons, brakes and levers."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt.units import FOOT
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.flight.ground import GroundLaw
+from stand_ins import StandIn, state_at
+
+B737 = load_aircraft_type("737")
+TICK_S = 0.05
+
+
+def law(airframe: StandIn, tick_s: float = TICK_S) -> GroundLaw:
+    return GroundLaw(cast(Any, airframe), B737, tick_s)
+
+
+@pytest.mark.parametrize(
+    ("right_m", "closing_m_s"), [(2.0, 0.8), (-2.0, -0.8), (50.0, 8.0 * FOOT), (-900.0, -8 * FOOT)]
+)
+@pytest.mark.parametrize("speed_m_s", [21.7, 43.3, 70.1])
+def test_it_is_led_to_the_line_by_0_4_m_s_for_each_metre_and_by_8_ft_s_at_most(
+    right_m: float, closing_m_s: float, speed_m_s: float
+) -> None:
+    """An aircraft that does so already is not steered."""
+    airframe = StandIn()
+    state = state_at(speed_m_s=speed_m_s, track_rad=1.0 - closing_m_s / speed_m_s)
+    law(airframe).follow_line(state, right_m, 1.0)
+    assert airframe.got["set_rudder"] == pytest.approx((0.0,), abs=1e-9)
+    assert airframe.got["set_nose_wheel"] == pytest.approx((0.0,), abs=1e-9)
+
+
+def test_while_it_taxies_the_nose_wheel_is_turned_alike_at_any_speed() -> None:
+    angles = []
+    for speed_m_s in (2.0, 4.0, 8.0):
+        airframe = StandIn()
+        law(airframe).follow_line(state_at(speed_m_s=speed_m_s), 0.0, 0.1)
+        angles += airframe.got["set_nose_wheel"]
+    assert angles == pytest.approx([angles[0]] * 3)
+    assert angles[0] > 0.0
+
+
+@pytest.mark.parametrize("tick_s", [0.1, 0.05, 0.025])
+def test_what_a_yaw_that_nobody_asked_for_does_to_the_rudder_in_a_second_does_not_depend_on_ticks(
+    tick_s: float,
+) -> None:
+    airframe, yaw_rate = StandIn(yaw_rate=0.02), 0.02
+    steered = law(airframe, tick_s)
+    for _ in range(round(1.0 / tick_s)):
+        steered.steer(state_at(speed_m_s=30.0), 0.0)
+    ground = B737.ground
+    expected = (ground.yaw_rate_s + ground.yaw_integral * 1.0) * yaw_rate
+    assert airframe.got["set_rudder"] == pytest.approx((expected,))
+
+
+@given(
+    st.floats(-0.8, 0.8), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.0, 80.0)
+)  # fmt: skip
+def test_no_control_is_set_beyond_its_stop(
+    roll: float, roll_rate: float, yaw_rate: float, speed_m_s: float
+) -> None:
+    airframe = StandIn(roll_rate=roll_rate, yaw_rate=yaw_rate)
+    law(airframe).steer(state_at(speed_m_s=speed_m_s, roll_rad=roll), 0.3)
+    assert abs(airframe.got["set_aileron"][0]) <= 1.0
+    assert abs(airframe.got["set_rudder"][0]) <= 1.0
+
+
+def test_to_stand_it_brakes_softly_and_then_sets_the_brakes() -> None:
+    airframe = StandIn()
+    stopping = law(airframe)
+    stopping.hold_speed(state_at(speed_m_s=5.0), 0.0)
+    (softly,) = airframe.got["set_brakes"]
+    stopping.hold_speed(state_at(speed_m_s=0.1), 0.0)
+    assert airframe.got["set_brakes"] == (1.0,)
+    assert 0.2 < softly < 0.5
+
+
+class Taxiing:
+    """A ground law that holds 5 m/s."""
+
+    def __init__(self) -> None:
+        self.airframe = StandIn()
+        self._law = law(self.airframe)
+
+    def lever_after(self, seconds: float, speed_m_s: float) -> float:
+        """Return the lever after some time at a speed."""
+        for _ in range(round(seconds / TICK_S)):
+            self._law.hold_speed(state_at(speed_m_s=speed_m_s), 5.0)
+        (lever,) = self.airframe.got["set_throttle"]
+        return float(lever)
+
+
+def test_at_its_taxi_speed_it_keeps_the_power_that_brought_it_there() -> None:
+    taxiing = Taxiing()
+    assert taxiing.lever_after(20.0, speed_m_s=4.5) > 0.1
+    kept = taxiing.lever_after(1.0, speed_m_s=5.0)
+    assert kept > 0.05
+    assert taxiing.lever_after(10.0, speed_m_s=5.0) == pytest.approx(kept)
+
+
+def test_a_second_of_braking_does_not_cost_it_the_power_to_taxi_on() -> None:
+    taxiing = Taxiing()
+    taxiing.lever_after(20.0, speed_m_s=4.5)
+    before = taxiing.lever_after(1.0, speed_m_s=5.0)
+    assert taxiing.lever_after(1.0, speed_m_s=6.5) == 0.0
+    assert taxiing.airframe.got["set_brakes"][0] > 0.0
+    assert taxiing.lever_after(TICK_S, speed_m_s=5.0) > 0.5 * before
